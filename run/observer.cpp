@@ -30,6 +30,11 @@ bool Observers<Dim>::wants_look(std::int64_t step) const {
 }
 
 template <int Dim>
+void Observers<Dim>::end(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) {
+    for (Observer<Dim>& observer : observers_) observer.end(run, solid);
+}
+
+template <int Dim>
 void Observers<Dim>::progress(std::int64_t step, double time) {
     for (Observer<Dim>& observer : observers_) observer.progress(step, time);
 }

@@ -56,12 +56,14 @@ void ResultFiles<Dim>::begin(const Scene<Dim>& scene, const RunResult<Dim>& resu
     if (!scene.outputs.probes.empty()) probes_.emplace(out_ / "probes.csv").begin(scene, result);
     if (scene.outputs.forces) forces_.emplace(out_ / "forces.csv").begin(scene, result);
     if (frames_) frames_->begin(scene, result);
+    snapshots_.begin(scene, result);
 }
 
 template <int Dim>
 void ResultFiles<Dim>::record(const dynamics::LedgerEntry<Dim>& entry, const RunResult<Dim>& result) {
     const Stopwatch watch(seconds_);
     energies_.record(entry, result);
+    snapshots_.record(entry);
 }
 
 template <int Dim>
@@ -70,12 +72,19 @@ void ResultFiles<Dim>::look(const dynamics::RunView<Dim>& run, solid::Solid<Dim>
     if (probes_) probes_->look(run, solid);
     if (forces_) forces_->look(run, solid);
     if (frames_) frames_->look(run, solid);
+    snapshots_.look(run, solid);
+}
+
+template <int Dim>
+void ResultFiles<Dim>::end(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) {
+    const Stopwatch watch(seconds_);
+    snapshots_.end(run, solid);
 }
 
 template <int Dim>
 bool ResultFiles<Dim>::wants_look(std::int64_t step) const {
     return (probes_ && probes_->wants_look(step)) || (forces_ && forces_->wants_look(step)) ||
-           (frames_ && frames_->wants_look(step));
+           (frames_ && frames_->wants_look(step)) || snapshots_.wants_look(step);
 }
 
 template <int Dim>
@@ -137,6 +146,7 @@ void ResultFiles<Dim>::save(StateWriter& state) {
     if (probes_) probes_->save(state);
     if (forces_) forces_->save(state);
     if (frames_) frames_->save(state);
+    snapshots_.save(state);
 }
 
 /// Results of the run that was stopped are written over; what it left at its stop goes.
@@ -151,6 +161,7 @@ void ResultFiles<Dim>::resume(const Scene<Dim>& scene, const RunResult<Dim>& res
     if (!scene.outputs.probes.empty()) probes_.emplace(out_ / "probes.csv").resume(scene, result, state);
     if (scene.outputs.forces) forces_.emplace(out_ / "forces.csv").resume(scene, result, state);
     if (frames_) frames_->resume(scene, result, state);
+    snapshots_.resume(scene, result, state);
 }
 
 template <int Dim>
@@ -166,7 +177,8 @@ void ResultFiles<Dim>::finish(const Scene<Dim>& scene, RunResult<Dim>& result) {
     result.seconds.output += seconds_ + seconds;
     result.seconds.total += seconds;
     if (frames_) write_whole(out_ / paraview_script_name, paraview_script(name_));
-    write_whole(out_ / "report.html", report_html(program_, scene, result, files_of_report()));
+    const BodyPictures pictures = snapshots_.pictures();
+    write_whole(out_ / "report.html", report_html(program_, scene, result, files_of_report(), &pictures));
     write_whole(out_ / "summary.json", summary_json(program_, scene, result));
     if (result.complete && !keep_last_) checkpoints_.remove(texts_beside);
     lock_.reset();

@@ -15,6 +15,7 @@
 #include "abut/run/observer.hpp"
 #include "abut/run/probe_file.hpp"
 #include "abut/run/report/report.hpp"
+#include "abut/run/snapshots.hpp"
 
 namespace abut::run {
 
@@ -40,6 +41,7 @@ public:
     void begin(const Scene<Dim>& scene, const RunResult<Dim>& result) override;
     void record(const dynamics::LedgerEntry<Dim>& entry, const RunResult<Dim>& result) override;
     void look(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) override;
+    void end(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) override;
     [[nodiscard]] bool wants_look(std::int64_t step) const override;
     [[nodiscard]] std::int64_t wants_piece(std::int64_t step) const override;
     void piece(const FramePiece<Dim>& piece) override;
@@ -75,6 +77,7 @@ private:
     std::optional<Frames<Dim>> frames_;
     std::optional<ProbeFile<Dim>> probes_;
     std::optional<ForceFile<Dim>> forces_;
+    Snapshots<Dim> snapshots_;
     CheckpointFolder checkpoints_;
     double minutes_;  // between two of them; 0: there are none
     int steps_;       // the same; 0: by minutes alone

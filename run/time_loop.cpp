@@ -34,7 +34,7 @@ namespace {
 constexpr double sound_share = 0.5;
 
 const std::string observers_kind = "observers of a run";
-constexpr int observers_version = 2;
+constexpr int observers_version = 3;
 const std::string looks_kind = "looks at surfaces";
 constexpr int looks_version = 3;
 constexpr std::int64_t sightings_per_run = 40;  // looks for bodies past a rim and together with themselves, about
@@ -86,6 +86,7 @@ public:
             result_.end = solid::body_motions<Dim>(run, solid);
             evaluate_whole(run, solid);
             watch_.end(run, solid, result_.accounts.speed, contact.active_pairs > 0, contact.active_pairs_max > 0);
+            observer_.end(run, solid);
         });
         result_.looks = watch_.looks();
         result_.local_rotations = solid_.local_rotations(integrator_->q());

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "abut/run/option_table.hpp"
+#include "abut/run/report/body_pictures.hpp"
 #include "abut/run/report/curves.hpp"
 #include "abut/run/report/figures.hpp"
 #include "abut/run/report/style.hpp"
@@ -48,6 +49,16 @@ Markup warnings_part(const std::vector<Warning>& warnings) {
     }
     const auto list = [](const Markup& items) { return items.empty() ? items : element("ul", items) + "\n"; };
     return section("Warnings", list(serious)) + section("Good to know", list(notes));
+}
+
+Markup pictures_part(const BodyPictures& pictures) {
+    const Markup drawn = body_pictures(pictures);
+    if (drawn.empty()) return {};
+    return section("Pictures",
+                   drawn + element("p", {{"class", "faint"}},
+                                   "Bodies are where they were, displacements to scale, all in the same view and the same colours; "
+                                   "what is above the end of the colours has the last one. Obstacles, and rigid bodies among others, "
+                                   "are grey."));
 }
 
 /// A row of a table of figures with units.
@@ -193,10 +204,11 @@ Markup page(const std::string& title, const Markup& body) {
 
 template <int Dim>
 std::string report_html(const std::string& program, const Scene<Dim>& scene, const RunResult<Dim>& result,
-                        const std::vector<ReportFile>& files) {
+                        const std::vector<ReportFile>& files, const BodyPictures* pictures) {
     const Figures figures(Json::parse(summary_json(program, scene, result)));
     const std::vector<Warning> warnings = all_warnings(scene, result);
-    const Markup body = heading(program, figures, result) + verdict_part(scene, result) + warnings_part(warnings) +
+    const Markup body = heading(program, figures, result) + verdict_part(scene, result) +
+                        (pictures ? pictures_part(*pictures) : Markup()) + warnings_part(warnings) +
                         energies_part(figures, result) + bodies_part(figures, scene, result) +
                         contact_part(figures, scene, result) + friction_part(figures) + findings_part(figures, result.findings) +
                         settings_part(figures, scene, result) + seconds_part(figures) + files_part(files);
@@ -205,7 +217,7 @@ std::string report_html(const std::string& program, const Scene<Dim>& scene, con
 
 #define ABUT_INSTANTIATE(Dim)                                                                           \
     template std::string report_html<Dim>(const std::string&, const Scene<Dim>&, const RunResult<Dim>&, \
-                                          const std::vector<ReportFile>&);
+                                          const std::vector<ReportFile>&, const BodyPictures*);
 ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)
 #undef ABUT_INSTANTIATE

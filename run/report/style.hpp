@@ -30,7 +30,9 @@ th:last-child, td:last-child { padding-right: 0; }
 data { font-variant-numeric: tabular-nums; white-space: nowrap; }
 data.words { white-space: normal; overflow-wrap: anywhere; }
 figure { margin: 1em 0; }
+.pictures { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 27em), 1fr)); gap: 0 1em; }
 svg { width: 100%; min-width: 36em; height: auto; font: 12px system-ui, sans-serif; }
+.pictures svg { min-width: 410px; }
 svg text { fill: var(--ink); }
 .grid { stroke: var(--line); stroke-width: 1; }
 .axis { stroke: var(--ink); stroke-width: 1; }

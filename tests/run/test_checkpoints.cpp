@@ -57,6 +57,10 @@ std::map<std::string, std::string> contents(const fs::path& folder) {
         if (name.ends_with(".vtp")) text.clear();  // gaps of faces that nothing is near depend on the last search
         contents[name] = text;
     }
+    const std::string report = test::read_text(folder / "report.html");
+    const std::size_t pictures = report.find("<div class=\"pictures\">");
+    REQUIRE(pictures != std::string::npos);
+    contents["pictures"] = report.substr(pictures, report.find("</section>", pictures) - pictures);
     auto summary = nlohmann::json::parse(contents.at("summary.json"));
     for (const char* other : {"seconds", "contact_share", "resumed_after", "rebuilds", "candidates"}) summary.erase(other);
     for (const char* other : {"out", "threads", "skin"}) summary["options"].erase(other);

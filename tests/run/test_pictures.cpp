@@ -1,0 +1,296 @@
+// Pictures of bodies in reports: what they show is measured in their points.
+#include <expat.h>
+#include <zlib.h>
+
+#include <algorithm>
+#include <array>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "abut/run/report/body_pictures.hpp"
+#include "abut/run/report/raster.hpp"
+#include "abut/run/result_files.hpp"
+#include "abut/run/simulation.hpp"
+#include "run/folder.hpp"
+#include "run/scenes.hpp"
+
+namespace {
+
+using namespace abut;
+using Catch::Contains;
+
+struct Image {
+    int width = 0;
+    int height = 0;
+    std::vector<run::Raster::Colour> points;
+
+    [[nodiscard]] const run::Raster::Colour& at(int x, int y) const {
+        return points[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)];
+    }
+};
+
+std::uint32_t number_at(const std::string& bytes, std::size_t place) {
+    std::uint32_t number = 0;
+    for (std::size_t i = 0; i < 4; ++i) number = number << 8 | static_cast<unsigned char>(bytes[place + i]);
+    return number;
+}
+
+/// A PNG of 8 bits each of red, green, blue and opacity, whose rows are stored as they are or as differences to the one above.
+Image decoded(const std::string& png) {
+    REQUIRE(png.starts_with("\x89PNG\r\n\x1A\n"));
+    Image image;
+    std::string packed;
+    bool ends = false;
+    for (std::size_t at = 8; at < png.size();) {
+        const std::size_t size = number_at(png, at);
+        const std::string kind = png.substr(at + 4, 4), content = png.substr(at + 8, size);
+        const std::string checked = kind + content;
+        REQUIRE(crc32(0, reinterpret_cast<const Bytef*>(checked.data()), static_cast<uInt>(checked.size())) ==
+                number_at(png, at + 8 + size));
+        if (kind == "IHDR") {
+            image.width = static_cast<int>(number_at(content, 0));
+            image.height = static_cast<int>(number_at(content, 4));
+            REQUIRE(content.substr(8) == std::string("\x08\x06\x00\x00\x00", 5));
+        }
+        if (kind == "IDAT") packed += content;
+        ends = kind == "IEND";
+        at += size + 12;
+    }
+    REQUIRE(ends);
+    const auto row = static_cast<std::size_t>(4 * image.width + 1);
+    std::string rows(row * static_cast<std::size_t>(image.height), '\0');
+    uLongf size = rows.size();
+    REQUIRE(uncompress(reinterpret_cast<Bytef*>(rows.data()), &size, reinterpret_cast<const Bytef*>(packed.data()),
+                       packed.size()) == Z_OK);
+    REQUIRE(size == rows.size());
+    for (int y = 0; y < image.height; ++y) {
+        const std::size_t begin = static_cast<std::size_t>(y) * row;
+        REQUIRE((rows[begin] == 0 || rows[begin] == 2));
+        for (int x = 0; x < image.width; ++x) {
+            run::Raster::Colour point{};
+            for (std::size_t i = 0; i < 4; ++i) {
+                const auto above = rows[begin] == 2 && y > 0 ? image.at(x, y - 1)[i] : std::uint8_t{0};
+                point[i] = static_cast<std::uint8_t>(rows[begin + 1 + 4 * static_cast<std::size_t>(x) + i] + above);
+            }
+            image.points.push_back(point);
+        }
+    }
+    return image;
+}
+
+std::string from_base64(const std::string& text) {
+    const std::string letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    REQUIRE(text.size() % 4 == 0);
+    std::string bytes;
+    std::uint32_t bits = 0;
+    int n_bits = 0;
+    for (const char c : text) {
+        if (c == '=') break;
+        REQUIRE(letters.find(c) != std::string::npos);
+        bits = bits << 6 | static_cast<std::uint32_t>(letters.find(c));
+        n_bits += 6;
+        if (n_bits >= 8) bytes.push_back(static_cast<char>(bits >> (n_bits -= 8) & 0xFF));
+    }
+    return bytes;
+}
+
+/// All images of a piece of a page.
+std::vector<Image> images(const std::string& html) {
+    std::vector<Image> found;
+    const std::string before = "href=\"data:image/png;base64,";
+    for (std::size_t at = html.find(before); at != std::string::npos; at = html.find(before, at + 1)) {
+        const std::size_t begin = at + before.size();
+        found.push_back(decoded(from_base64(html.substr(begin, html.find('"', begin) - begin))));
+    }
+    return found;
+}
+
+void require_well_formed(const std::string& page) {
+    const std::unique_ptr<XML_ParserStruct, decltype(&XML_ParserFree)> strict(XML_ParserCreate("UTF-8"), XML_ParserFree);
+    REQUIRE(XML_Parse(strict.get(), page.data(), static_cast<int>(page.size()), XML_TRUE) == XML_STATUS_OK);
+}
+
+/// What is drawn, or of it what is of some colour: how many points, and the middle of them.
+struct Patch {
+    int n = 0;
+    double x = 0.0;
+    double y = 0.0;
+};
+
+template <class Belongs>
+Patch patch(const Image& image, const Belongs& belongs) {
+    Patch patch;
+    for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x)
+            if (belongs(image.at(x, y))) {
+                ++patch.n;
+                patch.x += x;
+                patch.y += y;
+            }
+    if (patch.n > 0) patch.x /= patch.n, patch.y /= patch.n;
+    return patch;
+}
+
+Patch drawn(const Image& image) {
+    return patch(image, [](const run::Raster::Colour& colour) { return colour[3] > 0; });
+}
+
+/// Unit squares: in 2D at (x, 0), in 3D upright and facing a viewer in front, at a depth y.
+run::BodyPictures squares(bool in_space, const std::vector<double>& value, const std::vector<std::vector<double>>& places) {
+    run::BodyPictures pictures{.polygons = {.in_space = in_space, .value_name = "speed", .value_unit = "m/s"},
+                               .snapshots = {}};
+    for (std::size_t i = 0; i < value.size(); ++i) {
+        for (int corner = 0; corner < 4; ++corner)
+            pictures.polygons.corners.push_back(static_cast<std::int32_t>(4 * i) + corner);
+        pictures.polygons.offsets.push_back(4 * (i + 1));
+        pictures.polygons.cell.push_back(static_cast<std::int32_t>(i));
+        if (!in_space) pictures.polygons.is_rim.insert(pictures.polygons.is_rim.end(), 4, 1);
+    }
+    for (const auto& at : places) {
+        run::Snapshot snapshot{.what = "a < b", .value = value};
+        for (const double place : at)
+            for (const auto& [a, b] : {std::pair(0.0, 0.0), std::pair(1.0, 0.0), std::pair(1.0, 1.0), std::pair(0.0, 1.0)})
+                snapshot.position.push_back(in_space ? run::Snapshot::Position{a, place, b}
+                                                     : run::Snapshot::Position{place + a, b, 0.0});
+        pictures.snapshots.push_back(snapshot);
+    }
+    return pictures;
+}
+
+double brightness(const run::Raster::Colour& colour) { return 0.2126 * colour[0] + 0.7152 * colour[1] + 0.0722 * colour[2]; }
+
+}  // namespace
+
+TEST_CASE("a polygon covers the points whose middle is in it, the nearest one is seen, and a PNG holds them",
+          "[run][report]") {
+    run::Raster raster(20, 10);
+    const run::Raster::Colour red{200, 0, 0, 255}, blue{0, 0, 200, 255};
+    using Corners = std::array<run::Raster::Corner, 4>;
+    const Corners near{{{2.0, 3.0, 1.0}, {8.0, 3.0, 1.0}, {8.0, 7.0, 1.0}, {2.0, 7.0, 1.0}}};
+    Corners far = near;
+    for (auto& corner : far) corner[0] += 3.0, corner[2] = 0.0;
+    SECTION("the near one first") {
+        raster.fill(near, red);
+        raster.fill(far, blue);
+    }
+    SECTION("the far one first") {
+        raster.fill(far, blue);
+        raster.fill(near, red);
+    }
+    Corners lost = near;
+    lost[2][1] = std::nan("");
+    raster.fill(lost, blue);
+    raster.fill(Corners{{{-1e9, -5.0, 9.0}, {1e9, -5.0, 9.0}, {1e9, -1.0, 9.0}, {-1e9, -1.0, 9.0}}}, blue);  // outside
+    const Image image = decoded(raster.png());
+    CHECK(image.width == 20);
+    CHECK(image.height == 10);
+    for (int y = 0; y < 10; ++y)
+        for (int x = 0; x < 20; ++x) {
+            const bool in_rows = y >= 3 && y < 7;
+            const auto expected = in_rows && x >= 2 && x < 8    ? red
+                                  : in_rows && x >= 8 && x < 11 ? blue
+                                                                : run::Raster::Colour{};
+            CHECK(image.at(x, y) == expected);
+        }
+}
+
+TEST_CASE("in all pictures of a run a body is as large, and where it has moved to", "[run][report]") {
+    const auto found = images(run::body_pictures(squares(false, {1.0}, {{0.0}, {2.0}})).html());
+    REQUIRE(found.size() == 2);
+    const Patch first = drawn(found[0]), second = drawn(found[1]);
+    const double side = std::sqrt(first.n);
+    CHECK(second.n == Approx(first.n).epsilon(0.01));
+    CHECK(second.x - first.x == Approx(2.0 * side).epsilon(0.01));
+    CHECK(second.y == Approx(first.y).margin(0.5));
+    CHECK(3.0 * side < found[0].width);
+    CHECK(3.0 * side > 0.8 * found[0].width);
+}
+
+TEST_CASE("of two values the higher one is the lighter, and a body without value is grey", "[run][report]") {
+    const auto image =
+        images(run::body_pictures(squares(false, {0.0, 0.5, 1.0, std::nan("")}, {{0.0, 2.0, 4.0, 6.0}})).html()).at(0);
+    std::vector<run::Raster::Colour> middle;
+    for (const double x : {0.5, 2.5, 4.5, 6.5})  // of 7 m about the middle of the picture
+        middle.push_back(
+            image.at(static_cast<int>(0.5 * image.width + (x - 3.5) * std::sqrt(drawn(image).n / 4.0)), image.height / 2));
+    CHECK(brightness(middle[0]) < brightness(middle[1]));
+    CHECK(brightness(middle[1]) < brightness(middle[2]));
+    CHECK(std::abs(middle[3][0] - middle[3][2]) < 10);
+}
+
+TEST_CASE("in space a face hides what is behind it, in whatever order they come", "[run][report]") {
+    const auto front_first = images(run::body_pictures(squares(true, {1.0, 0.0}, {{0.0, 0.05}})).html()).at(0);
+    const auto back_first = images(run::body_pictures(squares(true, {0.0, 1.0}, {{0.05, 0.0}})).html()).at(0);
+    CHECK(front_first.points == back_first.points);
+    const auto is_yellow = [](const run::Raster::Colour& c) { return c[3] > 0 && c[0] > 2 * c[2]; };
+    const auto is_violet = [](const run::Raster::Colour& c) { return c[3] > 0 && c[2] > c[1]; };
+    const int front = patch(front_first, is_yellow).n, behind = patch(front_first, is_violet).n;
+    CHECK(behind > 0);
+    CHECK(front > 10 * behind);  // of the other one only what sticks out, about 0.05 of it
+}
+
+TEST_CASE("an obstacle is drawn as far as its picture goes", "[run][report]") {
+    for (const bool in_space : {false, true}) {
+        run::BodyPictures pictures = squares(in_space, {1.0}, {{0.0}});
+        const int without = drawn(images(run::body_pictures(pictures).html()).at(0)).n;
+        if (in_space)
+            pictures.snapshots[0].obstacles = {{{-1e4, -1e4, 0.0}, {1e4, -1e4, 0.0}, {1e4, 1e4, 0.0}, {-1e4, 1e4, 0.0}}};
+        else
+            pictures.snapshots[0].obstacles = {{{-1e4, 0.0, 0.0}, {1e4, 0.0, 0.0}}};
+        const Image image = images(run::body_pictures(pictures).html()).at(0);
+        const Patch with = drawn(image);
+        CHECK(with.n > without);
+        CHECK(with.n < image.width * image.height / 1.1);
+    }
+}
+
+TEST_CASE("a report shows the bodies at the start, near the largest force and at the end, also without frames",
+          "[run][report]") {
+    const test::Folder folder;
+    const run::RunOptions options{.out = folder.path() / "out", .frames = 0};
+    run::Scene<2> scene = test::block_on_plane(0.05);
+    scene.mesh = mesh::structured_box<2>({0.0, 1e-3}, {1.0, 1.0 + 1e-3}, {8, 8}, mesh::CellShape::quadrangle, "block");
+    run::ResultFiles<2> files(options, "mine", "block");
+    run::RunResult<2> result = run::simulate<2>(scene, options, files);
+    files.finish(scene, result);
+    const std::string report = test::read_text(options.out / "report.html");
+    require_well_formed(report);
+    CHECK_THAT(report, !Contains("<script") && Contains("At the start") && Contains("Near the largest contact force") &&
+                           Contains("At the end"));
+    CHECK(report.find("href=\"http") == std::string::npos);
+    const auto found = images(report);
+    REQUIRE(found.size() == 3);
+    // Stress comes with contact: the block is of one dark colour before, and has lighter ones then.
+    const auto is_light = [](const run::Raster::Colour& c) { return c[3] == 255 && brightness(c) > 150.0; };
+    CHECK(patch(found[0], is_light).n == 0);
+    CHECK(patch(found[1], is_light).n > 1000);
+}
+
+TEST_CASE("the end of a run that was asked to stop is in its report", "[run][report]") {
+    struct Stop : run::Observer<2> {
+        [[nodiscard]] bool asks_to_stop() const override { return true; }
+    } stop;
+    const test::Folder folder;
+    const run::RunOptions options{.out = folder.path() / "out", .frames = 0};
+    const run::Scene<2> scene = test::block_on_plane(0.05);
+    run::ResultFiles<2> files(options, "mine", "block");
+    run::Observers<2> both{files, stop};
+    run::RunResult<2> result = run::simulate<2>(scene, options, both);
+    files.finish(scene, result);
+    CHECK(images(test::read_text(options.out / "report.html")).size() == 2);
+}
+
+TEST_CASE("pictures change no bit of a run", "[run][report]") {
+    const test::Folder folder;
+    const run::RunOptions options{.out = folder.path() / "out", .interval = 3, .frames = 0};
+    const run::Scene<2> scene = test::block_on_plane(0.05);
+    run::ResultFiles<2> files(options, "mine", "block");
+    const run::RunResult<2> seen = run::simulate<2>(scene, options, files), unseen = run::simulate<2>(scene, options);
+    REQUIRE(seen.ledger.entries().size() == unseen.ledger.entries().size());
+    for (std::size_t i = 0; i < seen.ledger.entries().size(); ++i)
+        CHECK(dynamics::ledger_values(seen.ledger.entries()[i]) == dynamics::ledger_values(unseen.ledger.entries()[i]));
+}
