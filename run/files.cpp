@@ -73,7 +73,7 @@ std::vector<std::string> files_of_series(const fs::path& directory, const std::s
 std::vector<std::string> files_of_failure(const fs::path& directory, const std::string& series) {
     const std::string name(failure_name);
     std::vector<std::string> names = files_of_series(directory, failure_series(series));
-    names.insert(names.end(), {name + ".csv", name + ".svg"});
+    names.insert(names.end(), {name + ".csv", name + ".svg", std::string(failure_page)});
     return names;
 }
 

@@ -45,7 +45,7 @@ bool Observers<Dim>::asks_to_stop() const {
 }
 
 template <int Dim>
-void Observers<Dim>::fail(const Failure& failure, const solid::Solid<Dim>& solid) {
+void Observers<Dim>::fail(const Failure& failure, solid::Solid<Dim>& solid) {
     for (Observer<Dim>& observer : observers_) {
         try {
             observer.fail(failure, solid);

@@ -29,8 +29,9 @@ public:
     virtual void progress(std::int64_t /*step*/, double /*time*/) {}  ///< at the start and after each step, before `look`
     /// Asked at the start and after each step but the last: true makes it the last one, which is recorded in any case.
     [[nodiscard]] virtual bool asks_to_stop() const { return false; }
-    /// A step could not be ended, or the run has diverged: nothing follows but the error, whatever is thrown here.
-    virtual void fail(const Failure&, const solid::Solid<Dim>&) {}
+    /// A step could not be ended, or the run has diverged: nothing follows but the error, whatever is thrown here. The solid may
+    /// be evaluated.
+    virtual void fail(const Failure&, solid::Solid<Dim>&) {}
 
     // Frames in pieces: each rank looks at its own cells, and nothing is brought together
 
@@ -68,7 +69,7 @@ public:
     void end(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) override;
     void progress(std::int64_t step, double time) override;
     [[nodiscard]] bool asks_to_stop() const override;
-    void fail(const Failure& failure, const solid::Solid<Dim>& solid) override;
+    void fail(const Failure& failure, solid::Solid<Dim>& solid) override;
     [[nodiscard]] std::int64_t wants_piece(std::int64_t step) const override;  ///< one of them may want pieces
     void piece(const FramePiece<Dim>& piece) override;
     void all_pieces(const FramePiece<Dim>& piece) override;

@@ -105,12 +105,20 @@ void ResultFiles<Dim>::all_pieces(const FramePiece<Dim>& piece) {
 }
 
 template <int Dim>
-void ResultFiles<Dim>::fail(const Failure& failure, const solid::Solid<Dim>& solid) {
+void ResultFiles<Dim>::fail(const Failure& failure, solid::Solid<Dim>& solid) {
     try {
         failed_ = " In the same folder " + write_failure(out_, name_, failure, solid);
+        draw_failure(failure, solid);
     } catch (const std::exception& error) {
-        failed_ = std::string(" Where it failed could not be written: ") + error.what();
+        failed_ += std::string(" Where it failed could not be written: ") + error.what();
     }
+}
+
+template <int Dim>
+void ResultFiles<Dim>::draw_failure(const Failure& failure, solid::Solid<Dim>& solid) {
+    snapshots_.fail(failure, solid);
+    write_whole(out_ / failure_page, failure_html(program_, snapshots_.pictures()));
+    failed_ += fmt::format(" {} shows the bodies until then.", failure_page);
 }
 
 template <int Dim>

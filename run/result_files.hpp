@@ -21,8 +21,8 @@ namespace abut::run {
 
 /// All files of a run in one folder, RunOptions::out: energy.csv, the VTU series, probes.csv and forces.csv (where
 /// Scene::outputs asks for them) as it goes, then energy.svg, the script for ParaView, report.html and summary.json;
-/// in `checkpoints`, what a run that is stopped goes on from; of a run that fails its last sound state and where it failed
-/// (write_failure). The folder is its own (FolderLock) until `finish`, or until it
+/// in `checkpoints`, what a run that is stopped goes on from; of a run that fails its last sound state, where it failed
+/// (write_failure), and pictures of the bodies until then. The folder is its own (FolderLock) until `finish`, or until it
 /// goes.
 ///
 ///     run::RunOptions options{.out = "out/mine"};
@@ -46,7 +46,7 @@ public:
     [[nodiscard]] std::int64_t wants_piece(std::int64_t step) const override;
     void piece(const FramePiece<Dim>& piece) override;
     void all_pieces(const FramePiece<Dim>& piece) override;
-    void fail(const Failure& failure, const solid::Solid<Dim>& solid) override;
+    void fail(const Failure& failure, solid::Solid<Dim>& solid) override;
     [[nodiscard]] bool wants_checkpoint(std::int64_t step, bool stops) const override;
     void keep(const Checkpoint& checkpoint) override;
     void save(StateWriter& state) override;
@@ -67,6 +67,7 @@ public:
     [[nodiscard]] std::string table() const;
 
 private:
+    void draw_failure(const Failure& failure, solid::Solid<Dim>& solid);
     [[nodiscard]] std::vector<ReportFile> files_of_report() const;
 
     std::filesystem::path out_;

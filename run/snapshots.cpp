@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "abut/run/cell_velocity.hpp"
+#include "abut/run/failure.hpp"
 #include "abut/run/frames.hpp"
 #include "abut/run/scene.hpp"
 
@@ -15,7 +16,8 @@ namespace {
 using Position = Snapshot::Position;
 
 constexpr std::int64_t looks_per_run = 60;
-constexpr double worth_another = 1.05;  // times the force of the snapshot before
+constexpr double strain_of_rounding = 1e-9;  // far above it
+constexpr double worth_another = 1.05;       // times the force of the snapshot before
 
 template <int Dim>
 Position in_space(const Vector<Dim>& x) {
@@ -129,6 +131,12 @@ void Snapshots<Dim>::begin(const Scene<Dim>& scene, const RunResult<Dim>& result
     polygons_ = {.in_space = Dim == 3,
                  .value_name = all_rigid_ ? "speed" : "von Mises stress",
                  .value_unit = all_rigid_ ? "m/s" : "Pa"};
+    if (!all_rigid_) {
+        polygons_.least_end = std::numeric_limits<double>::infinity();
+        for (std::size_t body = 0; body < is_rigid_.size(); ++body)
+            if (is_rigid_[body] == 0)
+                polygons_.least_end = std::min(polygons_.least_end, strain_of_rounding * scene.solid.materials[body].young);
+    }
     PolygonMaker<Dim>(scene.mesh, polygons_);
     const std::int64_t interval = result.options.interval;
     every_ = interval * std::max<std::int64_t>(1, result.steps / (interval * looks_per_run));
@@ -162,6 +170,12 @@ void Snapshots<Dim>::look(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& 
 template <int Dim>
 void Snapshots<Dim>::end(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) {
     end_ = taken("At the end", run, solid);
+}
+
+template <int Dim>
+void Snapshots<Dim>::fail(const Failure& failure, solid::Solid<Dim>& solid) {
+    static_cast<void>(solid.potential(failure.sound.q));
+    end_ = taken("The last sound state", dynamics::RunView<Dim>(failure.sound), solid);
 }
 
 template <int Dim>

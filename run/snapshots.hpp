@@ -28,6 +28,7 @@ struct BodyPolygons {
     bool in_space = false;   ///< 3D
     std::string value_name;  ///< "von Mises stress"
     std::string value_unit;
+    double least_end = 0.0;               ///< of the scale of colours: values far below it are rounding
     std::vector<std::int32_t> vertex;     ///< of the mesh, of each position of a snapshot
     std::vector<std::size_t> offsets{0};  ///< of the corners of polygon i: offsets[i] to offsets[i + 1]
     std::vector<std::int32_t> corners;    ///< numbers of positions
@@ -54,6 +55,8 @@ public:
     void look(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid);
     /// The last state, evaluated.
     void end(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid);
+    /// The last sound state of a run that has failed, which this evaluates, stands for the end.
+    void fail(const Failure& failure, solid::Solid<Dim>& solid);
     void save(StateWriter& state) const;
     void resume(const Scene<Dim>& scene, const RunResult<Dim>& result, StateReader& state);
 

@@ -141,7 +141,7 @@ Raster::Colour lit(Raster::Colour colour, double light) {
 
 /// Where the colours end.
 double upper_end(const BodyPictures& pictures) {
-    double end = 0.0;
+    double end = pictures.polygons.least_end;
     for (const Snapshot& snapshot : pictures.snapshots) {
         std::vector<double> values;
         for (const double value : snapshot.value)

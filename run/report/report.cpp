@@ -54,11 +54,12 @@ Markup warnings_part(const std::vector<Warning>& warnings) {
 Markup pictures_part(const BodyPictures& pictures) {
     const Markup drawn = body_pictures(pictures);
     if (drawn.empty()) return {};
-    return section("Pictures",
-                   drawn + element("p", {{"class", "faint"}},
-                                   "Bodies are where they were, displacements to scale, all in the same view and the same colours; "
-                                   "what is above the end of the colours has the last one. Obstacles, and rigid bodies among others, "
-                                   "are grey."));
+    return section(
+        "Pictures",
+        drawn + element("p", {{"class", "faint"}},
+                        "Bodies are where they were, displacements to scale, all in the same view and the same colours; "
+                        "what is above the end of the colours has the last one. Obstacles, and rigid bodies among others, "
+                        "are grey."));
 }
 
 /// A row of a table of figures with units.
@@ -207,12 +208,23 @@ std::string report_html(const std::string& program, const Scene<Dim>& scene, con
                         const std::vector<ReportFile>& files, const BodyPictures* pictures) {
     const Figures figures(Json::parse(summary_json(program, scene, result)));
     const std::vector<Warning> warnings = all_warnings(scene, result);
-    const Markup body = heading(program, figures, result) + verdict_part(scene, result) +
-                        (pictures ? pictures_part(*pictures) : Markup()) + warnings_part(warnings) +
-                        energies_part(figures, result) + bodies_part(figures, scene, result) +
-                        contact_part(figures, scene, result) + friction_part(figures) + findings_part(figures, result.findings) +
-                        settings_part(figures, scene, result) + seconds_part(figures) + files_part(files);
-    return "<!DOCTYPE html>\n" + page(program + ": report of a run", body).html() + "\n";
+    const Markup body =
+        heading(program, figures, result) + verdict_part(scene, result) + (pictures ? pictures_part(*pictures) : Markup()) +
+        warnings_part(warnings) + energies_part(figures, result) + bodies_part(figures, scene, result) +
+        contact_part(figures, scene, result) + friction_part(figures) + findings_part(figures, result.findings) +
+        settings_part(figures, scene, result) + seconds_part(figures) + files_part(files);
+    return "<!DOCTYPE html>\n" + page(program + ": report of a run", body).html() +
+           "\n";
+}
+
+std::string failure_html(const std::string& program, const BodyPictures& pictures) {
+    const Markup body =
+        element("h1", program) + "\n" +
+        element("p", {{"class", "attention"}},
+                "The run failed, for the reason that its message gives. Below are its bodies until the last sound state, "
+                "that of the last record at which H - H~ was at most half the energy in play.") +
+        "\n" + pictures_part(pictures);
+    return "<!DOCTYPE html>\n" + page(program + ": a run that failed", body).html() + "\n";
 }
 
 #define ABUT_INSTANTIATE(Dim)                                                                           \

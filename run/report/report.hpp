@@ -22,4 +22,7 @@ template <int Dim>
 [[nodiscard]] std::string report_html(const std::string& program, const Scene<Dim>& scene, const RunResult<Dim>& result,
                                       const std::vector<ReportFile>& files, const BodyPictures* pictures = nullptr);
 
+/// The text of a page like that of report.html for a run that failed: what the bodies looked like until then.
+[[nodiscard]] std::string failure_html(const std::string& program, const BodyPictures& pictures);
+
 }  // namespace abut::run

@@ -100,7 +100,7 @@ public:
         return keep_every_ > 0 && step % keep_every_ == 0;
     }
     void keep(const run::Checkpoint& checkpoint) override { kept.push_back(checkpoint); }
-    void fail(const run::Failure& failure, const solid::Solid<Dim>&) override { sound = failure.sound; }
+    void fail(const run::Failure& failure, solid::Solid<Dim>&) override { sound = failure.sound; }
 
     std::vector<std::vector<double>> seen;
     dynamics::IntegratorState sound;

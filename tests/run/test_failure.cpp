@@ -27,7 +27,7 @@ using test::read_text;
 
 /// Copies of what observers are told of a failure.
 struct Witness : run::Observer<2> {
-    void fail(const run::Failure& failure, const abut::solid::Solid<2>&) override {
+    void fail(const run::Failure& failure, abut::solid::Solid<2>&) override {
         ++failures;
         sound = failure.sound;
         if (failure.lost) lost = *failure.lost;
@@ -99,7 +99,7 @@ TEST_CASE("a run that diverges names a cell of the body that is unstable, and sh
 TEST_CASE("an observer that fails to look at a failure hides neither the error nor the failure from others",
           "[run][failure]") {
     struct Clumsy : run::Observer<2> {
-        void fail(const run::Failure&, const abut::solid::Solid<2>&) override { throw std::bad_alloc(); }
+        void fail(const run::Failure&, abut::solid::Solid<2>&) override { throw std::bad_alloc(); }
     } clumsy;
     const run::Scene<2> scene = coarse_and_fine();
     Witness witness;
@@ -144,6 +144,9 @@ TEST_CASE("files of a failure can be read back, and go with the next run in that
     const std::string picture = read_text(folder.path() / "failed.svg");
     for (const char* word : {"Last sound state", "Ring: ", "<circle ", "speed [m/s]", "x [m]"})
         CHECK(picture.find(word) != std::string::npos);
+    const std::string page = read_text(folder.path() / "failed.html");
+    for (const char* word : {"At the start", "The last sound state", "data:image/png;base64,"})
+        CHECK(page.find(word) != std::string::npos);
 
     options.steps = 1;
     const run::ResultFiles<2> next(options, "mine", "blocks");

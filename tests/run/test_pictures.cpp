@@ -222,6 +222,16 @@ TEST_CASE("of two values the higher one is the lighter, and a body without value
     CHECK(std::abs(middle[3][0] - middle[3][2]) < 10);
 }
 
+TEST_CASE("stresses of rounding have the colour of none", "[run][report]") {
+    run::BodyPictures pictures = squares(false, {0.0, 1e-17}, {{0.0, 2.0}});
+    pictures.polygons.least_end = 1e-9;
+    const auto image = images(run::body_pictures(pictures).html()).at(0);
+    std::vector<run::Raster::Colour> found;
+    for (const auto& point : image.points)
+        if (point[3] > 0 && std::ranges::find(found, point) == found.end()) found.push_back(point);
+    CHECK(found.size() == 2);  // of squares and of their rims
+}
+
 TEST_CASE("in space a face hides what is behind it, in whatever order they come", "[run][report]") {
     const auto front_first = images(run::body_pictures(squares(true, {1.0, 0.0}, {{0.0, 0.05}})).html()).at(0);
     const auto back_first = images(run::body_pictures(squares(true, {0.0, 1.0}, {{0.05, 0.0}})).html()).at(0);
