@@ -162,6 +162,8 @@ run::Scene<Dim> make_scene(const Settings& settings, std::vector<Fault>& faults)
     }
     if (scene.contact) check_apart<Dim>(scene.mesh, settings, scene.solid.ignored_pairs, faults);
     if (settings.energy_scale > 0.0) scene.energy_scale = {"H0", settings.energy_scale};
+    scene.title = settings.title;
+    scene.comment = settings.comment;
     scene.time = settings.options.time;
     scene.options = {{"scene", settings.file.string()}, {"set", settings.set}};
     return scene;

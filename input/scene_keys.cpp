@@ -71,6 +71,8 @@ Key<Settings> pairs() {
 const Keys<Settings>& top_keys() {
     static const Keys<Settings> keys = {
         required(Of::count("dim", &Settings::dim, 2, 3, "dimension: 2, plane strain, or 3")),
+        Of::text("title", &Settings::title, "text", "heads the report, instead of the name of the scene"),
+        Of::text("comment", &Settings::comment, "text", "what the scene is about, for the report"),
         Of::vector("gravity", &Settings::gravity, "m/s^2", "0", "acceleration of all bodies"),
         Of::number("energy_scale", &Settings::energy_scale, {.unit = "J", .above = 0.0, .zero = true},
                    "what energies are measured with; 0: the largest of kinetic energy, V and work from outside so far")};

@@ -162,6 +162,8 @@ struct ProbeSettings : Named {
 struct Settings {
     std::filesystem::path file;
     std::vector<std::string> set;           ///< values that replace those of the file, as given
+    std::string title;
+    std::string comment;
     int dim = 0;                            ///< 2 or 3; 0: not known
     Vector<3> gravity = Vector<3>::Zero();  ///< [m/s^2]
     double energy_scale = 0.0;              ///< [J]

@@ -43,6 +43,8 @@ struct RunResult;
 /// A scene to run: bodies, their materials, loads and obstacles, and their motion at the start.
 template <int Dim>
 struct Scene {
+    std::string title{};    ///< heads a report; empty: the name of the program does
+    std::string comment{};  ///< in words, for the report
     mesh::Mesh<Dim> mesh{};
     solid::SolidOptions<Dim> solid{};      ///< all except the choices of RunOptions: contact and the rule of free faces
     std::vector<Vector<Dim>> velocity{};   ///< at the start, one per body [m/s]

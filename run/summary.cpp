@@ -329,6 +329,8 @@ std::string summary_json(const std::string& program, const Scene<Dim>& scene, co
                  {"dim", Dim},
                  {"cells", scene.mesh.n_cells()},
                  {"boundary_faces", scene.mesh.boundary_faces.size()}};
+    if (!scene.title.empty()) json["title"] = scene.title;
+    if (!scene.comment.empty()) json["comment"] = scene.comment;
     json.update(run_json(result));
     json.update(energies_json(result));
     json.update(restarts_json(result));

@@ -31,7 +31,11 @@ Markup heading(const std::string& program, const Figures& figures, const RunResu
                         " of the stable one, to t = " + figures.at("time") + " s; " + name_of(result.options.integrator) +
                         ".";
     const auto now = std::chrono::time_point_cast<std::chrono::seconds>(std::chrono::system_clock::now());
-    return element("h1", program) + "\n" + element("p", {{"class", "faint"}}, line) + "\n" +
+    const Markup comment = figures.summary().contains("comment")
+                               ? element("p", {{"class", "comment"}}, figures.at("comment")) + "\n"
+                               : Markup();
+    return element("h1", figures.summary().contains("title") ? figures.at("title") : program) + "\n" + comment +
+           element("p", {{"class", "faint"}}, line) + "\n" +
            element("p", {{"class", "faint"}}, fmt::format("Ended {:%Y-%m-%d %H:%M} UTC.", fmt::gmtime(now))) + "\n";
 }
 
@@ -213,7 +217,7 @@ std::string report_html(const std::string& program, const Scene<Dim>& scene, con
         warnings_part(warnings) + energies_part(figures, result) + bodies_part(figures, scene, result) +
         contact_part(figures, scene, result) + friction_part(figures) + findings_part(figures, result.findings) +
         settings_part(figures, scene, result) + seconds_part(figures) + files_part(files);
-    return "<!DOCTYPE html>\n" + page(program + ": report of a run", body).html() +
+    return "<!DOCTYPE html>\n" + page((scene.title.empty() ? program : scene.title) + ": report of a run", body).html() +
            "\n";
 }
 

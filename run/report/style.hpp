@@ -19,6 +19,7 @@ body { font: 15px/1.5 system-ui, sans-serif; color: var(--ink); background: var(
   margin: 2em auto; padding: 0 1em; }
 h1 { font-size: 1.6em; margin-bottom: 0; }
 h2 { font-size: 1.15em; margin: 2em 0 0.5em; border-bottom: 1px solid var(--line); }
+p.comment data { white-space: pre-line; }
 p.faint, figcaption, td.faint { color: var(--faint); }
 p.good, p.attention { font-size: 1.1em; border-left: 4px solid var(--good); padding-left: 0.7em; }
 p.attention { border-color: var(--bad); }

@@ -159,6 +159,14 @@ TEST_CASE("a preset stands below all other keys, wherever it stands", "[input][s
     CHECK_FALSE(input::SceneFile(plain.path()).options().contact.events);
 }
 
+TEST_CASE("a scene has the title and the comment of its file, over several lines if they are", "[input][scenes]") {
+    const WrittenScene written("title = \"Two blocks\"\ncomment = \"\"\"They meet.\nThey part.\"\"\"\n" + two_blocks(""));
+    const run::Scene<2> scene = input::SceneFile(written.path()).scene<2>();
+    CHECK(scene.title == "Two blocks");
+    CHECK(scene.comment == "They meet.\nThey part.");
+    CHECK(input::SceneFile(WrittenScene(two_blocks("")).path()).scene<2>().title.empty());
+}
+
 TEST_CASE("bodies have their materials, motions and places", "[input][scenes]") {
     const WrittenScene written(two_blocks(R"toml([bodies.round]
 shape = "disc"

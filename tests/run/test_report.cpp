@@ -136,6 +136,22 @@ TEST_CASE("whatever a run is called, its report is well-formed and says it", "[r
     CHECK(run::Markup("\x01\x1F\t").html() == "\xEF\xBF\xBD\xEF\xBF\xBD\t");  // what XML has no place for
 }
 
+TEST_CASE("title and comment of a scene head its report and are in the summary, and nothing is there without them",
+          "[run][report]") {
+    Finished run = finished();
+    const json plain = json::parse(run::summary_json("mine", run.scene, run.result));
+    CHECK((!plain.contains("title") && !plain.contains("comment")));
+    run.scene.title = "A block <of rubber> & a plane";
+    run.scene.comment = "It falls.\nIt bounces.";
+    const json summary = json::parse(run::summary_json("mine", run.scene, run.result));
+    CHECK(summary.at("title") == run.scene.title);
+    CHECK(summary.at("comment") == run.scene.comment);
+    const auto root = parsed(report_of(run));
+    CHECK(all(root, "h1/data") == std::vector{run.scene.title});
+    CHECK(all(root, "head/title") == std::vector{run.scene.title + ": report of a run"});
+    CHECK(all(root, "p[@class='comment']/data") == std::vector{run.scene.comment});
+}
+
 TEST_CASE("a report says whether the run came to its end, and all that warns", "[run][report]") {
     Finished run = finished({.cfl = 0.2});  // with 0.9 the H - H~ of so few cells warns
     CHECK_THAT(report_of(run), Contains("came to its end") && Contains("class=\"good\"") && !Contains("<h2>Warnings"));
