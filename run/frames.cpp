@@ -82,7 +82,8 @@ std::vector<mesh::Field<Dim>> boundary_fields(const FrameFields& fields, std::sp
 /// Fields that files show of a piece; both arguments must outlive it.
 template <int Dim>
 mesh::PieceFrame<Dim> shown(const FrameFields& fields, const FramePiece<Dim>& piece, const Stresses<Dim>& stresses) {
-    return {.cells = piece.cells,
+    return {.time = piece.time,
+            .cells = piece.cells,
             .vertices = piece.vertices,
             .boundary = piece.boundary,
             .displacement = piece.displacement,
@@ -263,7 +264,7 @@ template <int Dim>
 void Frames<Dim>::all_pieces(const FramePiece<Dim>& piece) {
     if (!in_pieces_) return;
     const Stresses<Dim> stresses(piece);
-    pieces_->publish(piece.time, piece.n_pieces, shown<Dim>(fields_, piece, stresses));
+    pieces_->publish(piece.n_pieces, *piece.mesh, shown<Dim>(fields_, piece, stresses));
 }
 
 template <int Dim>

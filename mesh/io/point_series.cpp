@@ -26,6 +26,7 @@ void PointSeries<Dim>::write(const PointFrame<Dim>& frame) {
     std::iota(points.begin(), points.end(), 0);
     std::iota(ends.begin(), ends.end(), 1);
     auto grid = output_grid("PolyData", "Verts", frame.position, points, ends);
+    grid.field_data = field_time(frame.time);
     add_fields<Dim>(grid.point_data, frame.fields, frame.position.size(), "points", "PointSeries");
     auto times = times_;
     times.push_back(frame.time);

@@ -1,5 +1,6 @@
 #include "abut/mesh/io/vtk_grids.hpp"
 
+#include <algorithm>
 #include <array>
 #include <numeric>
 #include <utility>
@@ -26,6 +27,26 @@ std::vector<Vector<Dim>> points_of(const Mesh<Dim>& mesh, std::span<const std::i
     return points;
 }
 
+/// "body: left" for each body, its number in the array "body".
+template <int Dim>
+std::string numbers_of_bodies(const Mesh<Dim>& mesh) {
+    std::string tags;
+    for (std::int32_t body = 0; body < mesh.n_bodies(); ++body)
+        tags += field_number("body: " + mesh.body_names[static_cast<std::size_t>(body)], body);
+    return tags;
+}
+
+/// Of these boundary faces 1 for those in the group, else 0.
+template <int Dim>
+std::vector<std::uint8_t> is_in_group(const Mesh<Dim>& mesh, const BoundaryGroup& group,
+                                      std::span<const std::int32_t> boundary) {
+    std::vector<std::uint8_t> is_in;
+    for (const std::int32_t index : boundary)
+        is_in.push_back(std::ranges::binary_search(group.faces, mesh.boundary_faces[static_cast<std::size_t>(index)]) ? 1
+                                                                                                                      : 0);
+    return is_in;
+}
+
 /// The number of each vertex of a mesh among these.
 std::vector<std::int64_t> numbers_among(std::size_t n, std::span<const std::int32_t> vertices) {
     std::vector<std::int64_t> numbers(n, -1);
@@ -35,6 +56,8 @@ std::vector<std::int64_t> numbers_among(std::size_t n, std::span<const std::int3
 }
 
 }  // namespace
+
+std::string group_array(const std::string& group) { return "group: " + group; }
 
 std::vector<std::int32_t> all_of(std::size_t n) {
     std::vector<std::int32_t> all(n);
@@ -71,6 +94,7 @@ OutputGrid grid_of_cells(const Mesh<Dim>& mesh, std::span<const std::int32_t> ce
     auto grid = output_grid<Dim>("UnstructuredGrid", "Cells", points_of(mesh, vertices), corners, ends);
     grid.cells.push_back(output_array("types", types));
     grid.cell_data.push_back(output_array("body", bodies));
+    grid.field_data = numbers_of_bodies(mesh);
     return grid;
 }
 
@@ -89,6 +113,9 @@ OutputGrid grid_of_surface(const Mesh<Dim>& mesh, std::span<const std::int32_t> 
     }
     auto grid = output_grid<Dim>("PolyData", Dim == 2 ? "Lines" : "Polys", points_of(mesh, vertices), corners, ends);
     grid.cell_data.push_back(output_array("body", bodies));
+    for (const BoundaryGroup& group : mesh.groups)
+        grid.cell_data.push_back(output_array(group_array(group.name), is_in_group(mesh, group, boundary)));
+    grid.field_data = numbers_of_bodies(mesh);
     return grid;
 }
 

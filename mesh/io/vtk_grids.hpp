@@ -15,11 +15,14 @@ namespace abut::mesh {
 template <int Dim>
 [[nodiscard]] std::vector<std::int32_t> surface_vertices(const Mesh<Dim>& mesh, std::span<const std::int32_t> boundary);
 
-/// These cells on these vertices of theirs, with the cell array "body".
+/// The array that says which boundary faces are in a group.
+[[nodiscard]] std::string group_array(const std::string& group);
+
+/// These cells on these vertices of theirs, with the cell array "body", and the number "body: <name>" of each body.
 template <int Dim>
 [[nodiscard]] OutputGrid grid_of_cells(const Mesh<Dim>& mesh, std::span<const std::int32_t> cells,
                                        std::span<const std::int32_t> vertices);
-/// The same of boundary faces.
+/// The same of boundary faces, with a cell array for each group of the mesh.
 template <int Dim>
 [[nodiscard]] OutputGrid grid_of_surface(const Mesh<Dim>& mesh, std::span<const std::int32_t> boundary,
                                          std::span<const std::int32_t> vertices);

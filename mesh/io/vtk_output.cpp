@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "abut/base/error.hpp"
+#include "abut/base/messages.hpp"
 #include "abut/mesh/io/vtk_data.hpp"
 
 namespace abut::mesh {
@@ -16,10 +17,16 @@ OutputArray array_of(const char* type, const std::string& name, std::span<const 
             zlib_blocks({reinterpret_cast<const char*>(values.data()), values.size_bytes()})};
 }
 
+std::string field_tag(const char* type, const std::string& name, const std::string& value) {
+    return "<DataArray type=\"" + std::string(type) + "\" Name=\"" + in_xml(name) +
+           "\" NumberOfTuples=\"1\" format=\"ascii\">" + value + "</DataArray>\n";
+}
+
 /// Puts tags one behind the other, and their data.
 class Document {
 public:
-    explicit Document(const OutputGrid& grid) : text_(vtk_head(grid.type)) {
+    Document(const OutputGrid& grid, const std::string& field_data) : text_(vtk_head(grid.type)) {
+        if (!field_data.empty()) text_ += "<FieldData>\n" + field_data + "</FieldData>\n";
         text_ += "<Piece NumberOfPoints=\"" + std::to_string(grid.n_points) + "\"";
         for (const char* section : {"Cells", "Verts", "Lines", "Strips", "Polys"})
             if ((grid.type == "PolyData") != (section == std::string_view("Cells")))
@@ -103,9 +110,15 @@ void check_size(const std::string& field, std::size_t n, std::size_t wanted, con
                        " values, one for each of the " + std::to_string(wanted) + " " + of_what + " is needed.");
 }
 
-PreparedFile prepared_grid(const OutputGrid& grid, const std::filesystem::path& path,
+std::string field_number(const std::string& name, double value) { return field_tag("Float64", name, exact_number(value)); }
+std::string field_number(const std::string& name, std::int32_t value) {
+    return field_tag("Int32", name, std::to_string(value));
+}
+std::string field_time(double time) { return field_number("TimeValue", time); }
+
+PreparedFile prepared_grid(const OutputGrid& grid, const std::filesystem::path& path, const std::string& more_field_data,
                            std::span<const OutputArray> more_point_data, std::span<const OutputArray> more_cell_data) {
-    Document document(grid);
+    Document document(grid, grid.field_data + more_field_data);
     document.add_section("PointData", grid.point_data, more_point_data);
     document.add_section("CellData", grid.cell_data, more_cell_data);
     document.add_section("Points", grid.points);

@@ -60,6 +60,12 @@ template <class Value>
     return output_array(name, tuples, n_components<Value>);
 }
 
+/// The tag of a number that a file has as a whole. Text would end meshio: names are those of numbers.
+[[nodiscard]] std::string field_number(const std::string& name, double value);
+[[nodiscard]] std::string field_number(const std::string& name, std::int32_t value);
+/// The time of a frame [s], by the name under which VTK and ParaView look for it.
+[[nodiscard]] std::string field_time(double time);
+
 /// What is in a .vtu or .vtp file.
 struct OutputGrid {
     std::string type;          ///< "UnstructuredGrid" or "PolyData"
@@ -67,6 +73,7 @@ struct OutputGrid {
     std::size_t n_points = 0, n_cells = 0;
     std::vector<OutputArray> points, cells;  ///< positions; corners, their ends and, of unstructured grids, types
     std::vector<OutputArray> point_data{}, cell_data{};
+    std::string field_data{};  ///< tags of numbers of the file as a whole
 };
 
 template <int Dim>
@@ -98,8 +105,9 @@ void add_fields(std::vector<OutputArray>& data, std::span<const Field<Dim>> fiel
         std::visit([&](const auto& values) { add_field(data, field.name, values, wanted, of_what, writer); }, field.values);
 }
 
-/// A file of this grid with more arrays behind its own. Throws MeshError naming the path and the reason.
+/// A file of this grid with more arrays and tags of field data behind its own. Throws MeshError naming the path and the reason.
 [[nodiscard]] PreparedFile prepared_grid(const OutputGrid& grid, const std::filesystem::path& path,
+                                         const std::string& more_field_data = "",
                                          std::span<const OutputArray> more_point_data = {},
                                          std::span<const OutputArray> more_cell_data = {});
 

@@ -37,9 +37,11 @@ std::string field_lines(const std::vector<Field<Dim>>& fields) {
 }
 
 /// The file that names the pieces of a frame; its cells have these arrays.
-std::string head_of_pieces(const std::string& kind, const std::string& arrays, const std::vector<std::string>& pieces) {
-    std::string text = vtk_head(kind) + "<PPointData>\n" + array_line("displacement", 3) + "</PPointData>\n<PCellData>\n" +
-                       arrays + "</PCellData>\n<PPoints>\n" + array_line("Points", 3) + "</PPoints>\n";
+std::string head_of_pieces(const std::string& kind, double time, const std::string& arrays,
+                           const std::vector<std::string>& pieces) {
+    std::string text = vtk_head(kind) + "<FieldData>\n" + field_time(time) + "</FieldData>\n<PPointData>\n" +
+                       array_line("displacement", 3) + "</PPointData>\n<PCellData>\n" + arrays +
+                       "</PCellData>\n<PPoints>\n" + array_line("Points", 3) + "</PPoints>\n";
     for (const std::string& piece : pieces) text += "<Piece Source=\"" + in_xml(piece) + "\"/>\n";
     return text + "</" + kind + ">\n</VTKFile>\n";
 }
@@ -68,6 +70,7 @@ void write_piece(const std::filesystem::path& directory, const std::string& base
                  const Mesh<Dim>& mesh, const PieceFrame<Dim>& frame) {
     constexpr const char* writer = "write_piece";
     OutputGrid cells = grid_of_cells(mesh, frame.cells, frame.vertices);
+    cells.field_data += field_time(frame.time);
     cells.cell_data.push_back(output_array("cell", frame.cells));
     add_field(cells.cell_data, "displacement", frame.displacement, cells.n_cells, "cells", writer);
     add_field(cells.point_data, "displacement", frame.vertex_displacement, cells.n_points, "vertices", writer);
@@ -76,6 +79,7 @@ void write_piece(const std::filesystem::path& directory, const std::string& base
     const std::vector<std::int32_t> vertices = surface_vertices(mesh, frame.boundary);
     const std::vector<Vector<Dim>> at_vertices = on_surface(frame, vertices);
     OutputGrid surface = grid_of_surface(mesh, frame.boundary, vertices);
+    surface.field_data += field_time(frame.time);
     surface.cell_data.push_back(output_array("face", frame.boundary));
     surface.point_data.push_back(field_array("displacement", std::span<const Vector<Dim>>(at_vertices)));
     add_fields<Dim>(surface.cell_data, frame.boundary_fields, surface.n_cells, "boundary faces", writer);
@@ -95,21 +99,24 @@ PieceSeries::PieceSeries(std::filesystem::path directory, std::string basename)
 }
 
 template <int Dim>
-void PieceSeries::publish(double time, int n_pieces, const PieceFrame<Dim>& frame) {
+void PieceSeries::publish(int n_pieces, const Mesh<Dim>& mesh, const PieceFrame<Dim>& frame) {
     const std::string surface = surface_name(basename_);
     const std::string numbers = array_line("body", 1, "Int32");
+    std::string groups;
+    for (const BoundaryGroup& group : mesh.groups) groups += array_line(group_array(group.name), 1, "UInt8");
     prepared_text(directory_ / frame_name(basename_, n_frames(), cells_extension),
-                  head_of_pieces("PUnstructuredGrid",
+                  head_of_pieces("PUnstructuredGrid", frame.time,
                                  numbers + array_line("cell", 1, "Int32") + array_line("displacement", 3) +
                                      field_lines(frame.cell_fields),
                                  piece_names(basename_, n_frames(), n_pieces, ".vtu")))
         .move_into_place();
     prepared_text(directory_ / frame_name(surface, n_frames(), surface_extension),
-                  head_of_pieces("PPolyData", numbers + array_line("face", 1, "Int32") + field_lines(frame.boundary_fields),
+                  head_of_pieces("PPolyData", frame.time,
+                                 numbers + groups + array_line("face", 1, "Int32") + field_lines(frame.boundary_fields),
                                  piece_names(surface, n_frames(), n_pieces, ".vtp")))
         .move_into_place();
     std::vector<double> times = times_;
-    times.push_back(time);
+    times.push_back(frame.time);
     publish_lists(times);
 }
 
@@ -126,7 +133,7 @@ void PieceSeries::go_on_after(std::vector<double> times) {
 }
 
 #define ABUT_INSTANTIATE(Dim)                                                                                            \
-    template void PieceSeries::publish<Dim>(double, int, const PieceFrame<Dim>&);                                        \
+    template void PieceSeries::publish<Dim>(int, const Mesh<Dim>&, const PieceFrame<Dim>&);                              \
     template void write_piece<Dim>(const std::filesystem::path&, const std::string&, std::size_t, int, const Mesh<Dim>&, \
                                    const PieceFrame<Dim>&);
 ABUT_INSTANTIATE(2)

@@ -14,6 +14,7 @@ namespace abut::mesh {
 /// Some cells of a mesh with what a moment of a run shows of them: what one of several ranks writes of a frame.
 template <int Dim>
 struct PieceFrame {
+    double time = 0.0;                       ///< [s]
     std::span<const std::int32_t> cells;     ///< increasing (n)
     std::span<const std::int32_t> vertices;  ///< of these cells, increasing (n_vertices)
     /// Faces of these cells that are boundary faces of the mesh: indices into Mesh::boundary_faces (n_faces)
@@ -34,10 +35,10 @@ public:
     /// Makes the folder if needed. Throws MeshError if that fails.
     PieceSeries(std::filesystem::path directory, std::string basename);
 
-    /// The next frame has this many pieces, which are there, with the arrays of this one. Throws MeshError if a file cannot be
+    /// The next frame has this many pieces of `mesh`, which are there, with the arrays of this one. Throws MeshError if a file cannot be
     /// written.
     template <int Dim>
-    void publish(double time, int n_pieces, const PieceFrame<Dim>& frame);
+    void publish(int n_pieces, const Mesh<Dim>& mesh, const PieceFrame<Dim>& frame);
     [[nodiscard]] std::size_t n_frames() const { return times_.size(); }
     [[nodiscard]] const std::vector<double>& times() const { return times_; }  ///< of the frames [s]
     /// As VtuSeries::go_on_after.

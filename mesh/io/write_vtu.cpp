@@ -130,10 +130,11 @@ void VtuSeries<Dim>::write(const Frame<Dim>& frame) {
     add_fields<Dim>(data.of_faces, frame.boundary_fields, files_->surface.n_cells, "boundary faces", "VtuSeries");
 
     auto times = files_->times;
+    const std::string time = field_time(frame.time);
     auto of_cells = prepared_grid(files_->cells, files_->directory / frame_name(files_->basename, times.size(), ".vtu"),
-                                  data.of_points, data.of_cells);
+                                  time, data.of_points, data.of_cells);
     auto of_surface =
-        prepared_grid(files_->surface, files_->directory / frame_name(files_->surface_name(), times.size(), ".vtp"),
+        prepared_grid(files_->surface, files_->directory / frame_name(files_->surface_name(), times.size(), ".vtp"), time,
                       data.of_surface_points, data.of_faces);
     of_cells.move_into_place();
     of_surface.move_into_place();

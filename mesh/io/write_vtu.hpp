@@ -35,7 +35,8 @@ struct Frame {
 /// BASENAME_surface_000000.vtp, ... with the boundary faces, and BASENAME.pvd and BASENAME_surface.pvd that list
 /// them with their times (open these two).
 ///
-/// Both carry the cell array "body". The displacement is written on cells and on points, where the filter Warp By Vector
+/// Both carry the cell array "body", the number "body: <name>" of each body and the time, "TimeValue"; boundary faces an array
+/// "group: <name>" for each group of the mesh, 1 on its faces and 0 elsewhere. The displacement is written on cells and on points, where the filter Warp By Vector
 /// takes it: that of the vertices if the frame has it, else the mean over the cells around each. 2D vectors get a third
 /// component 0, tensors six components (xx, yy, zz, xy, yz, xz). Data are binary and compressed. Every file is written under
 /// another name and then moved, the lists last: a run that breaks off leaves a readable series.

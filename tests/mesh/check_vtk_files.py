@@ -112,6 +112,13 @@ def compare(grid, wanted, what):
             check(grid.data[kind][name][0] == n and same(grid.data[kind][name][1], values), f"{what}: {kind} '{name}'")
 
 
+def check_numbers(data, what):
+    """The time of a frame, and the numbers of bodies."""
+    check(data.GetArray("TimeValue") and data.GetArray("TimeValue").GetValue(0) == 1.0 / 3.0, f"{what}: time")
+    body = data.GetArray("body: box")
+    check("points" in what or (body and body.GetValue(0) == 0), f"{what}: body")
+
+
 def check_written_by_abut(folder):
     subprocess.run([PROGRAM, "write", str(folder)], check=True)
     paths = sorted(path for path in folder.iterdir() if path.suffix in (".vtu", ".vtp"))
@@ -123,8 +130,11 @@ def check_written_by_abut(folder):
         if tensor:
             names = [tensor.GetComponentName(i) for i in range(6)]
             check(names == ["XX", "YY", "ZZ", "XY", "YZ", "XZ"], f"{path.name}: components {names}")
+        if path.name != "gear.vtp":
+            check_numbers(data.GetFieldData(), path.name)
         if path.suffix == ".vtu":
             mesh = meshio.read(path)
+            check(mesh.field_data["TimeValue"][0] == 1.0 / 3.0, f"{path.name}: time of meshio")
             check(same(mesh.points, grid.points), f"{path.name}: points of meshio")
             of = sorted if mesh.cells[0].type == "wedge" else tuple  # meshio puts wedges in an order of its own
             corners = [of(map(int, row)) for block in mesh.cells for row in block.data]
@@ -136,6 +146,7 @@ def check_written_by_abut(folder):
         heads = folder / f"pieces{'' if kind == 'vtu' else '_surface'}_000000.p{kind}"
         pieces = read_by_abut([heads.with_name(f"{heads.stem}_{i}.{kind}") for i in (0, 1)])
         whole = as_grid(vtk_data(heads))
+        check_numbers(vtk_data(heads).GetFieldData(), heads.name)
         joined, n_points = Grid(), 0
         for piece in pieces:
             joined.points = [*joined.points, *piece.points]

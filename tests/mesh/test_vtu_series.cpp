@@ -100,6 +100,40 @@ TEMPLATE_TEST_CASE_SIG("a series that is read back holds the fields, padded to t
     CHECK(surface.points.size() <= mesh.vertices.size());
 }
 
+TEST_CASE("a frame says its time, the numbers of bodies by name, and which boundary faces are in which group",
+          "[mesh][vtu]") {
+    const test::ScratchFolder folder;
+    CellSoup<2> soup{.name = "two",
+                     .vertices = {{0, 0}, {1, 0}, {0, 1}, {3, 0}, {4, 0}, {3, 1}},
+                     .cell_shape = {CellShape::triangle, CellShape::triangle},
+                     .cell_body = {0, 1},
+                     .body_names = {"left", "a < b & \"c\""},
+                     .named_faces = {{{0, 1}, 0}, {{4, 3}, 0}, {{1, 2}, 1}},
+                     .group_names = {"bottom", "slope"}};
+    soup.cell_vertices.append(std::vector<std::int32_t>{0, 1, 2});
+    soup.cell_vertices.append(std::vector<std::int32_t>{3, 4, 5});
+    const Mesh<2> mesh = build_mesh<2>(soup);
+    VtuSeries<2> series(folder.path(), "run", mesh);
+    series.write({.time = 0.1});
+    for (const char* name : {"run_000000.vtu", "run_surface_000000.vtp"}) {
+        std::ifstream file(folder / name, std::ios::binary);
+        const std::string text{std::istreambuf_iterator<char>(file), {}};
+        CHECK_THAT(text,
+                   Contains("Name=\"TimeValue\" NumberOfTuples=\"1\" format=\"ascii\">0.1<") &&
+                       Contains("Name=\"body: left\" NumberOfTuples=\"1\" format=\"ascii\">0<") &&
+                       Contains("Name=\"body: a &lt; b &amp; &quot;c&quot;\" NumberOfTuples=\"1\" format=\"ascii\">1<"));
+    }
+    const VtkGrid surface = read_grid(folder / "run_surface_000000.vtp");
+    REQUIRE(surface.n_cells() == 6);
+    for (std::size_t face = 0; face < surface.n_cells(); ++face) {
+        const auto corners = surface.corners_of(face);
+        const Vector<3> middle = 0.5 * (surface.points[static_cast<std::size_t>(corners[0])] +
+                                        surface.points[static_cast<std::size_t>(corners[1])]);
+        CHECK(component(find_array(surface.cell_data, "group: bottom"), face, 0) == (middle[1] == 0.0 ? 1.0 : 0.0));
+        CHECK(component(find_array(surface.cell_data, "group: slope"), face, 0) == (middle[0] == 0.5 && middle[1] == 0.5));
+    }
+}
+
 TEST_CASE("a prism is written as VTK documents a wedge: its first triangle is counter-clockwise from outside",
           "[mesh][vtu]") {
     const test::ScratchFolder folder;

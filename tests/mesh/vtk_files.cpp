@@ -41,7 +41,8 @@ template <int Dim>
 void write_series(const std::filesystem::path& folder, const std::string& name, const Mesh<Dim>& mesh) {
     const Values<Dim> of_cells(static_cast<std::size_t>(mesh.n_cells())), of_faces(mesh.boundary_faces.size());
     VtuSeries<Dim> series(folder, name, mesh);
-    series.write({.displacement = of_cells.vectors,
+    series.write({.time = 1.0 / 3.0,
+                  .displacement = of_cells.vectors,
                   .cell_fields = {{"a < b & \"c\" [J]", of_cells.numbers}, {"stress [Pa]", of_cells.tensors}},
                   .boundary_fields = {{"pressure [Pa]", of_faces.numbers}}});
 }
@@ -59,6 +60,7 @@ void write_pieces(const std::filesystem::path& folder, const Mesh<3>& mesh) {
             if ((cell < 5) == (piece == 0)) cells.push_back(cell);
         const Values<3> of_cells(cells.size());
         const PieceFrame<3> frame{
+            .time = 1.0 / 3.0,
             .cells = cells,
             .vertices = vertices,
             .boundary = piece == 0 ? faces : no_faces,
@@ -67,7 +69,7 @@ void write_pieces(const std::filesystem::path& folder, const Mesh<3>& mesh) {
             .cell_fields = {{"stress [Pa]", of_cells.tensors}},
             .boundary_fields = {{"gap [m]", std::span(of_faces.numbers).first(piece == 0 ? faces.size() : 0)}}};
         write_piece(folder, "pieces", 0, piece, mesh, frame);
-        if (piece == 1) series.publish(0.0, 2, frame);
+        if (piece == 1) series.publish(2, mesh, frame);
     }
 }
 
@@ -85,8 +87,8 @@ void write_files(const std::filesystem::path& folder) {
     write_vtp(gear.soup(), folder / "gear.vtp", {.of_vertices = fields});
     PointSeries<2> points(folder, "points");
     const Values<2> of_points(20);
-    points.write({.position = of_points.vectors, .fields = {{"force [N]", of_points.numbers}}});
-    points.write({.time = 1.0, .fields = {{"force [N]", std::span<const double>()}}});
+    points.write({.time = 1.0 / 3.0, .position = of_points.vectors, .fields = {{"force [N]", of_points.numbers}}});
+    points.write({.time = 1.0 / 3.0, .fields = {{"force [N]", std::span<const double>()}}});
 }
 
 void print_data(const char* kind, const std::vector<VtkArray>& arrays) {
