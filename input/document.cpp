@@ -202,6 +202,8 @@ Node read_document(const std::filesystem::path& path) {
     return parse(text, Places(path.string(), true));
 }
 
+Node read_text(const std::string& text, const std::string& name) { return parse(text, Places(name, false)); }
+
 Node read_override(const std::string& text) {
     const Places places("--set " + as_utf8(shortened(text, most_shown)), false);
     const auto equals = text.find('=');

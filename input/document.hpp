@@ -30,6 +30,9 @@ struct Node {
 /// Throws SceneError if the file cannot be opened or is no TOML.
 [[nodiscard]] Node read_document(const std::filesystem::path& path);
 
+/// A text without a file: messages call it `name`, and tell no lines. Throws SceneError if it is no TOML.
+[[nodiscard]] Node read_text(const std::string& text, const std::string& name);
+
 /// "bodies.left.density=2" as a document that holds this alone. What is no TOML value is taken for a text: filter=neutral.
 /// Throws SceneError.
 [[nodiscard]] Node read_override(const std::string& text);

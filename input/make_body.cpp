@@ -128,12 +128,20 @@ mesh::Mesh<3> filled_surface(const BodySettings& body, const std::filesystem::pa
 }
 
 template <int Dim>
-mesh::Mesh<Dim> unplaced(const BodySettings& body, const std::filesystem::path& folder) {
+mesh::Mesh<Dim> unplaced(const BodySettings& body, const std::filesystem::path& folder, const GivenMeshes* given) {
     if (has_centre(body.shape)) return round_body<Dim>(body);
     if (body.shape == Shape::box) return box<Dim>(body);
     if (body.shape == Shape::structured_box) return structured_box<Dim>(body);
     if constexpr (Dim == 3)
         if (body.shape == Shape::surface) return filled_surface(body, folder);
+    if (given) {
+        const auto& meshes = given->of<Dim>();
+        if (const auto found = meshes.find(body.mesh.string()); found != meshes.end()) return found->second;
+        if (given->of<5 - Dim>().contains(body.mesh.string()))
+            throw mesh::MeshError(
+                fmt::format("bodies.{}.mesh is a mesh of {}D in a scene of {}D. Give one of {}D, or another dim.", body.name,
+                            5 - Dim, Dim, Dim));
+    }
     return mesh::read_mesh<Dim>(folder / body.mesh, mesh_options(body));
 }
 
@@ -161,8 +169,8 @@ void name_parts(mesh::Mesh<Dim>& mesh, const std::string& name) {
 }  // namespace
 
 template <int Dim>
-mesh::Mesh<Dim> make_body(const BodySettings& body, const std::filesystem::path& folder) {
-    mesh::Mesh<Dim> mesh = unplaced<Dim>(body, folder);
+mesh::Mesh<Dim> make_body(const BodySettings& body, const std::filesystem::path& folder, const GivenMeshes* given) {
+    mesh::Mesh<Dim> mesh = unplaced<Dim>(body, folder, given);
     const bool turns = !body.turn.isZero(0.0);
     if (turns || (!has_centre(body.shape) && !body.place.isZero(0.0)))
         mesh::place(mesh, turns ? rotation<Dim>(body.turn) : Matrix<Dim>(Matrix<Dim>::Identity()), head<Dim>(body.place));
@@ -179,7 +187,7 @@ const BodySettings& settings_of(const BodySettings& body, const std::string& nam
     return body;
 }
 
-template mesh::Mesh<2> make_body<2>(const BodySettings&, const std::filesystem::path&);
-template mesh::Mesh<3> make_body<3>(const BodySettings&, const std::filesystem::path&);
+template mesh::Mesh<2> make_body<2>(const BodySettings&, const std::filesystem::path&, const GivenMeshes*);
+template mesh::Mesh<3> make_body<3>(const BodySettings&, const std::filesystem::path&, const GivenMeshes*);
 
 }  // namespace abut::input

@@ -8,10 +8,11 @@
 namespace abut::input {
 
 /// The mesh of a body in its place; bodies "<name>", of a file with several "<name>.<body of the file>"; groups
-/// "<name>.<group>". Files are looked for from `folder`. Throws MeshError, also where a table of BodySettings::parts has no
+/// "<name>.<group>". Files are looked for from `folder`, unless `given` (null: none) has the mesh. Throws MeshError, also where a table of BodySettings::parts has no
 /// body of the file.
 template <int Dim>
-[[nodiscard]] mesh::Mesh<Dim> make_body(const BodySettings& body, const std::filesystem::path& folder);
+[[nodiscard]] mesh::Mesh<Dim> make_body(const BodySettings& body, const std::filesystem::path& folder,
+                                        const GivenMeshes* given = nullptr);
 
 /// What of a file with several bodies holds for the one of this name in the mesh of make_body: its own table, or `body`.
 [[nodiscard]] const BodySettings& settings_of(const BodySettings& body, const std::string& name);

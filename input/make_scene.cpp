@@ -15,7 +15,7 @@
 #include "abut/input/names.hpp"
 #include "abut/input/values.hpp"
 #include "abut/mesh/interpenetration.hpp"
-#include "abut/run/probe_file.hpp"
+#include "abut/run/probes.hpp"
 
 namespace abut::input {
 namespace {
@@ -52,7 +52,7 @@ void add_bodies(run::Scene<Dim>& scene, const Settings& settings, std::vector<Fa
     for (const BodySettings& body : settings.bodies) {
         if (body.shape == Shape::none) continue;
         try {
-            meshes.push_back(make_body<Dim>(body, settings.file.parent_path()));
+            meshes.push_back(make_body<Dim>(body, settings.file.parent_path(), settings.meshes.get()));
         } catch (const Error& error) {
             faults.push_back({body.where, error.what()});
             continue;

@@ -326,11 +326,8 @@ void check_options(const Settings& settings, std::vector<Fault>& faults) {
     }
 }
 
-}  // namespace
-
-ReadSettings read_settings(const std::filesystem::path& path, const Overrides& overrides) {
-    ReadSettings read{.settings = {.file = overrides.origin.empty() ? path : overrides.origin, .set = overrides.set}};
-    Node document = read_document(path);
+ReadSettings settings_from(Node document, const std::filesystem::path& file, const Overrides& overrides) {
+    ReadSettings read{.settings = {.file = file, .set = overrides.set, .meshes = overrides.meshes}};
     Reader reader;
     merge_overrides(document, overrides.set, reader.faults());
     reader.dimension = dimension_of(document);
@@ -347,6 +344,16 @@ ReadSettings read_settings(const std::filesystem::path& path, const Overrides& o
     check_options(read.settings, reader.faults());
     read.faults = std::move(reader.faults());
     return read;
+}
+
+}  // namespace
+
+ReadSettings read_settings(const std::filesystem::path& path, const Overrides& overrides) {
+    return settings_from(read_document(path), overrides.origin.empty() ? path : overrides.origin, overrides);
+}
+
+ReadSettings read_settings(const SceneText& scene, const Overrides& overrides) {
+    return settings_from(read_text(scene.toml, scene.file.string()), scene.file, overrides);
 }
 
 }  // namespace abut::input

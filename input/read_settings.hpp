@@ -17,5 +17,6 @@ struct ReadSettings {
 
 /// Throws SceneError where there is no TOML to read.
 [[nodiscard]] ReadSettings read_settings(const std::filesystem::path& path, const Overrides& overrides);
+[[nodiscard]] ReadSettings read_settings(const SceneText& scene, const Overrides& overrides);
 
 }  // namespace abut::input

@@ -19,6 +19,8 @@ std::shared_ptr<const Settings> sound_settings(ReadSettings read) {
 
 SceneFile::SceneFile(const std::filesystem::path& path, const Overrides& overrides)
     : settings_(sound_settings(read_settings(path, overrides))) {}
+SceneFile::SceneFile(const SceneText& scene, const Overrides& overrides)
+    : settings_(sound_settings(read_settings(scene, overrides))) {}
 
 int SceneFile::dimension() const { return settings_->dim; }
 const run::RunOptions& SceneFile::options() const { return settings_->options; }

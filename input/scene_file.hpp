@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "abut/input/fault.hpp"
+#include "abut/input/given_meshes.hpp"
 #include "abut/run/scene.hpp"
 
 namespace abut::input {
@@ -18,9 +19,17 @@ struct Overrides {
     std::function<void(run::RunOptions&)> options{};  ///< changes those of the file; may be empty
     /// Where the file is taken to be, if it is a copy: paths in it begin there, and the scene has its name.
     std::filesystem::path origin{};
+    std::shared_ptr<const GivenMeshes> meshes{};  ///< that bodies may have; null: none
 };
 
-/// A scene in a TOML file, docs/scenes.md.
+/// A scene that is in no file.
+struct SceneText {
+    std::string toml;
+    std::filesystem::path file =
+        "scene";  ///< where it is taken to be: paths in it begin in that folder, and it has that name
+};
+
+/// A scene in TOML, of a file or a text, docs/scenes.md.
 ///
 ///     const input::SceneFile file("scenes/slipping_cylinders.toml");
 ///     const run::Scene<2> scene = file.scene<2>();
@@ -30,6 +39,7 @@ public:
     /// Throws SceneError with all faults of keys and values: what is unknown or missing, of a wrong type or out of range,
     /// what does not go together.
     explicit SceneFile(const std::filesystem::path& path, const Overrides& overrides = {});
+    explicit SceneFile(const SceneText& scene, const Overrides& overrides = {});
 
     [[nodiscard]] int dimension() const;  ///< 2 or 3
     [[nodiscard]] const run::RunOptions& options() const;

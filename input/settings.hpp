@@ -3,6 +3,7 @@
 #include <array>
 #include <filesystem>
 #include <limits>
+#include <memory>
 #include <numbers>
 #include <optional>
 #include <string>
@@ -10,6 +11,7 @@
 
 #include "abut/base/vector.hpp"
 #include "abut/input/formula.hpp"
+#include "abut/input/given_meshes.hpp"
 #include "abut/mesh/mesh.hpp"
 #include "abut/run/options.hpp"
 #include "abut/run/outputs.hpp"
@@ -161,7 +163,8 @@ struct ProbeSettings : Named {
 
 struct Settings {
     std::filesystem::path file;
-    std::vector<std::string> set;           ///< values that replace those of the file, as given
+    std::vector<std::string> set;               ///< values that replace those of the file, as given
+    std::shared_ptr<const GivenMeshes> meshes;  ///< null: none
     std::string title;
     std::string comment;
     int dim = 0;                            ///< 2 or 3; 0: not known
