@@ -75,6 +75,17 @@ std::vector<std::pair<std::string, py::object>> blocks_of(const py::object& cell
     return blocks;
 }
 
+/// Of a group: one table, or a list of arrays, for faces with different numbers of corners.
+py::list tables_of_faces(const py::object& faces) {
+    const bool are_many = py::isinstance<py::list>(faces) && py::len(faces) > 0 &&
+                          py::isinstance<py::array>(faces[py::int_(0)]) &&
+                          py::reinterpret_borrow<py::array>(faces[py::int_(0)]).ndim() == 2;
+    if (are_many) return py::reinterpret_borrow<py::list>(faces);
+    py::list one;
+    one.append(faces);
+    return one;
+}
+
 template <int Dim>
 Mesh<Dim> mesh_of(const py::handle& points, const py::object& cells, const py::object& body,
                   std::vector<std::string> body_names, const std::map<std::string, py::object>& groups,
@@ -107,10 +118,12 @@ Mesh<Dim> mesh_of(const py::handle& points, const py::object& cells, const py::o
             body_names.push_back("body" + std::to_string(b));
     soup.body_names = std::move(body_names);
     for (const auto& [group, faces] : groups) {
-        const auto table = table_of(faces, "groups['" + group + "']", 0);
         const auto index = static_cast<std::int32_t>(soup.group_names.size());
-        for (py::ssize_t f = 0; f < table.shape(0); ++f)
-            soup.named_faces.push_back({{table.data(f, 0), table.data(f, 0) + table.shape(1)}, index});
+        for (const py::handle one : tables_of_faces(faces)) {
+            const auto table = table_of(one, "groups['" + group + "']", 0);
+            for (py::ssize_t f = 0; f < table.shape(0); ++f)
+                soup.named_faces.push_back({{table.data(f, 0), table.data(f, 0) + table.shape(1)}, index});
+        }
         soup.group_names.push_back(group);
     }
     return mesh::build_mesh<Dim>(std::move(soup),
@@ -178,27 +191,6 @@ py::array_t<std::int32_t> cells_behind_surface(const Mesh<Dim>& mesh) {
     return copy_of(cell);
 }
 
-/// Mean over the cells around each point.
-template <int Dim>
-py::array_t<double> at_points(const Mesh<Dim>& mesh, const Packed<double>& values) {
-    if (values.ndim() < 1 || values.shape(0) != mesh.n_cells())
-        throw py::value_error("values must have one row for each of the " + std::to_string(mesh.n_cells()) + " cells");
-    std::vector<py::ssize_t> shape(values.shape(), values.shape() + values.ndim());
-    shape[0] = static_cast<py::ssize_t>(mesh.vertices.size());
-    py::array_t<double> means(shape);
-    const py::ssize_t width = values.size() / std::max<py::ssize_t>(1, values.shape(0));
-    double* const mean = means.mutable_data();
-    std::fill_n(mean, means.size(), 0.0);
-    std::vector<double> cells_around(mesh.vertices.size(), 0.0);
-    for (std::int32_t c = 0; c < mesh.n_cells(); ++c)
-        for (const std::int32_t v : mesh.cell_vertices[c]) {
-            ++cells_around[static_cast<std::size_t>(v)];
-            for (py::ssize_t i = 0; i < width; ++i) mean[v * width + i] += values.data()[c * width + i];
-        }
-    for (py::ssize_t i = 0; i < means.size(); ++i) mean[i] /= cells_around[static_cast<std::size_t>(i / width)];
-    return means;
-}
-
 template <int Dim>
 py::dict groups_of(const Mesh<Dim>& mesh) {
     py::dict groups;
@@ -237,7 +229,7 @@ void add_mesh(py::module_& module, const char* name) {
             "The boundary faces: faces (flat), offsets, body and depth, all that NodalContact takes beside "
             "nodes and stiffness.")
         .def_property_readonly("surface_cells", &cells_behind_surface<Dim>, "The cell behind each boundary face.")
-        .def("at_points", &at_points<Dim>, "values"_a,
+        .def("at_points", &python::at_points<Dim>, "values"_a,
              "Mean over the cells around each point: (n_cells, ...) to (n_points, ...)")
         .def(
             "write_vtu", [](const Mesh<Dim>& mesh, const std::filesystem::path& path) { mesh::write_vtu(mesh, path); },
@@ -278,18 +270,36 @@ void add_mesh(py::module_& module, const char* name) {
 
 }  // namespace
 
+template <int Dim>
+py::array_t<double> at_points(const Mesh<Dim>& mesh, const Packed<double>& values) {
+    if (values.ndim() < 1 || values.shape(0) != mesh.n_cells())
+        throw py::value_error("values must have one row for each of the " + std::to_string(mesh.n_cells()) + " cells");
+    std::vector<py::ssize_t> shape(values.shape(), values.shape() + values.ndim());
+    shape[0] = static_cast<py::ssize_t>(mesh.vertices.size());
+    py::array_t<double> means(shape);
+    const py::ssize_t width = values.size() / std::max<py::ssize_t>(1, values.shape(0));
+    double* const mean = means.mutable_data();
+    std::fill_n(mean, means.size(), 0.0);
+    std::vector<double> cells_around(mesh.vertices.size(), 0.0);
+    for (std::int32_t c = 0; c < mesh.n_cells(); ++c)
+        for (const std::int32_t v : mesh.cell_vertices[c]) {
+            ++cells_around[static_cast<std::size_t>(v)];
+            for (py::ssize_t i = 0; i < width; ++i) mean[v * width + i] += values.data()[c * width + i];
+        }
+    for (py::ssize_t i = 0; i < means.size(); ++i) mean[i] /= cells_around[static_cast<std::size_t>(i / width)];
+    return means;
+}
+
+template py::array_t<double> at_points<2>(const Mesh<2>&, const Packed<double>&);
+template py::array_t<double> at_points<3>(const Mesh<3>&, const Packed<double>&);
+
 void add_meshes(py::module_& module) {
     add_mesh<2>(module, "Mesh2D");
     add_mesh<3>(module, "Mesh3D");
-    module.def(
-        "mesh", &mesh_of_arrays, "points"_a, "cells"_a, "body"_a = py::none(), "body_names"_a = std::vector<std::string>(),
-        "groups"_a = std::map<std::string, py::object>(), "name"_a = "mesh", "non_planar"_a = "fail",
-        "planarity_tolerance"_a = MeshOptions{}.planarity_tolerance,
-        "A mesh of arrays. cells: {\"triangle\": (n, 3), ...}, pairs, or the blocks of meshio: triangle, quad; tetra, "
-        "hexahedron, wedge, pyramid. body: one number per cell. groups: {name: points of each face (n, corners)}. "
-        "non_planar: 'fail' or 'split', for faces with a corner farther off their plane than planarity_tolerance times "
-        "their "
-        "size.");
+    module.def("mesh", &mesh_of_arrays, "points"_a, "cells"_a, "body"_a = py::none(),
+               "body_names"_a = std::vector<std::string>(), "groups"_a = std::map<std::string, py::object>(),
+               "name"_a = "mesh", "non_planar"_a = "fail", "planarity_tolerance"_a = MeshOptions{}.planarity_tolerance,
+               "See abut.solid.mesh.");
     module.def(
         "read_mesh",
         [](const std::filesystem::path& path, int dim, const std::string& non_planar, double planarity_tolerance) {

@@ -86,7 +86,18 @@ const Option<run::RunOptions>& option_of(const std::string& name) {
 
 run::RunOptions options_of(const py::dict& given) {
     run::RunOptions options;
+    take_options(given, options);
+    return options;
+}
+
+void take_options(const py::dict& given, run::RunOptions& options) {
     const run::RunOptions plain;
+    if (given.contains("steps")) options.time = run::not_given;
+    if (given.contains("time")) options.steps = 0;
+    if (given.contains("cfl") || given.contains("preset")) {
+        options.dt = run::not_given;
+        options.allow_unstable = false;
+    }
     if (given.contains("preset"))
         take("preset", given["preset"], [&] { apply_preset(given["preset"], options); });  // below all others
     for (const auto& [key, value] : given) {
@@ -99,7 +110,6 @@ run::RunOptions options_of(const py::dict& given) {
             option.set(options, taken);
         });
     }
-    return options;
 }
 
 std::string option_text() {

@@ -1,5 +1,7 @@
 #include "runs.hpp"
 
+#include <pybind11/stl/filesystem.h>
+
 #include <algorithm>
 #include <atomic>
 #include <chrono>
@@ -12,14 +14,16 @@
 #include "abut/dynamics/filter.hpp"
 #include "abut/dynamics/memm.hpp"
 #include "abut/dynamics/neutral_restart.hpp"
+#include "abut/input/scene_file.hpp"
 #include "abut/mesh/interpenetration.hpp"
-#include "abut/run/frames.hpp"
 #include "abut/run/option_table.hpp"
 #include "abut/run/result_files.hpp"
 #include "abut/run/simulation.hpp"
+#include "abut/run/summary.hpp"
 #include "abut/run/verdict.hpp"
 #include "abut/run/warnings.hpp"
 #include "in_use.hpp"
+#include "record.hpp"
 #include "scenes.hpp"
 #include "tables.hpp"
 
@@ -28,148 +32,95 @@ namespace {
 
 using namespace py::literals;
 
-/// A run at one moment.
+/// What is left of a run that fails is told at the end of the message.
 template <int Dim>
-class State {
-public:
-    State(const dynamics::RunView<Dim>& view, solid::Solid<Dim>& solid) : view_(view), solid_(solid) {}
-
-    [[nodiscard]] std::int64_t steps() const { return view_.steps; }
-    [[nodiscard]] double time() const { return view_.time; }
-    [[nodiscard]] py::array_t<double> displacement() const {
-        return copy_of_vectors<Dim>(solid_.cell_displacement(view_.q));
+run::RunResult<Dim> simulate_into(run::ResultFiles<Dim>& files, const run::Scene<Dim>& scene, const run::RunOptions& options,
+                                  run::Observer<Dim>& observer) {
+    std::optional<run::Checkpoint> from;
+    if (options.resume) from = std::move(files.last_checkpoint().checkpoint);
+    try {
+        run::RunResult<Dim> result = run::simulate<Dim>(scene, options, observer, from ? &*from : nullptr);
+        files.finish(scene, result);
+        return result;
+    } catch (const Error& error) {
+        throw_again(error, error.what() + files.left_behind());
     }
-    [[nodiscard]] py::array_t<double> velocity() const {
-        std::vector<double> momentum(view_.p_before.begin(), view_.p_before.end());
-        for (std::size_t i = 0; i < momentum.size(); ++i) momentum[i] = 0.5 * (momentum[i] + view_.p_after[i]);
-        return copy_of_vectors<Dim>(solid_.cell_velocity(momentum));
-    }
-    [[nodiscard]] py::array_t<double> stress() const {
-        static_cast<void>(solid_.potential(view_.q));  // leaves the stresses of this state behind
-        const py::ssize_t n = solid_.mesh().n_cells();
-        py::array_t<double> stress({n, py::ssize_t{Dim}, py::ssize_t{Dim}});
-        for (py::ssize_t c = 0; c < n; ++c)  // symmetric: the order of rows and columns is free
-            Eigen::Map<Matrix<Dim>>(stress.mutable_data(c)) = solid_.stress(static_cast<std::int32_t>(c));
-        return stress;
-    }
-    [[nodiscard]] py::array_t<double> von_mises() const {
-        static_cast<void>(solid_.potential(view_.q));
-        std::vector<double> equivalent;
-        for (std::int32_t c = 0; c < solid_.mesh().n_cells(); ++c) {
-            const auto body = static_cast<std::size_t>(solid_.mesh().cell_body[static_cast<std::size_t>(c)]);
-            equivalent.push_back(run::von_mises<Dim>(solid_.stress(c), solid_.options().materials[body].poisson));
-        }
-        return copy_of(equivalent);
-    }
-    [[nodiscard]] py::array_t<double> contact_pressure() const { return copy_of(solid_.contact_field(view_.q).pressure); }
-
-private:
-    const dynamics::RunView<Dim>& view_;
-    solid::Solid<Dim>& solid_;
-};
-
-/// The same properties for whatever has a state.
-template <class Class, class StateOf>
-void add_state(Class& made, StateOf state_of) {
-    using Self = typename Class::type;
-    made.def_property_readonly("steps", [=](Self& self) { return state_of(self)->steps(); })
-        .def_property_readonly(
-            "time", [=](Self& self) { return state_of(self)->time(); }, "[s]")
-        .def_property_readonly(
-            "displacement", [=](Self& self) { return state_of(self)->displacement(); }, "of the cells, (n_cells, dim) [m]")
-        .def_property_readonly(
-            "velocity", [=](Self& self) { return state_of(self)->velocity(); }, "of the cells, (n_cells, dim) [m/s]")
-        .def_property_readonly(
-            "stress", [=](Self& self) { return state_of(self)->stress(); }, "(n_cells, dim, dim) [Pa]")
-        .def_property_readonly(
-            "von_mises", [=](Self& self) { return state_of(self)->von_mises(); }, "(n_cells) [Pa]")
-        .def_property_readonly(
-            "contact_pressure", [=](Self& self) { return state_of(self)->contact_pressure(); },
-            "of the boundary faces, in the order of surface [Pa]");
 }
 
-/// What `look` is called with; good for that call alone.
+/// What abut.Result is made of. `name`: what files and summary call the run.
 template <int Dim>
-struct Glance {
-    std::optional<State<Dim>> state;
-    [[nodiscard]] const State<Dim>* now() const {
-        if (!state)
-            throw Misuse("the state of a run is there while look is called, and not after. Copy what you need of it.");
-        return &*state;
-    }
-};
-
-/// Hands each state to Python, and ends a run that Python or Ctrl-C wants ended.
-template <int Dim>
-class Look : public run::Observer<Dim> {
-public:
-    explicit Look(py::object look) : look_(std::move(look)) {}
-
-    void begin(const run::Scene<Dim>&, const run::RunResult<Dim>& result) override { result_ = &result; }
-    void look(const dynamics::RunView<Dim>& view, solid::Solid<Dim>& solid) override {
-        if (view.steps == result_->steps) final_displacement = solid.cell_displacement(view.q);
-        if (!has_look_) return;
-        const py::gil_scoped_acquire lock;
-        auto glance = std::make_shared<Glance<Dim>>();
-        glance->state.emplace(view, solid);
-        struct Close {
-            Glance<Dim>& glance;
-            ~Close() { glance.state.reset(); }
-        } close{*glance};
-        const py::object answer = look_(glance);
-        const int stops = PyObject_IsTrue(answer.ptr());
-        if (stops < 0) throw py::error_already_set();
-        stops_ = stops != 0;
-    }
-    [[nodiscard]] bool asks_to_stop() const override {
-        const py::gil_scoped_acquire lock;
-        if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-        return stops_;
-    }
-
-    std::vector<Vector<Dim>> final_displacement;  // of the cells
-
-private:
-    py::object look_;
-    bool has_look_ = !look_.is_none();
-    const run::RunResult<Dim>* result_ = nullptr;
-    bool stops_ = false;
-};
-
-template <int Dim>
-py::dict simulate(const mesh::Mesh<Dim>& mesh, const std::vector<solid::Material>& materials, const py::object& velocity,
-                  const py::object& acceleration, const std::map<std::string, py::object>& held,
-                  const std::vector<std::string>& rollers, const std::map<std::string, py::object>& traction,
-                  const py::object& displacement, const py::object& added_velocity, bool contact,
-                  std::optional<double> energy_scale, const py::object& look, const py::kwargs& given) {
-    const run::Scene<Dim> scene = scene_of<Dim>({mesh, materials, velocity, acceleration, held, rollers, traction,
-                                                 displacement, added_velocity, contact, energy_scale});
-    const run::RunOptions options = options_of(given);
+py::object run_scene(const run::Scene<Dim>& scene, const run::RunOptions& options, const std::string& name,
+                     const py::object& look) {
     Look<Dim> python(look);
+    Record<Dim> record;
     std::optional<run::RunResult<Dim>> result;
     {
         const py::gil_scoped_release release;
         if (options.out.empty()) {
-            result.emplace(run::simulate<Dim>(scene, options, python));
+            run::Observers<Dim> both{record, python};
+            result.emplace(run::simulate<Dim>(scene, options, both));
         } else {
-            run::ResultFiles<Dim> files(options, "python", "bodies");
-            run::Observers<Dim> both{files, python};
-            std::optional<run::Checkpoint> from;
-            if (options.resume) from = std::move(files.last_checkpoint().checkpoint);
-            result.emplace(run::simulate<Dim>(scene, options, both, from ? &*from : nullptr));
-            files.finish(scene, *result);
+            run::ResultFiles<Dim> files(options, name, "bodies");
+            run::Observers<Dim> all{files, record, python};
+            result.emplace(simulate_into<Dim>(files, scene, options, all));
         }
     }
     py::list warnings;
     for (const run::Warning& warning : run::without_notes(run::all_warnings(scene, *result)))
         warnings.append(text_of(warning.text));
     const run::Verdict said = run::verdict(scene, *result);
-    return py::dict(
-        "ledger"_a = table_of(result->ledger), "displacement"_a = copy_of_vectors<Dim>(python.final_displacement),
-        "start"_a = motions_of(result->start), "end"_a = motions_of(result->end), "steps"_a = result->steps,
+    const py::dict figures(
+        "name"_a = text_of(name), "title"_a = text_of(scene.title), "comment"_a = text_of(scene.comment),
+        "mesh"_a = py::cast(scene.mesh), "ledger"_a = table_of(result->ledger), "probes"_a = record.probes(),
+        "forces"_a = record.forces(), "frames"_a = record.frames(),
+        "displacement"_a = copy_of_vectors<Dim>(python.final_displacement), "start"_a = motions_of(result->start),
+        "end"_a = motions_of(result->end), "steps"_a = result->steps, "resumed_after"_a = result->resumed_after,
         "dt"_a = result->dt, "stable_dt"_a = result->stable.dt, "complete"_a = result->complete,
         "energy_scale"_a = result->scale.value, "contact"_a = report_of(result->contact), "warnings"_a = warnings,
-        "verdict"_a = text_of(said.text), "good"_a = said.good, "seconds"_a = result->seconds.total);
+        "verdict"_a = text_of(said.text), "good"_a = said.good, "seconds"_a = result->seconds.total,
+        "summary"_a = text_of(run::summary_json(name, scene, *result)),
+        "table"_a = text_of(run::closing_table(name, scene, *result)),
+        "out"_a = options.out.empty() ? py::object(py::none()) : py::object(py::cast(options.out)));
+    return py::module_::import("abut._results").attr("Result")(figures);
+}
+
+template <int Dim>
+py::object simulate(const mesh::Mesh<Dim>& mesh, const std::vector<solid::Material>& materials, const py::object& velocity,
+                    const py::object& acceleration, const std::map<std::string, py::object>& held,
+                    const std::vector<std::string>& rollers, const std::map<std::string, py::object>& traction,
+                    const py::object& displacement, const py::object& added_velocity, bool contact,
+                    std::optional<double> energy_scale, const py::object& look, const py::kwargs& given) {
+    const run::Scene<Dim> scene = scene_of<Dim>({mesh, materials, velocity, acceleration, held, rollers, traction,
+                                                 displacement, added_velocity, contact, energy_scale});
+    return run_scene<Dim>(scene, options_of(given), "python", look);
+}
+
+/// A scene in TOML with the options of Python above its own. Without `out` it writes nothing, whatever the scene says.
+input::SceneFile scene_file(const SceneSource& source, const py::dict& given) {
+    const input::Overrides overrides{.set = source.set,
+                                     .options =
+                                         [&](run::RunOptions& options) {
+                                             options.out.clear();
+                                             take_options(given, options);
+                                         },
+                                     .meshes = source.meshes()};
+    if (source.toml) return input::SceneFile(input::SceneText{*source.toml, source.file}, overrides);
+    return input::SceneFile(source.file, overrides);
+}
+
+template <int Dim>
+py::object run_file(const input::SceneFile& file, const py::object& look) {
+    run::Scene<Dim> scene;
+    {
+        const py::gil_scoped_release release;
+        scene = file.scene<Dim>();
+    }
+    return run_scene<Dim>(scene, file.options(), file.name(), look);
+}
+
+py::object run_source(const SceneSource& source, const py::object& look, const py::dict& given) {
+    const input::SceneFile file = scene_file(source, given);
+    return file.dimension() == 2 ? run_file<2>(file, look) : run_file<3>(file, look);
 }
 
 constexpr const char* run_in_use = "this run takes steps in another thread. Use one thread at a time.";
@@ -307,6 +258,12 @@ bool is_of_memm(const OptionFacts& option) {
            (option.schemes.empty() || is_among(option.schemes, "memm"));
 }
 
+void require_of_memm(const py::dict& given) {
+    for (const auto& option : run::run_options())
+        if (given.contains(option.name.c_str()) && !is_of_memm(option))
+            throw py::type_error("memm takes no '" + option.name + "', which is for simulate");
+}
+
 template <int Dim>
 std::unique_ptr<Memm<Dim>> make_memm(const mesh::Mesh<Dim>& mesh, const std::vector<solid::Material>& materials,
                                      const py::object& velocity, const py::object& acceleration,
@@ -317,12 +274,26 @@ std::unique_ptr<Memm<Dim>> make_memm(const mesh::Mesh<Dim>& mesh, const std::vec
     run::Scene<Dim> scene = scene_of<Dim>(
         {mesh, materials, velocity, acceleration, held, rollers, traction, displacement, added_velocity, contact, {}});
     for (const std::string& group : outside) scene.solid.boundary.traction.push_back({.group = group, .from_outside = true});
-    for (const auto& option : run::run_options())
-        if (given.contains(option.name.c_str()) && !is_of_memm(option))
-            throw py::type_error("memm takes no '" + option.name + "', which is for simulate");
+    require_of_memm(given);
     const run::RunOptions options = options_of(given);
     const py::gil_scoped_release release;
     return std::make_unique<Memm<Dim>>(std::move(scene), options);
+}
+
+template <int Dim>
+py::object memm_of_file(const input::SceneFile& file, const std::vector<std::string>& outside) {
+    const py::gil_scoped_release release;
+    run::Scene<Dim> scene = file.scene<Dim>();
+    for (const std::string& group : outside) scene.solid.boundary.traction.push_back({.group = group, .from_outside = true});
+    auto memm = std::make_unique<Memm<Dim>>(std::move(scene), file.options());
+    const py::gil_scoped_acquire lock;
+    return py::cast(std::move(memm));
+}
+
+py::object memm_of_source(const SceneSource& source, const std::vector<std::string>& outside, const py::dict& given) {
+    require_of_memm(given);
+    const input::SceneFile file = scene_file(source, given);
+    return file.dimension() == 2 ? memm_of_file<2>(file, outside) : memm_of_file<3>(file, outside);
 }
 
 constexpr const char* scene_text =
@@ -401,6 +372,20 @@ void add_runs(py::module_& module) {
         .def_readwrite("eta", &solid::Material::eta, "stabilisation of the jumps between cells [Pa]; 0 means E");
     add_dimension<2>(module, "2D");
     add_dimension<3>(module, "3D");
+    module.def(
+        "run_toml",
+        [](const std::filesystem::path& file, const std::optional<std::string>& toml, const py::dict& meshes,
+           const std::vector<std::string>& set, const py::object& look, const py::dict& options) {
+            return run_source({file, toml, meshes, set}, look, options);
+        },
+        "file"_a, "toml"_a, "meshes"_a, "set"_a, "look"_a, "options"_a, "For abut.run.");
+    module.def(
+        "memm_toml",
+        [](const std::filesystem::path& file, const std::optional<std::string>& toml, const py::dict& meshes,
+           const std::vector<std::string>& set, const std::vector<std::string>& outside, const py::dict& options) {
+            return memm_of_source({file, toml, meshes, set}, outside, options);
+        },
+        "file"_a, "toml"_a, "meshes"_a, "set"_a, "outside"_a, "options"_a, "For abut.memm.");
 }
 
 }  // namespace abut::python

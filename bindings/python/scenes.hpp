@@ -2,6 +2,7 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include <filesystem>
 #include <functional>
 #include <map>
 #include <memory>
@@ -10,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "abut/input/given_meshes.hpp"
 #include "abut/run/options.hpp"
 #include "abut/run/scene.hpp"
 #include "vectors.hpp"
@@ -30,6 +32,25 @@ struct SceneArguments {
     py::object added_velocity;
     bool contact;
     std::optional<double> energy_scale;
+};
+
+/// A scene in the words of TOML.
+struct SceneSource {
+    std::filesystem::path file;       ///< with `toml` what messages call it, and from where its paths begin
+    std::optional<std::string> toml;  ///< its text; none: that of the file
+    py::dict given_meshes;            ///< that are no files: by the text that the key `mesh` of a body has
+    std::vector<std::string> set;     ///< "bodies.left.density=2"
+
+    [[nodiscard]] std::shared_ptr<const input::GivenMeshes> meshes() const {
+        auto meshes = std::make_shared<input::GivenMeshes>();
+        for (const auto& [text, mesh] : given_meshes) {
+            if (py::isinstance<mesh::Mesh<2>>(mesh))
+                meshes->plane.emplace(py::cast<std::string>(text), py::cast<const mesh::Mesh<2>&>(mesh));
+            else
+                meshes->space.emplace(py::cast<std::string>(text), py::cast<const mesh::Mesh<3>&>(mesh));
+        }
+        return meshes;
+    }
 };
 
 /// A function of Python as a field; empty for None. It may be called, copied and dropped without the interpreter's lock.
@@ -70,6 +91,8 @@ run::Scene<Dim> scene_of(const SceneArguments<Dim>& given) {
 
 /// Options of a run by the names of the command line, - written as _. Throws for a name or a word that is not known.
 run::RunOptions options_of(const py::dict& given);
+/// The same above what `options` has; of two that exclude each other that one goes.
+void take_options(const py::dict& given, run::RunOptions& options);
 /// All of them, one per line, with words or unit and default.
 std::string option_text();
 

@@ -1,4 +1,4 @@
-// The Python module `abut.solid`: meshes, solids and runs for numpy.
+// The Python module `abut._solid`, of which abut.solid and abut.run are made: meshes, solids and runs for numpy.
 #include <pybind11/pybind11.h>
 
 #include <cctype>
@@ -63,7 +63,7 @@ void raise(const abut::Error& error) {
 
 }  // namespace
 
-PYBIND11_MODULE(solid, module) {
+PYBIND11_MODULE(_solid, module) {
     module.doc() = "Meshes, solids of linear elasticity in contact, and their runs. docs/languages.md walks through it.";
     py::register_local_exception_translator([](std::exception_ptr thrown) {
         try {

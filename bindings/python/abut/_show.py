@@ -1,0 +1,150 @@
+"""Pictures of meshes and results: for notebooks, by matplotlib, by pyvista. The two are imported where they are asked for."""
+import html
+
+import numpy as np
+
+COLOURS = ("#4477aa", "#ee6677", "#228833", "#ccbb44", "#66ccee", "#aa3377", "#bbbbbb")
+MOST_POLYGONS = 4000  # of a picture within a page
+LOOK = np.array([[0.82, 0.57, 0.0], [-0.25, 0.36, 0.9]])  # right and up of a picture of bodies in space
+VTK_TYPES = {"triangle": 5, "quad": 9, "tetra": 10, "hexahedron": 12, "wedge": 13, "pyramid": 14}
+
+
+def polygons(mesh, displacement=None):
+    """Corners (m, dim) of what is drawn: of cells in 2D, of boundary faces in 3D; and the cell of each."""
+    points = mesh.points if displacement is None else mesh.points + displacement
+    if points.shape[1] == 2:
+        return [points[corners] for _, data in mesh.cells for corners in data], np.arange(len(mesh.body))
+    faces, offsets = mesh.surface["faces"], mesh.surface["offsets"]
+    return [points[faces[a:b]] for a, b in zip(offsets, offsets[1:])], mesh.surface_cells
+
+
+def svg(mesh, displacement=None):
+    """A small picture of bodies as text; empty where they are too many cells for one."""
+    drawn, cell = polygons(mesh, displacement)
+    if len(drawn) > MOST_POLYGONS:
+        return ""
+    shade, order = np.ones(len(drawn)), range(len(drawn))
+    if mesh.points.shape[1] == 3:
+        towards = np.cross(*LOOK)
+        normals = np.array([np.cross(p[1] - p[0], p[2] - p[0]) for p in drawn])
+        facing = normals @ towards / np.linalg.norm(normals, axis=1)
+        shade = 0.6 + 0.4 * facing
+        order = [i for i in np.argsort([p.mean(axis=0) @ towards for p in drawn]) if facing[i] > 0]
+        drawn = [p @ LOOK.T for p in drawn]
+    corners = np.vstack(drawn)
+    low, size = corners.min(axis=0), np.ptp(corners, axis=0)
+    scale = 300.0 / size.max()
+    width, height = size * scale + 4.0
+    shapes = []
+    for i in order:
+        x = (drawn[i] - low) * scale + 2.0
+        colour = _paler(COLOURS[mesh.body[cell[i]] % len(COLOURS)], shade[i])
+        shapes.append(f'<polygon points="{" ".join(f"{a:.1f},{height - b:.1f}" for a, b in x)}" fill="{colour}"/>')
+    return (f'<svg width="{width:.0f}" height="{height:.0f}" viewBox="0 0 {width:.1f} {height:.1f}" stroke="#333" '
+            f'stroke-width="0.4">{"".join(shapes)}</svg>')
+
+
+def html_of_mesh(mesh):
+    """Bodies with their cells and groups, and a picture where it is small."""
+    unit = "m²" if mesh.points.shape[1] == 2 else "m³"
+    rows = "".join(f"<tr><td>{html.escape(name)}</td><td>{(mesh.body == b).sum()}</td><td>{mesh.measures[mesh.body == b].sum():.6g}</td></tr>"
+                   for b, name in enumerate(mesh.body_names))
+    groups = html.escape(", ".join(mesh.groups)) or "none"
+    return (f"<div><b>{html.escape(mesh.name)}</b><table><tr><th>body</th><th>cells</th><th>{unit}</th></tr>{rows}</table>"
+            f"<p>Groups: {groups}</p>{svg(mesh)}</div>")
+
+
+def html_of_result(result):
+    """The verdict, main figures and warnings, and the bodies at the end."""
+    rows = [("steps", f"{result.steps} of {result.dt:.6g} s"), ("time", f"{result.ledger['time'][-1]:.6g} s"),
+            ("contact events", result.contact["events"]), ("missed contacts", result.contact["missed_contacts"]),
+            ("files", result.out or "none")]
+    table = "".join(f"<tr><td>{name}</td><td>{html.escape(str(value))}</td></tr>" for name, value in rows)
+    warnings = "".join(f"<li>{html.escape(text)}</li>" for text in result.warnings)
+    picture = svg(result.mesh, result.frames.point_displacement[-1]) if len(result.frames) else ""
+    return (f"<div><b>{html.escape(result.title or result.name)}</b><p>{html.escape(result.verdict)}</p><table>{table}</table>"
+            f"{f'<ul>{warnings}</ul>' if warnings else ''}{picture}</div>")
+
+
+def show_mesh(mesh, values=None, displacement=None, axes=None):
+    """Draws the bodies by matplotlib and gives back the axes. values: one per cell, for colours, else those of the bodies.
+    displacement: of the points (n_points, dim) [m]."""
+    pyplot = _pyplot()
+    in_space = mesh.points.shape[1] == 3
+    if axes is None:
+        axes = pyplot.figure().add_subplot(projection="3d" if in_space else None)
+    drawn, cell = polygons(mesh, displacement)
+    if in_space:
+        from mpl_toolkits.mplot3d.art3d import Poly3DCollection as Collection
+    else:
+        from matplotlib.collections import PolyCollection as Collection
+    look = dict(edgecolor="#333", linewidth=0.2)
+    if values is None:
+        shapes = Collection(drawn, facecolor=[COLOURS[mesh.body[c] % len(COLOURS)] for c in cell], **look)
+    else:
+        shapes = Collection(drawn, cmap="viridis", **look)
+        shapes.set_array(np.asarray(values)[cell])
+        axes.figure.colorbar(shapes, ax=axes)
+    (axes.add_collection3d if in_space else axes.add_collection)(shapes)
+    corners = np.vstack(drawn)
+    low, high = corners.min(axis=0), corners.max(axis=0)
+    axes.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]), xlabel="x [m]", ylabel="y [m]")
+    if in_space:
+        axes.set(zlim=(low[2], high[2]), zlabel="z [m]")
+        axes.set_box_aspect(high - low)
+    else:
+        axes.set_aspect("equal")
+    return axes
+
+
+def show_result(result, field="von_mises", frame=-1):
+    """See Result.show."""
+    pyplot = _pyplot()
+    if not len(result.frames):
+        raise ValueError("this result has no frames to show; run with frames=2 or more")
+    figure = pyplot.figure(figsize=(10, 4.5))
+    bodies = figure.add_subplot(121, projection="3d" if result.mesh.points.shape[1] == 3 else None)
+    fields = {None: None, "von_mises": result.frames.von_mises, "speed": np.linalg.norm(result.frames.velocity, axis=-1)}
+    if field not in fields:
+        raise ValueError(f"field is '{field}'; 'von_mises', 'speed' and None are allowed")
+    values = None if field is None else fields[field][frame]
+    show_mesh(result.mesh, values, result.frames.point_displacement[frame], bodies)
+    unit = {"von_mises": "von Mises stress [Pa]", "speed": "speed [m/s]"}.get(field, "")
+    bodies.set_title(f"{unit}{', ' if unit else ''}t = {result.frames.time[frame]:.4g} s")
+    energies = figure.add_subplot(122)
+    for column in ("pseudo_energy", "energy", "kinetic", "potential"):
+        energies.plot(result.ledger["time"], result.ledger[column], label=column.replace("_", "-"))
+    energies.set(xlabel="time [s]", ylabel="energy [J]", title=result.title or result.name)
+    energies.legend()
+    figure.tight_layout()
+    return figure
+
+
+def to_pyvista(mesh, displacement=None, **fields):
+    """The mesh as a pyvista.UnstructuredGrid, with the cell array "body" and others of one row per cell."""
+    try:
+        import pyvista
+    except ImportError:
+        raise ImportError("pyvista is not installed; install it (pip install pyvista), or take show(), which needs matplotlib") from None
+    points = mesh.points if displacement is None else mesh.points + displacement
+    if points.shape[1] == 2:
+        points = np.column_stack([points, np.zeros(len(points))])
+    cells = np.concatenate([np.column_stack([np.full(len(data), data.shape[1]), data]).ravel() for _, data in mesh.cells])
+    types = np.concatenate([np.full(len(data), VTK_TYPES[name], np.uint8) for name, data in mesh.cells])
+    grid = pyvista.UnstructuredGrid(cells, types, points)
+    for name, values in {"body": mesh.body, **fields}.items():
+        grid.cell_data[name] = np.asarray(values).reshape(len(mesh.body), -1).squeeze()
+    return grid
+
+
+def _paler(colour, share):
+    """A colour that is mixed with white."""
+    return "#" + "".join(f"{255 - round((255 - int(colour[i:i + 2], 16)) * share):02x}" for i in (1, 3, 5))
+
+
+def _pyplot():
+    try:
+        from matplotlib import pyplot
+    except ImportError:
+        raise ImportError("matplotlib is not installed; install it (apt install python3-matplotlib)") from None
+    return pyplot

@@ -1,0 +1,43 @@
+"""Meshes, solids of linear elasticity in contact, and their runs. docs/languages.md walks through it."""
+from . import _show, _solid
+from ._solid import (Material, Memm2D, Memm3D, Mesh2D, Mesh3D, State2D, State3D, box, combine, cylinder, disc, memm, read_mesh,
+                     simulate, sphere, structured_box)
+
+__all__ = ["Material", "Memm2D", "Memm3D", "Mesh2D", "Mesh3D", "State2D", "State3D", "box", "combine", "cylinder", "disc", "memm",
+           "mesh", "read_mesh", "simulate", "sphere", "structured_box"]
+
+
+def mesh(points, cells=None, body=None, body_names=(), groups=None, **options):
+    """A mesh of arrays, or of a meshio.Mesh.
+
+    points: (n, dim) [m]. cells: {"triangle": (n, 3), ...}, pairs, or blocks with type and data: triangle, quad; tetra, hexahedron,
+    wedge, pyramid. body: one number per cell. groups: {name: points of each face (n, corners), or a list of such arrays}. name: what
+    messages call it. non_planar: "fail" or "split", for faces with a corner farther off their plane than planarity_tolerance times
+    their size.
+
+    A meshio.Mesh alone brings all of it along, so that .inp, .bdf, .med, Exodus, .vtk and other files come in: sets of cells are
+    bodies, of sets within others the smaller ones, and what is in no set is a body for each part that hangs together; sets of boundary cells
+    are groups, and so are sets of points, with the boundary faces that lie between them. Where the file has numbers in place of sets, a
+    set is called as the file calls it, or set_7. Points of no cell are left out.
+
+    >>> from abut import solid
+    >>> square = solid.mesh([[0, 0], [2, 0], [2, 1], [0, 1]], {"quad": [[0, 1, 2, 3]]}, groups={"foot": [[0, 1]]})
+    >>> square.measures.tolist(), square.groups["foot"].tolist()
+    ([2.0], [0])
+    """
+    given = dict(cells=cells, body=body, body_names=list(body_names), groups=groups or {})
+    if cells is None:
+        if not hasattr(points, "cells"):
+            raise TypeError("mesh needs cells beside points, or a meshio.Mesh alone")
+        from ._meshio import arguments
+        of_meshio = arguments(points)
+        points = of_meshio.pop("points")
+        given = {**of_meshio, **{name: value for name, value in given.items() if value is not None and len(value)}}
+    return _solid.mesh(points, **given, **options)
+
+
+for _name in __all__:
+    if isinstance(globals()[_name], type):
+        globals()[_name].__module__ = __name__
+for _class in (Mesh2D, Mesh3D):
+    _class.show, _class.to_pyvista, _class._repr_html_ = _show.show_mesh, _show.to_pyvista, _show.html_of_mesh

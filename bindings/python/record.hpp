@@ -1,0 +1,127 @@
+#pragma once
+// What a run keeps for Python, and what it shows while it goes on.
+#include <algorithm>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "abut/run/body_names.hpp"
+#include "abut/run/contact_forces.hpp"
+#include "abut/run/observer.hpp"
+#include "abut/run/probes.hpp"
+#include "abut/run/scene.hpp"
+#include "states.hpp"
+#include "vectors.hpp"
+
+namespace abut::python {
+
+using namespace py::literals;
+
+/// Keeps what the files of a run hold of its probes, forces and frames. A run that goes on is kept from there.
+template <int Dim>
+class Record : public run::Observer<Dim> {
+public:
+    void begin(const run::Scene<Dim>& scene, const run::RunResult<Dim>& result) override {
+        has_probes_ = !scene.outputs.probes.empty();
+        probes_ = run::Probes<Dim>(scene, result);
+        for (const run::Probe<Dim>& probe : scene.outputs.probes) probe_names_.push_back(probe.name);
+        probe_values_.resize(probe_names_.size());
+        forces_ = run::ContactForces<Dim>(scene, result);
+        names_ = scene.mesh.body_names;
+        for (std::size_t i = 0; i < scene.solid.obstacles.size(); ++i) names_.push_back(run::name_of_obstacle(scene, i));
+        n_steps_ = result.steps;
+        n_frames_ = result.options.frames;
+    }
+    [[nodiscard]] bool wants_look(std::int64_t step) const override {
+        return wants_frame(step) || forces_.wants_look(step) || (has_probes_ && probes_.wants_look(step));
+    }
+    void look(const dynamics::RunView<Dim>& view, solid::Solid<Dim>& solid) override {
+        if (has_probes_ && probes_.wants_look(view.steps)) add_probes(view, solid);
+        if (forces_.wants_look(view.steps))
+            for (const run::ForceRow<Dim>& row : forces_.rows(view, solid)) force_rows_.push_back(row);
+        if (wants_frame(view.steps)) add_frame(view, solid);
+    }
+
+    /// {name: {column: array}}
+    [[nodiscard]] py::dict probes() const {
+        py::dict tables;
+        for (std::size_t probe = 0; probe < probe_names_.size(); ++probe) {
+            py::dict table("step"_a = copy_of(probe_steps_), "time"_a = copy_of(probe_times_));
+            const std::vector<std::string> columns = run::Probes<Dim>::columns();
+            for (std::size_t i = 0; i < columns.size(); ++i) {
+                std::vector<double> column;
+                for (const std::vector<double>& values : probe_values_[probe]) column.push_back(values[i]);
+                table[columns[i].c_str()] = copy_of(column);
+            }
+            tables[text_of(probe_names_[probe])] = table;
+        }
+        return tables;
+    }
+    /// {column: array}
+    [[nodiscard]] py::dict forces() const {
+        std::vector<std::int64_t> step;
+        std::vector<double> time, normal;
+        std::vector<std::string> body_1, body_2;
+        std::vector<std::vector<double>> force(Dim);
+        for (const run::ForceRow<Dim>& row : force_rows_) {
+            step.push_back(row.step);
+            time.push_back(row.time);
+            body_1.push_back(names_[static_cast<std::size_t>(row.body_1)]);
+            body_2.push_back(names_[static_cast<std::size_t>(row.body_2)]);
+            for (std::size_t i = 0; i < Dim; ++i) force[i].push_back(row.force[static_cast<int>(i)]);
+            normal.push_back(row.normal_force);
+        }
+        py::dict table("step"_a = copy_of(step), "time"_a = copy_of(time), "body_1"_a = texts_of(body_1),
+                       "body_2"_a = texts_of(body_2));
+        for (std::size_t i = 0; i < Dim; ++i) table[(std::string("force_") + "xyz"[i]).c_str()] = copy_of(force[i]);
+        table["normal_force"] = copy_of(normal);
+        return table;
+    }
+    /// {name: [array of each frame, ...]}
+    [[nodiscard]] py::dict frames() const {
+        return py::dict("step"_a = frame_steps_, "time"_a = frame_times_, "displacement"_a = displacement_,
+                        "velocity"_a = velocity_, "stress"_a = stress_, "von_mises"_a = von_mises_,
+                        "contact_pressure"_a = pressure_, "point_displacement"_a = point_displacement_);
+    }
+
+private:
+    /// As run::Frames has it.
+    [[nodiscard]] bool wants_frame(std::int64_t step) const {
+        const auto written = static_cast<std::int64_t>(frame_steps_.size());
+        return written < n_frames_ && step * std::max<std::int64_t>(1, n_frames_ - 1) >= written * n_steps_;
+    }
+    void add_probes(const dynamics::RunView<Dim>& view, solid::Solid<Dim>& solid) {
+        probe_steps_.push_back(view.steps);
+        probe_times_.push_back(view.time);
+        const auto rows = probes_.values(view, solid);
+        for (std::size_t probe = 0; probe < rows.size(); ++probe) probe_values_[probe].push_back(rows[probe]);
+    }
+    void add_frame(const dynamics::RunView<Dim>& view, solid::Solid<Dim>& solid) {
+        const State<Dim> state(view, solid);
+        const py::gil_scoped_acquire lock;
+        frame_steps_.push_back(view.steps);
+        frame_times_.push_back(view.time);
+        displacement_.append(state.displacement());
+        velocity_.append(state.velocity());
+        stress_.append(state.stress());
+        von_mises_.append(state.von_mises());
+        pressure_.append(state.contact_pressure());
+        point_displacement_.append(state.point_displacement());
+    }
+
+    bool has_probes_ = false;
+    run::Probes<Dim> probes_;
+    std::vector<std::string> probe_names_;
+    std::vector<std::int64_t> probe_steps_;
+    std::vector<double> probe_times_;
+    std::vector<std::vector<std::vector<double>>> probe_values_;  // by probe and row
+    run::ContactForces<Dim> forces_;
+    std::vector<std::string> names_;  // of bodies, then of obstacles
+    std::vector<run::ForceRow<Dim>> force_rows_;
+    std::int64_t n_steps_ = 0, n_frames_ = 0;
+    std::vector<std::int64_t> frame_steps_;
+    std::vector<double> frame_times_;
+    py::list displacement_, velocity_, stress_, von_mises_, pressure_, point_displacement_;
+};
+
+}  // namespace abut::python
