@@ -3,6 +3,7 @@
 
 #include "abut/input/keys.hpp"
 #include "abut/run/option_table.hpp"
+#include "abut/solid/option_words.hpp"
 
 namespace abut::input {
 namespace {
@@ -61,6 +62,10 @@ Key<Body> counts() {
     return required(key_of<Body>("counts", "whole numbers", "bricks along each direction", &Body::counts, read));
 }
 
+std::vector<Word<solid::ElasticLaw>> elastic_laws() {
+    return {solid::elastic_law_words.begin(), solid::elastic_law_words.end()};
+}
+
 /// Of a material by itself, and of a body that has one of its own.
 template <class Section>
 Keys<Section> material_values() {
@@ -73,7 +78,15 @@ Keys<Section> material_values() {
         From::number("poisson", value(&solid::Material::poisson), {.above = -1.0, .below = 0.5}, "Poisson's ratio nu"),
         required(From::number("density", value(&solid::Material::density), {.unit = "kg/m^3", .above = 0.0}, "density rho")),
         From::number("eta", value(&solid::Material::eta), {.unit = "Pa", .above = 0.0, .zero = true},
-                     "stabilisation of jumps between cells; 0: Young's modulus")};
+                     "stabilisation of jumps between cells; 0: Young's modulus"),
+        From::word(
+            "law", [](Section& section) -> solid::ElasticLaw& { return section.material.law; }, elastic_laws(),
+            "at large strains, of finite bodies: st_venant_kirchhoff up to strains of 0.1, neo_hookean and mooney_rivlin "
+            "(rubber) "
+            "beyond"),
+        From::number("second_share", value(&solid::Material::second_share),
+                     {.above = 0.0, .below = 1.0, .closed = true, .zero = true},
+                     "of mooney_rivlin: shear modulus of the second invariant over all of it, at most lambda/(2 mu)")};
 }
 
 }  // namespace
@@ -100,7 +113,7 @@ const Keys<Body>& body_keys() {
     static const Keys<Body> keys = [] {
         Keys<Body> all = {
             Of::text("material", &Body::material_name, "text",
-                     "[materials.NAME] that it is made of: of the next four it gives what the body does not"),
+                     "[materials.NAME] that it is made of: of the next six it gives what the body does not"),
             Of::word("kinematics", &Body::kinematics, body_kinematics(),
                      "how it may move: without turns, in a frame that turns, bending, or rigid"),
             Of::vector("place", &Body::place, "m", "0",

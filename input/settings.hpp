@@ -18,7 +18,7 @@
 #include "abut/run/preset.hpp"
 #include "abut/solid/boundary_conditions.hpp"
 #include "abut/solid/kinematics/kinematics.hpp"
-#include "abut/solid/material.hpp"
+#include "abut/solid/material/material.hpp"
 
 /// What a scene file says, key by key and for both dimensions: of vectors in the plane z is 0, and turns are about z.
 namespace abut::input {

@@ -29,10 +29,11 @@ List of_time() {
         option("time", &Of::time, {.help = "end of the run", .limits = a_time, .named = Named::never}),
         option("steps", &Of::steps,
                {.help = "steps of the run where no time is given; 0: as many as the time takes", .named = Named::never}),
-        option("settle", &Of::settle,
-               {.help = "bring the bodies to rest under the loads of t = 0 before the run begins, with their friction; their "
-                        "velocities come after that",
-                .named = Named::changed}),
+        option(
+            "settle", &Of::settle,
+            {.help = "bring the bodies to rest under the loads of t = 0 before the run begins, with their friction; their "
+                     "velocities come after that",
+             .named = Named::changed}),
         option("cfl", &Of::cfl,
                {.help = "time step over the stable step, at most 1 (the margin for contact is in the stable step)",
                 .limits = {.above = 0.0,
@@ -84,6 +85,15 @@ List of_time() {
             "kinematics", &Of::kinematics, kinematics_words,
             {.help = "of all bodies: small for those that do not turn, floating frames, finite (they bend), rigid, as the "
                      "scene says, or automatic: small, floating or rigid by what a run with rigid bodies shows",
+             .group = "Contact"}),
+        choice(
+            "mean_force", &Of::mean_force, solid::mean_force_words,
+            {.help =
+                 "of a step inside finite bodies: automatic is closed_trapezoid, the mean of the forces at both ends with "
+                 "what closes energy and moment of the body; trapezoid leaves that out; discrete_gradient is exact cell by "
+                 "cell and feeds noise (docs/limits.md)",
+             .schemes = memm,
+             .named = Named::changed,
              .group = "Contact"}),
         option("threads", &Of::threads,
                {.help = "threads, of each rank where there are several; 0: all. The results do not depend on it",

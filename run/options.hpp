@@ -38,6 +38,7 @@ struct RunOptions {
     double dt = not_given;        ///< time step [s], instead of `cfl`
     bool allow_unstable = false;  ///< takes `dt` even above the stable step
     BodyKinematics kinematics = BodyKinematics::scene;
+    solid::MeanForce mean_force = solid::MeanForce::automatic;  ///< inside bodies of Kinematics::finite
     solid::ContactLaw law = solid::ContactLaw::automatic;
     contact::ContactOptions contact;
     contact::Friction friction;   ///< between all bodies and obstacles for which the scene has no law

@@ -69,6 +69,7 @@ solid::SolidOptions<Dim> solid_options(const Scene<Dim>& scene, const RunOptions
     solid::SolidOptions<Dim> solid = scene.solid;
     solid.boundary.free_face_rule = options.neumann;
     solid.boundary.corner_rule = options.corners;
+    solid.finite.mean_force = options.mean_force;
     solid.precision = options.precision;
     solid.device = options.device;
     if (const auto kinematics = kinematics_of_all(options.kinematics))

@@ -52,6 +52,7 @@ Bodies<Dim>::Bodies(const mesh::Mesh<Dim>& mesh, const SolidOptions<Dim>& option
     part_options_.materials = chosen(options.materials, deformable_bodies_);
     part_options_.kinematics = chosen(options.kinematics, deformable_bodies_);
     part_options_.acceleration = chosen(options.acceleration, deformable_bodies_);
+    set_stored_energies();
     part_options_.boundary.traction.clear();
     for (std::size_t i = 0; i < options.boundary.traction.size(); ++i)
         if (traction_holds_[i] != TractionHold::points)
@@ -252,6 +253,28 @@ void Bodies<Dim>::check_outside(const TractionCondition<Dim>& condition) const {
 template <int Dim>
 Kinematics Bodies<Dim>::kinematics(std::int32_t body) const {
     return options_.kinematics.empty() ? Kinematics::small : options_.kinematics[static_cast<std::size_t>(body)];
+}
+
+template <int Dim>
+void Bodies<Dim>::set_stored_energies() {
+    auto& of_bodies = part_options_.finite.stored_energy;
+    of_bodies = chosen(options_.finite.stored_energy, deformable_bodies_);
+    of_bodies.resize(deformable_bodies_.size());
+    for (std::size_t i = 0; i < of_bodies.size(); ++i) {
+        if (!of_bodies[i]) of_bodies[i] = stored_energy<Dim>(part_options_.materials[i]);
+        if (!of_bodies[i]) continue;
+        const std::int32_t body = deformable_bodies_[i];
+        const std::string who = mesh_.name + ": body '" + mesh_.body_names[static_cast<std::size_t>(body)] + "' ";
+        if (!is_finite(body))
+            throw BadInput(
+                who +
+                "has a law of large strains, which bodies of Kinematics::finite alone know. Take that (--kinematics "
+                "finite), or ElasticLaw::st_venant_kirchhoff.");
+        if (options_.finite.mean_force == MeanForce::discrete_gradient)
+            throw BadInput(who +
+                           "has a law of large strains, for which there is no MeanForce::discrete_gradient. Take "
+                           "MeanForce::closed_trapezoid (--mean-force closed_trapezoid).");
+    }
 }
 
 template <int Dim>

@@ -6,12 +6,20 @@
 #include "abut/solid/ccg/precision.hpp"
 #include "abut/solid/ccg/step_device.hpp"
 #include "abut/solid/kinematics/kinematics.hpp"
+#include "abut/solid/material/material.hpp"
 
 namespace abut::solid {
 
 inline constexpr std::array<Word<ContactLaw>, 3> law_words{{{"automatic", ContactLaw::automatic},
                                                             {"reconstruction", ContactLaw::reconstruction},
                                                             {"pair_potential", ContactLaw::pair_potential}}};
+inline constexpr std::array<Word<ElasticLaw>, 3> elastic_law_words{{{"st_venant_kirchhoff", ElasticLaw::st_venant_kirchhoff},
+                                                                    {"neo_hookean", ElasticLaw::neo_hookean},
+                                                                    {"mooney_rivlin", ElasticLaw::mooney_rivlin}}};
+inline constexpr std::array<Word<MeanForce>, 4> mean_force_words{{{"automatic", MeanForce::automatic},
+                                                                  {"discrete_gradient", MeanForce::discrete_gradient},
+                                                                  {"trapezoid", MeanForce::trapezoid},
+                                                                  {"closed_trapezoid", MeanForce::closed_trapezoid}}};
 inline constexpr std::array<Word<FreeFaceRule>, 3> free_face_words{{{"local_equilibrium", FreeFaceRule::local_equilibrium},
                                                                     {"extrapolate", FreeFaceRule::extrapolate},
                                                                     {"adjacent", FreeFaceRule::adjacent}}};

@@ -11,10 +11,11 @@
 #include "abut/geometry/pair_potential/pair_potential.hpp"
 #include "abut/solid/attachments.hpp"
 #include "abut/solid/boundary_conditions.hpp"
+#include "abut/solid/ccg/finite_options.hpp"
 #include "abut/solid/ccg/precision.hpp"
 #include "abut/solid/ccg/step_device.hpp"
 #include "abut/solid/kinematics/kinematics.hpp"
-#include "abut/solid/material.hpp"
+#include "abut/solid/material/material.hpp"
 
 namespace abut::solid {
 
@@ -29,6 +30,7 @@ template <int Dim>
 struct SolidOptions {
     std::vector<Material> materials;     ///< one per body
     std::vector<Kinematics> kinematics;  ///< one per body; empty: all `small`
+    FiniteOptions<Dim> finite;           ///< of bodies of Kinematics::finite; of `stored_energy` null: as Material::law says
     BoundaryConditions<Dim> boundary;
     std::vector<Vector<Dim>> acceleration;  ///< of gravity, one per body [m/s^2]; empty: none
     std::function<Vector<Dim>(const Vector<Dim>& position)>

@@ -18,6 +18,7 @@
 #include "abut/solid/rank_part.hpp"
 #include "abut/solid/rank_rows.hpp"
 #include "abut/solid/reconstruction_driver.hpp"
+#include "abut/solid/trapezoid_closure.hpp"
 #include "abut/solid/turning_tractions.hpp"
 
 namespace abut::solid {
@@ -70,7 +71,7 @@ Solid<Dim>::Solid(const mesh::Mesh<Dim>& mesh, SolidOptions<Dim> options, const 
                                 const SolidOptions<Dim>& deformable = bodies_->deformable_options();
                                 return Ccg<Dim>(bodies_->deformable(), deformable.materials, deformable.boundary,
                                                 deformable.kinematics, CellForm::automatic, deformable.precision,
-                                                deformable.device);
+                                                deformable.device, deformable.finite);
                             })),
       rotation_(std::make_unique<BodyRotation<Dim>>(part_->rest(), part_->masses(), part_->body_begin(), part_->ranks())),
       frames_(std::make_unique<BodyFrames<Dim>>(bodies_->frames(*part_))),
@@ -88,6 +89,9 @@ Solid<Dim>::Solid(const mesh::Mesh<Dim>& mesh, SolidOptions<Dim> options, const 
     frame_loads_ = std::make_unique<FrameLoads<Dim>>(*bodies_, *frames_, *part_);
     if (frame_loads_->any()) frame_loads_->take(loads_->end());
     outside_ = std::make_unique<OutsideLoads<Dim>>(*bodies_, ccg_, *loads_, *point_loads_);
+    const MeanForce mean_force = options_.finite.mean_force;
+    if (bodies_->any_finite() && (mean_force == MeanForce::closed_trapezoid || mean_force == MeanForce::automatic))
+        closure_ = std::make_unique<TrapezoidClosure<Dim>>(*bodies_, *part_, ccg_);
     if (!options_.contact) return;
     const ContactLaw law = bodies_->law();
     refuse_choices_of_other_law(law, options_);

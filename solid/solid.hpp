@@ -60,6 +60,8 @@ template <int Dim>
 class PointLoads;
 template <int Dim>
 class RankPart;
+template <int Dim>
+class TrapezoidClosure;
 
 /// Deformable bodies on one mesh, in contact with each other and with rigid obstacles: a System. With contact or with loads
 /// that vary it is for one run, beginning at t = 0: loads, work and contacts go on from one `mean_force` to the next.
@@ -301,9 +303,10 @@ private:
     std::unique_ptr<Loads<Dim>> loads_;
     std::unique_ptr<FrameLoads<Dim>> frame_loads_;
     std::unique_ptr<OutsideLoads<Dim>> outside_;
-    std::unique_ptr<ContactDriver<Dim>> contact_;  // null without contact
-    std::unique_ptr<LocalLevels<Dim>> levels_;     // null without local steps
-    LargeArray<double> midpoint_;                  // in the frames, packed; empty where no body turns
+    std::unique_ptr<TrapezoidClosure<Dim>> closure_;  // null where no mean force needs one
+    std::unique_ptr<ContactDriver<Dim>> contact_;     // null without contact
+    std::unique_ptr<LocalLevels<Dim>> levels_;        // null without local steps
+    LargeArray<double> midpoint_;                     // in the frames, packed; empty where no body turns
     std::vector<Vector<Dim>> in_frames_;
     std::vector<std::int32_t> all_cells_;   // that deform
     std::vector<Vector<Dim>> rigid_force_;  // on the points of rigid bodies, constant; by point

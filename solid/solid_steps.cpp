@@ -16,6 +16,7 @@
 #include "abut/solid/point_loads.hpp"
 #include "abut/solid/rank_part.hpp"
 #include "abut/solid/solid.hpp"
+#include "abut/solid/trapezoid_closure.hpp"
 
 namespace abut::solid {
 namespace {
@@ -63,7 +64,8 @@ void Solid<Dim>::mean_force(std::span<const double> q_0, std::span<const double>
 
     const Stopwatch watch(times_.bulk);
     const auto gradient = result_here(force);
-    const StepEnds<Dim> ends{of_cells(u_0), of_cells(u_1)};
+    const BoundaryLoad<Dim>& start_load = loads_->vary() ? loads_->start() : loads_->end();
+    const StepEnds<Dim> ends{of_cells(u_0), of_cells(u_1), &start_load, &loads_->end()};
     const auto take_gradient = [&](const BoundaryLoad<Dim>& load) {
         const ProcessorStopwatch of_cells(times_.own_cells);
         if (frames_->any_turns())
@@ -114,6 +116,7 @@ void Solid<Dim>::finish_step(const Ends& ends, double time, double dt, contact::
     add_work(is_mean ? 1.0 : 0.5);
     if (contact_) contact_->add_impulses(dt);
     to_force(is_mean ? ends.start : ends.end, ends.end, gradient);
+    if (closure_ && is_mean) closure_->add(ends.start, ends.end, gradient);
     work_ += frame_loads_->work();
     add_point_loads(ends.start, ends.end, time, dt, take, gradient);
     outside_->add_step(ends.start, ends.end, [this](std::int32_t body) { return mean_turn(body); });

@@ -22,6 +22,7 @@
 #include "abut/run/summary.hpp"
 #include "abut/run/verdict.hpp"
 #include "abut/run/warnings.hpp"
+#include "abut/solid/option_words.hpp"
 #include "in_use.hpp"
 #include "record.hpp"
 #include "scenes.hpp"
@@ -358,18 +359,35 @@ void add_dimension(py::module_& module, const std::string& suffix) {
                    .c_str());
 }
 
+solid::ElasticLaw elastic_law(const std::string& name) {
+    std::string all;
+    for (const auto& [word, law] : solid::elastic_law_words) {
+        if (name == word) return law;
+        all += std::string(all.empty() ? "'" : ", '") + word + "'";
+    }
+    throw py::value_error("law is '" + name + "'; it is one of " + all);
+}
+
 }  // namespace
 
 void add_runs(py::module_& module) {
-    py::class_<solid::Material>(module, "Material", "Isotropic linear elasticity; plane strain in 2D.")
-        .def(py::init([](double young, double poisson, double density, double eta) {
-                 return solid::Material{young, poisson, density, eta};
-             }),
-             "young"_a = 1.0, "poisson"_a = 0.3, "density"_a = 1.0, "eta"_a = 0.0)
+    py::class_<solid::Material>(module, "Material", "Isotropic elasticity; plane strain in 2D.")
+        .def(py::init(
+                 [](double young, double poisson, double density, double eta, const std::string& law, double second_share) {
+                     return solid::Material{young, poisson, density, eta, elastic_law(law), second_share};
+                 }),
+             "young"_a = 1.0, "poisson"_a = 0.3, "density"_a = 1.0, "eta"_a = 0.0, "law"_a = "st_venant_kirchhoff",
+             "second_share"_a = 0.0)
         .def_readwrite("young", &solid::Material::young, "E [Pa]")
         .def_readwrite("poisson", &solid::Material::poisson, "nu")
         .def_readwrite("density", &solid::Material::density, "rho [kg/m^3]")
-        .def_readwrite("eta", &solid::Material::eta, "stabilisation of the jumps between cells [Pa]; 0 means E");
+        .def_readwrite("eta", &solid::Material::eta, "stabilisation of the jumps between cells [Pa]; 0 means E")
+        .def_property(
+            "law", [](const solid::Material& material) { return word_of(solid::elastic_law_words, material.law); },
+            [](solid::Material& material, const std::string& law) { material.law = elastic_law(law); },
+            "at large strains, of finite bodies: 'st_venant_kirchhoff', 'neo_hookean' or 'mooney_rivlin'")
+        .def_readwrite("second_share", &solid::Material::second_share,
+                       "of mooney_rivlin: mu of the second invariant over mu");
     add_dimension<2>(module, "2D");
     add_dimension<3>(module, "3D");
     module.def(

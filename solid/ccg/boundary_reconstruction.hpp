@@ -7,7 +7,7 @@
 #include "abut/solid/boundary_conditions.hpp"
 #include "abut/solid/ccg/stencil.hpp"
 #include "abut/solid/kinematics/kinematics.hpp"
-#include "abut/solid/material.hpp"
+#include "abut/solid/material/material.hpp"
 
 namespace abut::solid {
 

@@ -77,7 +77,7 @@ struct Ccg<Dim>::Impl {
 
     Impl(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials,
          const BoundaryConditions<Dim>& boundary_conditions, std::span<const Kinematics> kinematics, CellForm form,
-         Precision precision, StepDevice device);
+         Precision precision, StepDevice device, const FiniteOptions<Dim>& finite_options);
 
     /// evaluate(sweeps) of those that make steps.
     template <class Evaluate>
@@ -91,12 +91,12 @@ struct Ccg<Dim>::Impl {
 template <int Dim>
 Ccg<Dim>::Impl::Impl(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials,
                      const BoundaryConditions<Dim>& boundary_conditions, std::span<const Kinematics> kinematics,
-                     CellForm form, Precision precision, StepDevice device)
+                     CellForm form, Precision precision, StepDevice device, const FiniteOptions<Dim>& finite_options)
     : conditions(boundary_conditions),
       face_conditions(sort_to_faces(mesh, boundary_conditions)),
       arrays(mesh, checked(mesh, materials), face_conditions, conditions.free_face_rule, conditions.corner_rule, kinematics,
              form),
-      finite(mesh, face_conditions, kinematics),
+      finite(mesh, face_conditions, kinematics, finite_options),
       sweeps(arrays, arrays, finite),
       steps(step_sweeps(mesh, kinematics, arrays, finite, sweeps, precision, device)) {
     const auto all = solid::boundary_faces(mesh);
@@ -115,8 +115,9 @@ Ccg<Dim>::Impl::Impl(const mesh::Mesh<Dim>& mesh, std::span<const Material> mate
 
 template <int Dim>
 Ccg<Dim>::Ccg(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials, const BoundaryConditions<Dim>& conditions,
-              std::span<const Kinematics> kinematics, CellForm form, Precision precision, StepDevice device)
-    : impl_(std::make_unique<Impl>(mesh, materials, conditions, kinematics, form, precision, device)) {}
+              std::span<const Kinematics> kinematics, CellForm form, Precision precision, StepDevice device,
+              const FiniteOptions<Dim>& finite)
+    : impl_(std::make_unique<Impl>(mesh, materials, conditions, kinematics, form, precision, device, finite)) {}
 
 template <int Dim>
 Ccg<Dim>::~Ccg() = default;
@@ -232,8 +233,8 @@ void Ccg<Dim>::boundary_displacement(std::span<const Vector<Dim>> u, const Bound
 
 template <int Dim>
 void Ccg<Dim>::gradient(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load,
-                        const FaceCorrections<Dim>& corrections, std::span<Vector<Dim>> result, const StepEnds<Dim>& ends) {
-    impl_->sweeps.gradient(u, load, corrections, result, ends);
+                        const FaceCorrections<Dim>& corrections, std::span<Vector<Dim>> result) {
+    impl_->sweeps.gradient(u, load, corrections, result);
     impl_->steps_were_last = impl_->steps_have_state = false;
 }
 
@@ -256,6 +257,11 @@ void Ccg<Dim>::gradient_of_packed(LargeArray<double>& u, const BoundaryLoad<Dim>
     if (impl_->steps)
         return impl_->take_step([&](auto& sweeps) { sweeps.gradient_of_packed(u, load, corrections, result); });
     impl_->sweeps.gradient_of_packed(u, load, corrections, result, ends);
+}
+
+template <int Dim>
+StepDefect<Dim> Ccg<Dim>::step_defect(std::int32_t cell, const Vector<Dim>& arm) const {
+    return impl_->sweeps.step_defect(cell, arm);
 }
 
 template <int Dim>

@@ -9,6 +9,7 @@
 #include "abut/contact/step.hpp"
 #include "abut/solid/ccg/boundary_reconstruction.hpp"
 #include "abut/solid/ccg/cell_form.hpp"
+#include "abut/solid/ccg/finite_options.hpp"
 #include "abut/solid/ccg/precision.hpp"
 #include "abut/solid/ccg/step_device.hpp"
 
@@ -36,14 +37,24 @@ struct FaceCorrections {
 /// state.
 template <int Dim>
 struct StepEnds {
-    std::span<const Vector<Dim>> start;  ///< displacements (n_cells) [m]
-    std::span<const Vector<Dim>> end;    ///< the same
+    std::span<const Vector<Dim>> start;             ///< displacements (n_cells) [m]
+    std::span<const Vector<Dim>> end;               ///< the same
+    const BoundaryLoad<Dim>* start_load = nullptr;  ///< null: none; read where MeanForce is of both ends
+    const BoundaryLoad<Dim>* end_load = nullptr;    ///< the same
+};
+
+/// What a cell lacks of a step whose mean force is that of both ends, contact and tractions not counted.
+template <int Dim>
+struct StepDefect {
+    double energy;            ///< -dV less the work of the force [J]: what is to be added to that work
+    double rounding;          ///< of `energy`, where it is a difference of energies [J]
+    AxialVector<Dim> moment;  ///< of dV/du about the mean position [N m]
 };
 
 /// How much the cells of bodies of Kinematics::finite are deformed at most.
 struct FiniteExtremes {
     double determinant = 1.0;  ///< least det F [-]; 0 where a free face has no stretch across left
-    double strain = 0.0;       ///< largest |E|, Frobenius [-]
+    double strain = 0.0;       ///< largest |E|, Frobenius, of St. Venant and Kirchhoff's material [-]
     std::int32_t cell = -1;    ///< with the least det F; -1 where none is below 1
 };
 
@@ -82,7 +93,8 @@ public:
     /// where there is no such device; LimitExceeded where the device has too little memory.
     Ccg(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials, const BoundaryConditions<Dim>& conditions,
         std::span<const Kinematics> kinematics = {}, CellForm form = CellForm::automatic,
-        Precision precision = Precision::double_precision, StepDevice device = StepDevice::host);
+        Precision precision = Precision::double_precision, StepDevice device = StepDevice::host,
+        const FiniteOptions<Dim>& finite = {});
     ~Ccg();
     Ccg(Ccg&&) noexcept;
     Ccg& operator=(Ccg&&) noexcept;
@@ -113,20 +125,22 @@ public:
     void boundary_displacement(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load,
                                std::span<Vector<Dim>> displacement);
 
-    /// dV/du_c (n_cells) [N] for V(u, û + delta) less the work of tractions; the gradients of `corrections` are added. Of bodies
-    /// of Kinematics::finite with `ends` the discrete gradient: its work along the step is the change of V.
+    /// dV/du_c (n_cells) [N] for V(u, û + delta) less the work of tractions; the gradients of `corrections` are added.
     void gradient(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load, const FaceCorrections<Dim>& corrections,
-                  std::span<Vector<Dim>> result, const StepEnds<Dim>& ends = {});
+                  std::span<Vector<Dim>> result);
     /// The same in the precision and on the device of steps.
     void step_gradient(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load,
                        const FaceCorrections<Dim>& corrections, std::span<Vector<Dim>> result);
-    /// The same of the mean of both ends: the mean of the gradient along the step.
+    /// The same of the mean of both ends: the mean of the gradient along the step; of bodies of Kinematics::finite as MeanForce says.
     void mean_gradient(const StepEnds<Dim>& ends, const BoundaryLoad<Dim>& load, const FaceCorrections<Dim>& corrections,
                        std::span<Vector<Dim>> result);
     /// The same of u as the sweeps read it: packed, lane_width numbers per cell. They keep the array and give back another one
     /// of its size.
     void gradient_of_packed(LargeArray<double>& u, const BoundaryLoad<Dim>& load, const FaceCorrections<Dim>& corrections,
                             std::span<Vector<Dim>> result, const StepEnds<Dim>& ends = {});
+    /// Of a cell of Kinematics::finite in the last step of `mean_gradient` or `gradient_of_packed`, where MeanForce is of both
+    /// ends; `arm` is its mean position, from any point [m]. The sum over the cells of a body is what counts.
+    [[nodiscard]] StepDefect<Dim> step_defect(std::int32_t cell, const Vector<Dim>& arm) const;
     /// dV/dû_f of a boundary face [N], tractions and pairs included, after the last call of `gradient` or its like;
     /// `evaluate_cells` since then has set those of its region, in double precision.
     [[nodiscard]] Vector<Dim> boundary_gradient(BoundaryFace face) const;

@@ -55,10 +55,12 @@ double CcgSweeps<Dim, Real>::energy(std::ptrdiff_t c) const {
     const auto relative = [&](std::int32_t f) { return load_packed<Dim>(of_face_, f); };
     const LaneTensor<Dim, Real> g = simplices ? element_.gradient_of(u_.data(), c, relative) : load_tensor<Dim>(g_, c);
     const bool finite = finite_.contains(c);
+    const StoredEnergy<Dim>* law = finite_.law(c);
     const LaneTensor<Dim, Real> strain = finite ? green_strain(g) : g;
     const LaneTensor<Dim, Real> sigma = finite ? finite_stress(c, strain) : elastic_stress(cell, g);
     double density = 0.0;
     for (int j = 0; j < Dim; ++j) density += dot(sigma.col[j], strain.col[j]);
+    if (law) density = 2.0 * law_response(static_cast<std::int32_t>(c), unload(g)).energy;
     double twice = density / cell.inverse_measure;
     for (std::int32_t i = arrays_.half_face_offsets[c]; i < arrays_.half_face_offsets[c + 1]; ++i) {
         const HalfFace& half_face = arrays_.half_faces[i];
@@ -88,8 +90,9 @@ void CcgSweeps<Dim, Real>::load_displacement(std::span<const Vector<Dim>> u) {
 template <int Dim, class Real>
 void CcgSweeps<Dim, Real>::reconstruct_chunk(std::int32_t k) {
     for_runs(wanted_.reconstructed[k], [&](std::int32_t f) { store(element_.reconstructed(u_.data(), f), of_face_, f); });
+    const SweepElements<Vectors>& of_rows = takes_end(k) ? end_element_ : element_;
     for (const BoundaryFace b : wanted_.reconstructed_rows[k])
-        store(element_.reconstructed_row(u_.data(), b), of_face_, arrays_.face_of(b));
+        store(of_rows.reconstructed_row(u_.data(), b), of_face_, arrays_.face_of(b));
     if constexpr (takes_finite) {
         if (!has_change_ || !chunks_[k].has_finite) return;
         for_runs(wanted_.reconstructed[k],

@@ -27,8 +27,13 @@ FreeCell<Dim> free_cell(std::int32_t cell, const std::vector<Vector<Dim>>& norma
 
 template <int Dim>
 FiniteCells<Dim>::FiniteCells(const mesh::Mesh<Dim>& mesh, const FaceConditions<Dim>& conditions,
-                              std::span<const Kinematics> kinematics) {
+                              std::span<const Kinematics> kinematics, const FiniteOptions<Dim>& options) {
     if (std::ranges::find(kinematics, Kinematics::finite) == kinematics.end()) return;
+    takes_ends_ = options.mean_force != MeanForce::discrete_gradient;
+    if (std::ranges::any_of(options.stored_energy, [](const auto& law) { return law != nullptr; })) {
+        laws_ = options.stored_energy;
+        for (const std::int32_t body : mesh.cell_body) law_.push_back(laws_[static_cast<std::size_t>(body)].get());
+    }
     position_.assign(static_cast<std::size_t>(mesh.n_cells()), linear);
     for (std::int32_t c = 0; c < mesh.n_cells(); ++c)
         if (kinematics[static_cast<std::size_t>(mesh.cell_body[c])] == Kinematics::finite) position_[c] = inside;

@@ -1,13 +1,16 @@
 #pragma once
 // Private to the sources of this layer.
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
 #include "abut/mesh/mesh.hpp"
 #include "abut/solid/boundary_conditions.hpp"
+#include "abut/solid/ccg/finite_options.hpp"
 #include "abut/solid/ccg/finite_cell.hpp"
 #include "abut/solid/kinematics/kinematics.hpp"
+#include "abut/solid/material/stored_energy.hpp"
 
 namespace abut::solid {
 
@@ -18,9 +21,18 @@ public:
     /// None.
     FiniteCells() = default;
     /// `kinematics`: one per body; empty: none is finite.
-    FiniteCells(const mesh::Mesh<Dim>& mesh, const FaceConditions<Dim>& conditions, std::span<const Kinematics> kinematics);
+    FiniteCells(const mesh::Mesh<Dim>& mesh, const FaceConditions<Dim>& conditions, std::span<const Kinematics> kinematics,
+                const FiniteOptions<Dim>& options);
 
     [[nodiscard]] bool any() const { return !position_.empty(); }
+    /// Whether their mean force is that of both ends; else it is the discrete gradient.
+    [[nodiscard]] bool takes_ends() const { return takes_ends_; }
+    /// Whether a body has a StoredEnergy.
+    [[nodiscard]] bool any_law() const { return !laws_.empty(); }
+    /// Of a cell; null: its material is St. Venant and Kirchhoff's.
+    [[nodiscard]] const StoredEnergy<Dim>* law(std::ptrdiff_t cell) const {
+        return laws_.empty() ? nullptr : law_[static_cast<std::size_t>(cell)];
+    }
     [[nodiscard]] bool contains(std::ptrdiff_t cell) const {
         return any() && position_[static_cast<std::size_t>(cell)] != linear;
     }
@@ -41,6 +53,9 @@ private:
 
     std::vector<std::int32_t> position_;  // of each cell; empty where no body is finite
     std::vector<FreeCell<Dim>> free_;
+    bool takes_ends_ = false;
+    std::vector<std::shared_ptr<const StoredEnergy<Dim>>> laws_;  // by body; empty without any
+    std::vector<const StoredEnergy<Dim>*> law_;                   // of each cell; the same
 };
 
 }  // namespace abut::solid

@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <atomic>
+#include <utility>
 #include <vector>
 
 #include "abut/base/parallel.hpp"
@@ -39,7 +41,7 @@ LaneTensor<Dim, Real> CcgSweeps<Dim, Real>::finite_stress(std::ptrdiff_t c, cons
 }
 
 template <int Dim, class Real>
-void CcgSweeps<Dim, Real>::set_finite_displacement_gradient(std::ptrdiff_t c) {
+void CcgSweeps<Dim, Real>::set_finite_displacement_gradient(std::int32_t c) {
     const LaneTensor<Dim, Real> g =
         element_.gradient_of(u_.data(), c, [&](std::int32_t f) { return load_packed<Dim>(of_face_, f); });
     LaneTensor<Dim, Real> change{};
@@ -48,24 +50,136 @@ void CcgSweeps<Dim, Real>::set_finite_displacement_gradient(std::ptrdiff_t c) {
             element_.gradient_of(u_change_.data(), c, [&](std::int32_t f) { return load_packed<Dim>(relative_change_, f); });
     store_tensor(g, g_, c);
     store_tensor(change, g_change_, c);
-    const FreeCell<Dim>* free = finite_.condensed(c);
-    if (!free) return element_.set_traces(c, g);
-    CondensedStep<Dim>& step = condensed_[finite_.free_position(c)];
+    const std::int32_t position = finite_.free_position(c);
+    if (position < 0) return element_.set_traces(c, g);
+    const FreeCell<Dim>& free = finite_.free()[position];
     const CellGeometry<Dim, Real>& cell = coefficients_.cells[c];
-    step = CondensedStep<Dim>(*free, contraction(cell.lambda, cell.mu), unload(g), unload(change));
-    element_.set_traces(c, load_packed<Dim>(step.mean()));
+    FreeEnd<Dim>& state = free_[position];
+    if (const StoredEnergy<Dim>* law = finite_.law(c)) {
+        state.has_law = true;
+        state.least = LeastEnergy<Dim>(free, *law, contraction(cell.lambda, cell.mu), unload(g));
+    } else if (free.has_one_normal()) {
+        state.condensed = CondensedStep<Dim>(free, contraction(cell.lambda, cell.mu), unload(g), unload(change));
+    }
+    element_.set_traces(c, free.has_one_normal() ? load_packed<Dim>(state.gradient()) : g);
 }
 
 /// F S, both means of the ends of the step, and what the jumps add.
 template <int Dim, class Real>
-void CcgSweeps<Dim, Real>::set_finite_stress(std::ptrdiff_t c) {
+void CcgSweeps<Dim, Real>::set_finite_stress(std::int32_t c) {
     LaneTensor<Dim, Real> sum = element_.sum_jumps(c);
-    if (finite_.condensed(c)) sum = load_packed<Dim>(condensed_[finite_.free_position(c)].pull_back(unload(sum)));
+    if (finite_.condensed(c)) {
+        FreeEnd<Dim>& state = free_[finite_.free_position(c)];
+        state.jumps = unload(sum);
+        state.pulled_jumps = state.pull_back(state.jumps);
+        sum = load_packed<Dim>(state.pulled_jumps);
+    }
     const LaneTensor<Dim, Real> g = load_tensor<Dim>(g_, c);
-    const LaneTensor<Dim, Real> stress = finite_stress(c, mean_green_strain(g, load_tensor<Dim>(g_change_, c)));
-    for (int j = 0; j < Dim; ++j) sum.col[j] += stress.col[j] + g * stress.col[j];
+    Response<Dim> of_law;
+    if (finite_.law(c)) {
+        of_law = law_response(c, unload(g));
+        for (int j = 0; j < Dim; ++j) sum.col[j] += load_packed<Dim>(Vector<Dim>(of_law.stress.col(j)));
+    } else {
+        const LaneTensor<Dim, Real> stress = finite_stress(c, mean_green_strain(g, load_tensor<Dim>(g_change_, c)));
+        for (int j = 0; j < Dim; ++j) sum.col[j] += stress.col[j] + g * stress.col[j];
+    }
+    if (keeps_) keep_end(c, of_law, sum);
     store_tensor(sum, s_, c);
 }
+
+/// W and P of a cell with a StoredEnergy whose gradient was set last, `g` of affine faces.
+template <int Dim, class Real>
+Response<Dim> CcgSweeps<Dim, Real>::law_response(std::int32_t c, const Matrix<Dim>& g) const {
+    const std::int32_t position = finite_.free_position(c);
+    return position < 0 ? finite_.law(c)->at(g) : free_[position].least.response();
+}
+
+// Both ends of a step ------------------------------------------------------------------------------------------------
+
+template <int Dim, class Real>
+void CcgSweeps<Dim, Real>::take_ends(const StepEnds<Dim>& ends) {
+    if (!finite_.takes_ends()) return load_change(ends);
+    if (ends.start.empty()) return;
+    static const BoundaryLoad<Dim> none;
+    const BoundaryLoad<Dim>& start_load = ends.start_load ? *ends.start_load : none;
+    const BoundaryLoad<Dim>& end_load = ends.end_load ? *ends.end_load : none;
+    if (is_kept(kept_.end, ends.start, start_load))
+        std::swap(kept_.start, kept_.end);
+    else if (!is_kept(kept_.start, ends.start, start_load))
+        set_start(ends.start, start_load);
+    end_ = ends.end;
+    end_element_ = element_;
+    end_element_.tables.load_displacement = plain<double>(end_load.displacement);
+    kept_.end.load_displacement = end_load.displacement;
+    kept_.end.is_set = true;
+    kept_.clear_contact();
+    keeps_ = &kept_.end;
+}
+
+template <int Dim, class Real>
+bool CcgSweeps<Dim, Real>::is_kept(const KeptEnd<Dim>& kept, std::span<const Vector<Dim>> u,
+                                   const BoundaryLoad<Dim>& load) const {
+    if (!kept.is_set || kept.load_displacement != load.displacement) return false;
+    std::atomic<bool> same = true;
+    parallel_tasks(static_cast<std::int32_t>(chunks_.size()) - 1, [&](std::int32_t k) {
+        if (!chunks_[k].has_finite) return;
+        for_runs(wanted_.loaded[k], [&](std::int32_t c) {
+            if (unload(load_packed<Dim>(kept.u, c)) != u[c]) same.store(false, std::memory_order_relaxed);
+        });
+    });
+    return same;
+}
+
+template <int Dim, class Real>
+void CcgSweeps<Dim, Real>::set_start(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load) {
+    set_load(load);
+    const auto each_chunk = [&](const auto& task) {
+        parallel_tasks(static_cast<std::int32_t>(chunks_.size()) - 1, [&](std::int32_t k) {
+            if (chunks_[k].has_finite) task(k);
+        });
+    };
+    keeps_ = &kept_.start;
+    each_chunk([&](std::int32_t k) {
+        for_runs(wanted_.loaded[k], [&](std::int32_t c) {
+            store(load_packed<Dim>(u[c]), u_, c);
+            store(load_packed<Dim>(u[c]), keeps_->u, c);
+        });
+    });
+    each_chunk([&](std::int32_t k) { reconstruct_chunk(k); });
+    each_chunk([&](std::int32_t k) { displacement_gradients_of_chunk(k); });
+    each_chunk([&](std::int32_t k) { stresses_of_chunk(k); });
+    keeps_->load_displacement = load.displacement;
+    keeps_->is_set = true;
+}
+
+template <int Dim, class Real>
+void CcgSweeps<Dim, Real>::load_end(std::int32_t chunk) {
+    for_runs(wanted_.loaded[chunk], [&](std::int32_t c) {
+        store(load_packed<Dim>(end_[c]), u_, c);
+        store(load_packed<Dim>(end_[c]), keeps_->u, c);
+    });
+}
+
+/// `sum`: S_c in this state. In a step the mean with that at its start takes its place.
+template <int Dim, class Real>
+void CcgSweeps<Dim, Real>::keep_end(std::int32_t c, const Response<Dim>& of_law, LaneTensor<Dim, Real>& sum) {
+    const Lanes<Dim, Real> direct = load_packed<Dim>(direct_, c);
+    store_tensor(load_tensor<Dim>(g_, c), keeps_->g, c);
+    store_tensor(sum, keeps_->s, c);
+    store(direct, keeps_->direct, c);
+    if (finite_.condensed(c)) keeps_->free[finite_.free_position(c)] = free_[finite_.free_position(c)];
+    if (finite_.law(c)) {
+        keeps_->energy[c] = of_law.energy;
+        store_tensor(load_packed<Dim>(of_law.stress), keeps_->stress, c);
+    }
+    if (end_.empty()) return;
+    kept_.set_defect(c);
+    const LaneTensor<Dim, Real> start = load_tensor<Dim>(kept_.start.s, c);
+    for (int j = 0; j < Dim; ++j) sum.col[j] = 0.5 * (start.col[j] + sum.col[j]);
+    store(0.5 * (load_packed<Dim>(kept_.start.direct, c) + direct), direct_, c);
+}
+
+// What contact adds, and what is shown -------------------------------------------------------------------------------
 
 /// What contact adds: of a cell whose gradient is F_cond a moment on that, less what moves the free face from where the affine
 /// one is.
@@ -75,8 +189,10 @@ void CcgSweeps<Dim, Real>::add_moments(std::int32_t begin, std::int32_t end) {
         LaneTensor<Dim, Real> sum = load_tensor<Dim>(s_, c);
         LaneTensor<Dim> added = moment;
         if (finite_.condensed(c)) {
-            const CondensedStep<Dim>& step = condensed_[finite_.free_position(c)];
-            added = load_packed<Dim>(Matrix<Dim>(step.pull_back(unload(moment) + normal_push) - normal_push));
+            const Matrix<Dim> gradient = unload(moment) + normal_push;
+            const Matrix<Dim> pulled =
+                end_.empty() ? free_[finite_.free_position(c)].pull_back(gradient) : kept_.pull_back_contact(c, gradient);
+            added = load_packed<Dim>(Matrix<Dim>(pulled - normal_push));
         }
         for (int j = 0; j < Dim; ++j) sum.col[j] += element_.units.stress(added.col[j]);
         store_tensor(sum, s_, c);
@@ -91,14 +207,22 @@ std::pair<Vector<Dim>, Matrix<Dim>> CcgSweeps<Dim, Real>::tilted_face(BoundaryFa
     const Matrix<Dim> g = displacement_gradient(c);
     const FreeCell<Dim>* free = finite_.condensed(c);
     if (!free) return {affine, g};
-    const Matrix<Dim>& condensed = condensed_[finite_.free_position(c)].mean();
+    const Matrix<Dim>& condensed = free_[finite_.free_position(c)].gradient();
     return {affine + free->measure_over * ((condensed - g) * arrays_.normal_of(face)), condensed};
+}
+
+/// F - I of a cell with a StoredEnergy, its free faces where this is least.
+template <int Dim, class Real>
+Matrix<Dim> CcgSweeps<Dim, Real>::law_gradient(std::int32_t c) const {
+    const std::int32_t position = finite_.free_position(c);
+    return position < 0 ? unload(load_tensor<Dim>(g_, c)) : free_[position].least.gradient();
 }
 
 /// At the end of the step, or in the state.
 template <int Dim, class Real>
-CellStretch CcgSweeps<Dim, Real>::end_stretch(std::ptrdiff_t c) const {
+CellStretch CcgSweeps<Dim, Real>::end_stretch(std::int32_t c) const {
     const CellGeometry<Dim, Real>& cell = coefficients_.cells[c];
+    if (finite_.law(c)) return cell_stretch<Dim>(law_gradient(c));
     LaneTensor<Dim, Real> g = load_tensor<Dim>(g_, c);
     const LaneTensor<Dim, Real> change = load_tensor<Dim>(g_change_, c);
     for (int j = 0; j < Dim; ++j) g.col[j] += 0.5 * change.col[j];
@@ -120,7 +244,7 @@ FiniteExtremes CcgSweeps<Dim, Real>::finite_extremes(std::span<const std::int32_
         for (const std::int32_t c : cells.subspan(begin, end - begin)) {
             if (!finite_.contains(c)) continue;
             const auto [determinant, strain] = end_stretch(c);
-            take(of_part[begin / parallel_grain], {determinant, strain, c});
+            take(of_part[begin / parallel_grain], {determinant, finite_.law(c) ? 0.0 : strain, c});
         }
     });
     FiniteExtremes extremes;
@@ -131,19 +255,26 @@ FiniteExtremes CcgSweeps<Dim, Real>::finite_extremes(std::span<const std::int32_
 /// F S F^T/det F.
 template <int Dim, class Real>
 Matrix<Dim> CcgSweeps<Dim, Real>::cauchy_stress(std::int32_t c) const {
+    if (finite_.law(c)) {
+        const Matrix<Dim> f = Matrix<Dim>::Identity() + law_gradient(c);
+        return law_response(c, law_gradient(c)).stress * f.transpose() / f.determinant();
+    }
     const LaneTensor<Dim, Real> g = load_tensor<Dim>(g_, c);
     const Matrix<Dim> stress = unload(finite_stress(c, mean_green_strain(g, load_tensor<Dim>(g_change_, c))));
     Matrix<Dim> f = Matrix<Dim>::Identity();
-    f += finite_.condensed(c) ? condensed_[finite_.free_position(c)].mean() : unload(g);
+    f += finite_.condensed(c) ? free_[finite_.free_position(c)].gradient() : unload(g);
     return f * stress * f.transpose() / f.determinant();
 }
 
 #define ABUT_INSTANTIATE(Dim)                                                                             \
     template void CcgSweeps<Dim>::load_change(const StepEnds<Dim>&);                                      \
+    template void CcgSweeps<Dim>::take_ends(const StepEnds<Dim>&);                                        \
+    template void CcgSweeps<Dim>::load_end(std::int32_t);                                                 \
+    template Response<Dim> CcgSweeps<Dim>::law_response(std::int32_t, const Matrix<Dim>&) const;          \
     template Lanes<Dim> CcgSweeps<Dim>::boundary_change(BoundaryFace) const;                              \
     template LaneTensor<Dim> CcgSweeps<Dim>::finite_stress(std::ptrdiff_t, const LaneTensor<Dim>&) const; \
-    template void CcgSweeps<Dim>::set_finite_displacement_gradient(std::ptrdiff_t);                       \
-    template void CcgSweeps<Dim>::set_finite_stress(std::ptrdiff_t);                                      \
+    template void CcgSweeps<Dim>::set_finite_displacement_gradient(std::int32_t);                         \
+    template void CcgSweeps<Dim>::set_finite_stress(std::int32_t);                                        \
     template void CcgSweeps<Dim>::add_moments(std::int32_t, std::int32_t);                                \
     template std::pair<Vector<Dim>, Matrix<Dim>> CcgSweeps<Dim>::tilted_face(BoundaryFace) const;         \
     template FiniteExtremes CcgSweeps<Dim>::finite_extremes(std::span<const std::int32_t>) const;         \

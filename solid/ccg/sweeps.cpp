@@ -25,7 +25,7 @@ void for_all(const std::vector<Id>& list, const Body& body) {
 template <int Dim, class Real>
 CcgSweeps<Dim, Real>::CcgSweeps(const CcgArrays<Dim>& arrays, const CcgCoefficients<Dim, Real>& coefficients,
                                 const FiniteCells<Dim>& finite)
-    : arrays_(arrays), coefficients_(coefficients), finite_(finite) {
+    : arrays_(arrays), coefficients_(coefficients), finite_(finite), kept_(arrays, finite) {
     constexpr std::size_t width = lane_width<Dim>;
     u_.resize(width * arrays.cells.size());
     of_face_.resize(width * arrays.faces.size());
@@ -39,11 +39,11 @@ CcgSweeps<Dim, Real>::CcgSweeps(const CcgArrays<Dim>& arrays, const CcgCoefficie
     boundary_y_.resize(width * arrays.boundary_faces.size());
     correction_.resize(width * arrays.boundary_faces.size());
     pair_gradient_.resize(width * arrays.boundary_faces.size());
-    if (finite.any()) {
+    free_.resize(finite.free().size());
+    if (finite.any()) g_change_.resize(g_.size());
+    if (finite.any() && !finite.takes_ends()) {
         u_change_.resize(u_.size());
         relative_change_.resize(of_face_.size());
-        g_change_.resize(g_.size());
-        condensed_.resize(finite.free().size());
     }
     element_ = {tables_of(arrays, coefficients), coefficients.units};
     SweepTables<Dim, Real>& tables = element_.tables;
@@ -73,16 +73,14 @@ void CcgSweeps<Dim, Real>::set_load(const BoundaryLoad<Dim>& load) {
 
 template <int Dim, class Real>
 void CcgSweeps<Dim, Real>::gradient(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load,
-                                    const FaceCorrections<Dim>& corrections, std::span<Vector<Dim>> result,
-                                    const StepEnds<Dim>& ends) {
-    if constexpr (takes_finite) load_change(ends);
+                                    const FaceCorrections<Dim>& corrections, std::span<Vector<Dim>> result) {
     run_sweeps([&](std::ptrdiff_t c) { store(load_packed<Dim>(u[c]), u_, c); }, load, corrections, result);
 }
 
 template <int Dim, class Real>
 void CcgSweeps<Dim, Real>::mean_gradient(const StepEnds<Dim>& ends, const BoundaryLoad<Dim>& load,
                                          const FaceCorrections<Dim>& corrections, std::span<Vector<Dim>> result) {
-    if constexpr (takes_finite) load_change(ends);
+    if constexpr (takes_finite) take_ends(ends);
     const auto load_midpoint = [&](std::ptrdiff_t c) {
         store(0.5 * (load_packed<Dim>(ends.start[c]) + load_packed<Dim>(ends.end[c])), u_, c);
     };
@@ -95,7 +93,7 @@ void CcgSweeps<Dim, Real>::gradient_of_packed(LargeArray<double>& u, const Bound
                                               const StepEnds<Dim>& ends) {
     std::swap(u_, u);
     element_.tables.u = Table<double>(u_);
-    if constexpr (takes_finite) load_change(ends);
+    if constexpr (takes_finite) take_ends(ends);
     run_sweeps([](std::ptrdiff_t) {}, load, corrections, result);
 }
 
@@ -109,6 +107,8 @@ void CcgSweeps<Dim, Real>::run_sweeps(const LoadCell& load_cell, const BoundaryL
     schedule_.run([&](int stage, std::int32_t chunk) {
         switch (stage) {
             case loading:
+                if constexpr (takes_finite)
+                    if (takes_end(chunk)) return load_end(chunk);
                 return for_runs(wanted_.loaded[chunk], load_cell);
             case reconstruction:
                 return reconstruct_chunk(chunk);
@@ -123,6 +123,8 @@ void CcgSweeps<Dim, Real>::run_sweeps(const LoadCell& load_cell, const BoundaryL
         }
     });
     has_change_ = false;
+    keeps_ = nullptr;
+    end_ = {};
 }
 
 template <int Dim, class Real>
@@ -247,8 +249,7 @@ template class CcgSweeps<3>;
     template CcgSweeps<Dim, float>::CcgSweeps(const CcgArrays<Dim>&, const CcgCoefficients<Dim, float>&,         \
                                               const FiniteCells<Dim>&);                                          \
     template void CcgSweeps<Dim, float>::gradient(std::span<const Vector<Dim>>, const BoundaryLoad<Dim>&,        \
-                                                  const FaceCorrections<Dim>&, std::span<Vector<Dim>>,           \
-                                                  const StepEnds<Dim>&);                                         \
+                                                  const FaceCorrections<Dim>&, std::span<Vector<Dim>>);          \
     template void CcgSweeps<Dim, float>::mean_gradient(const StepEnds<Dim>&, const BoundaryLoad<Dim>&,           \
                                                        const FaceCorrections<Dim>&, std::span<Vector<Dim>>);     \
     template void CcgSweeps<Dim, float>::gradient_of_packed(LargeArray<double>&, const BoundaryLoad<Dim>&,       \

@@ -12,6 +12,7 @@
 #include "abut/solid/ccg/ccg.hpp"
 #include "abut/solid/ccg/cell_moments.hpp"
 #include "abut/solid/ccg/finite_cells.hpp"
+#include "abut/solid/ccg/kept_ends.hpp"
 #include "abut/solid/ccg/placed_corrections.hpp"
 #include "abut/solid/ccg/sweep_elements.hpp"
 #include "abut/solid/ccg/sweep_lists.hpp"
@@ -48,7 +49,7 @@ public:
     CcgSweeps& operator=(const CcgSweeps&) = delete;
 
     void gradient(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load, const FaceCorrections<Dim>& corrections,
-                  std::span<Vector<Dim>> result, const StepEnds<Dim>& ends = {});
+                  std::span<Vector<Dim>> result);
     /// The same of the mean of both ends.
     void mean_gradient(const StepEnds<Dim>& ends, const BoundaryLoad<Dim>& load, const FaceCorrections<Dim>& corrections,
                        std::span<Vector<Dim>> result);
@@ -74,6 +75,11 @@ public:
 
     /// See Ccg.
     [[nodiscard]] FiniteExtremes finite_extremes(std::span<const std::int32_t> cells) const;
+    [[nodiscard]] StepDefect<Dim> step_defect(std::int32_t cell, const Vector<Dim>& arm) const {
+        StepDefect<Dim> defect = kept_.defect(cell);
+        defect.moment += moment<Dim>(arm, Vector<Dim>(unload(load_packed<Dim>(direct_, cell))));
+        return defect;
+    }
 
     // Of the last call; displacement gradients and stresses of simplices are made from face and cell displacements.
     [[nodiscard]] Vector<Dim> face_displacement(BoundaryFace b) const {
@@ -111,11 +117,21 @@ private:
 
     // One element of a finite body
     [[nodiscard]] Tensor finite_stress(std::ptrdiff_t c, const Tensor& strain) const;
-    [[nodiscard]] CellStretch end_stretch(std::ptrdiff_t c) const;
+    [[nodiscard]] Response<Dim> law_response(std::int32_t c, const Matrix<Dim>& g) const;
+    void keep_end(std::int32_t c, const Response<Dim>& of_law, Tensor& sum);
+    [[nodiscard]] Matrix<Dim> law_gradient(std::int32_t c) const;
+    [[nodiscard]] CellStretch end_stretch(std::int32_t c) const;
     [[nodiscard]] Vectors boundary_change(BoundaryFace b) const;
-    void set_finite_displacement_gradient(std::ptrdiff_t c);
-    void set_finite_stress(std::ptrdiff_t c);
+    void set_finite_displacement_gradient(std::int32_t c);
+    void set_finite_stress(std::int32_t c);
     void load_change(const StepEnds<Dim>& ends);
+    void take_ends(const StepEnds<Dim>& ends);
+    [[nodiscard]] bool is_kept(const KeptEnd<Dim>& kept, std::span<const Vector<Dim>> u,
+                               const BoundaryLoad<Dim>& load) const;
+    void set_start(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load);
+    void load_end(std::int32_t chunk);
+    /// Whether its cells are where the step ends, and not in its middle.
+    [[nodiscard]] bool takes_end(std::int32_t chunk) const { return !end_.empty() && chunks_[chunk].has_finite; }
     void add_moments(std::int32_t begin, std::int32_t end);
     [[nodiscard]] std::pair<Vector<Dim>, Matrix<Dim>> tilted_face(BoundaryFace b) const;
     [[nodiscard]] Matrix<Dim> cauchy_stress(std::int32_t c) const;
@@ -150,11 +166,17 @@ private:
     LargeArray<Real> of_face_, g_, trace_, s_, deviation_, direct_, boundary_y_, correction_, pair_gradient_;
     SweepElements<Vectors> element_;  // of these arrays
     CellMoments<Dim> moments_;        // empty except during a call
-    // Of finite bodies, changes from the start of a step to its end; empty without any.
+    // Of finite bodies.
+    std::vector<FreeEnd<Dim>> free_;  // by position in FiniteCells::free
+    // Where their mean force is that of both ends
+    KeptEnds<Dim> kept_;
+    KeptEnd<Dim>* keeps_ = nullptr;       // what the sweeps fill; null: they look at one state
+    std::span<const Vector<Dim>> end_;    // of the cells, where the sweeps fill the end of a step; else empty
+    SweepElements<Vectors> end_element_;  // `element_` with the load at the end
+    // Elsewhere: changes from the start of a step to its end
     LargeArray<double> u_change_;
     LargeArray<Real> relative_change_;
     LargeArray<Real> g_change_;
-    std::vector<CondensedStep<Dim>> condensed_;  // by position in FiniteCells::free
     bool has_change_ = false;
     std::vector<Chunk> chunks_;  // one more at the end
     SweepLists wanted_;

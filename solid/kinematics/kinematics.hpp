@@ -11,6 +11,14 @@ enum class Kinematics {
     rigid,  ///< no deformation but the skin that contact presses in: six degrees of freedom in space, three in the plane
 };
 
+/// How the mean force inside a body of Kinematics::finite is made along a step. docs/method.md, Bodies that bend.
+enum class MeanForce {
+    automatic,          ///< `closed_trapezoid`
+    discrete_gradient,  ///< exact for energy and moment cell by cell; it feeds the alternating mode
+    trapezoid,          ///< the mean of the forces at both ends: it feeds no mode, and H~ is not exact
+    closed_trapezoid,   ///< the same, with a smooth correction per body that makes energy and moment exact
+};
+
 /// What acts between faces in contact.
 enum class ContactLaw {
     automatic,       ///< `pair_potential`, except where a choice is made that `reconstruction` alone has: docs/method.md

@@ -7,7 +7,7 @@
 #include "abut/base/state_bytes.hpp"
 #include "abut/mesh/mesh.hpp"
 #include "abut/solid/kinematics/body_frame.hpp"
-#include "abut/solid/material.hpp"
+#include "abut/solid/material/material.hpp"
 
 namespace abut::solid {
 

@@ -4,7 +4,7 @@
 
 #include "abut/mesh/shapes/shapes.hpp"
 #include "abut/ranks/partition.hpp"
-#include "abut/solid/material.hpp"
+#include "abut/solid/material/material.hpp"
 
 namespace abut::test {
 

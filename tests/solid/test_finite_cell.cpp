@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "abut/solid/ccg/finite_cell.hpp"
-#include "abut/solid/material.hpp"
+#include "abut/solid/material/material.hpp"
 #include "solid/scenes.hpp"
 
 using namespace abut;

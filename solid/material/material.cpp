@@ -1,10 +1,12 @@
-#include "abut/solid/material.hpp"
+#include "abut/solid/material/material.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
 #include "abut/base/error.hpp"
 #include "abut/base/messages.hpp"
+#include "abut/solid/material/mooney_rivlin.hpp"
 
 namespace abut::solid {
 namespace {
@@ -27,6 +29,20 @@ void check(const Material& material, int body) {
             "finite and > 0 kg/m^3. Steel has 7800.");
     require(std::isfinite(material.eta) && material.eta >= 0.0, body, "eta", material.eta,
             "finite and >= 0 Pa (0: take E).");
+    const double most_share = std::min(1.0, 0.5 * material.lambda() / material.mu());
+    require(material.second_share >= 0.0 && material.second_share <= most_share, body, "second_share", material.second_share,
+            ("between 0 and " + number(most_share) + ", the lesser of 1 and lambda/(2 mu).").c_str());
+    require(material.second_share == 0.0 || material.law == ElasticLaw::mooney_rivlin, body, "second_share",
+            material.second_share, "0, as its law is not that of Mooney and Rivlin.");
 }
+
+template <int Dim>
+std::shared_ptr<const StoredEnergy<Dim>> stored_energy(const Material& material) {
+    if (material.law == ElasticLaw::st_venant_kirchhoff) return nullptr;
+    return std::make_shared<MooneyRivlin<Dim>>(material.lambda(), material.mu(), material.second_share);
+}
+
+template std::shared_ptr<const StoredEnergy<2>> stored_energy(const Material&);
+template std::shared_ptr<const StoredEnergy<3>> stored_energy(const Material&);
 
 }  // namespace abut::solid

@@ -1,0 +1,77 @@
+#pragma once
+// Private to the sources of this layer.
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "abut/base/large_array.hpp"
+#include "abut/solid/ccg/ccg.hpp"
+#include "abut/solid/ccg/coefficients.hpp"
+#include "abut/solid/ccg/finite_cells.hpp"
+#include "abut/solid/ccg/least_energy.hpp"
+
+namespace abut::solid {
+
+/// A cell with one free normal in one state: F as its traces and contact take it, with the free face where the energy is least.
+template <int Dim>
+struct FreeEnd {
+    CondensedStep<Dim> condensed;  // where the material is St. Venant and Kirchhoff's
+    LeastEnergy<Dim> least;        // elsewhere
+    bool has_law = false;
+    Matrix<Dim> jumps = Matrix<Dim>::Zero();         // dV/dF of the jumps over |c|, by this F
+    Matrix<Dim> pulled_jumps = Matrix<Dim>::Zero();  // by F of the affine faces
+
+    [[nodiscard]] const Matrix<Dim>& gradient() const { return has_law ? least.gradient() : condensed.mean(); }
+    [[nodiscard]] Matrix<Dim> pull_back(const Matrix<Dim>& gradient) const {
+        return has_law ? least.pull_back(gradient) : condensed.pull_back(gradient);
+    }
+};
+
+/// One end of a step, of the cells of finite bodies: what the mean of the forces at both ends is made of.
+template <int Dim>
+struct KeptEnd {
+    LargeArray<double> u, g, s, direct;          // by cell, packed as the work arrays of the sweeps
+    std::vector<FreeEnd<Dim>> free;              // by position in FiniteCells::free
+    LargeArray<double> energy, stress;           // by cell, with a StoredEnergy: W, P; empty without any
+    std::vector<Vector<Dim>> load_displacement;  // BoundaryLoad::displacement
+    bool is_set = false;
+
+    void resize(std::size_t n_cells, const FiniteCells<Dim>& finite);
+};
+
+/// Both ends of a step. The end of one is the start of the next, as long as displacements are the same: nothing is evaluated
+/// twice, and nothing is remembered that displacements do not say.
+template <int Dim>
+class KeptEnds {
+public:
+    /// All must outlive it.
+    KeptEnds(const CcgCoefficients<Dim, double>& coefficients, const FiniteCells<Dim>& finite);
+
+    KeptEnd<Dim> start, end;
+
+    /// Both ends of this cell are set.
+    void set_defect(std::int32_t c);
+    /// Of the step from `start` to `end`, less the moment of `direct`.
+    [[nodiscard]] StepDefect<Dim> defect(std::int32_t c) const;
+
+    // What contact adds to cells with one normal, by dV/dF over |c|, F as the traces take it. It acts along the step.
+
+    void clear_contact();
+    /// The same by F of the affine faces.
+    [[nodiscard]] Matrix<Dim> pull_back_contact(std::int32_t c, const Matrix<Dim>& gradient);
+
+private:
+    static constexpr int n_axial = Dim * (Dim - 1) / 2;
+    static constexpr std::ptrdiff_t n_of_defect = 1 + n_axial;
+
+    [[nodiscard]] std::pair<Matrix<Dim>, Matrix<Dim>> gradients(std::int32_t c) const;
+    [[nodiscard]] CondensedStep<Dim> step_of(std::int32_t c, const Matrix<Dim>& g_0, const Matrix<Dim>& g_1) const;
+    [[nodiscard]] double elastic_defect(std::int32_t c, const Matrix<Dim>& g_0, const Matrix<Dim>& g_1) const;
+
+    const CcgCoefficients<Dim, double>& coefficients_;
+    const FiniteCells<Dim>& finite_;
+    LargeArray<double> defects_;               // by cell: energy, moment
+    std::vector<StepDefect<Dim>> of_contact_;  // over |c|, by position in FiniteCells::free; empty without a StoredEnergy
+};
+
+}  // namespace abut::solid

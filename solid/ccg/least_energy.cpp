@@ -1,0 +1,112 @@
+#include "abut/solid/ccg/least_energy.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace abut::solid {
+namespace {
+
+constexpr int most_steps = 40, most_halvings = 30;
+constexpr double last_step = 1e-8;     // of F: Newton's next one is below rounding
+constexpr double first_square = 0.05;  // of the stretch across that the search begins with
+
+/// Normal to what the tangents have become, of the length that the linear material would take.
+template <int Dim>
+Vector<Dim> first_normal(const Matrix<Dim>& y, double contraction) {
+    const double square = 1.0 + contraction * (Dim - 1 - y.template leftCols<Dim - 1>().squaredNorm());
+    const double stretch = std::sqrt(std::max(first_square, square));
+    if constexpr (Dim == 2)
+        return stretch * Vector<2>(-y(1, 0), y(0, 0)).normalized();
+    else
+        return stretch * moment<3>(Vector<3>(y.col(0)), Vector<3>(y.col(1))).normalized();
+}
+
+}  // namespace
+
+template <int Dim>
+LeastEnergy<Dim>::LeastEnergy(const FreeCell<Dim>& free, const StoredEnergy<Dim>& law, double contraction,
+                              const Matrix<Dim>& g)
+    : law_(&law), axes_(free.axes), gradient_(g) {
+    if (free.has_one_normal())
+        set_one_normal(g, contraction);
+    else if (free.n_tangents == 1)
+        set_edge(g, contraction);
+}
+
+/// Minimises W over F + sum a_k D_k. Steps that do not lower it are halved.
+template <int Dim>
+template <int n>
+void LeastEnergy<Dim>::minimise(std::array<Matrix<Dim>, n> directions) {
+    using Unknowns = Eigen::Matrix<double, n, 1>;
+    response_ = law_->at(gradient_);
+    for (int step = 0; step < most_steps; ++step) {
+        Unknowns residual;
+        Eigen::Matrix<double, n, n> tangent;
+        for (int l = 0; l < n; ++l) {
+            const Matrix<Dim> change = law_->stress_change(gradient_, directions[l]);
+            for (int k = 0; k < n; ++k) tangent(k, l) = directions[k].cwiseProduct(change).sum();
+            residual[l] = directions[l].cwiseProduct(response_.stress).sum();
+        }
+        const Unknowns a = -tangent.ldlt().solve(residual);
+        Matrix<Dim> change = Matrix<Dim>::Zero();
+        for (int k = 0; k < n; ++k) change += a[k] * directions[k];
+        const bool is_last = change.norm() <= last_step;
+        Response<Dim> next = law_->at(gradient_ + change);
+        for (int i = 0; i < most_halvings && !is_last && !(next.energy <= response_.energy); ++i) {
+            change *= 0.5;
+            next = law_->at(gradient_ + change);
+        }
+        gradient_ += change;
+        response_ = next;
+        if (is_last) return;
+    }
+    response_.energy = std::numeric_limits<double>::quiet_NaN();
+    response_.stress.setConstant(response_.energy);
+}
+
+template <int Dim>
+void LeastEnergy<Dim>::set_one_normal(const Matrix<Dim>& g, double contraction) {
+    const Vector<Dim> normal = axes_.col(Dim - 1);
+    gradient_ += (first_normal<Dim>(axes_ + g * axes_, contraction) - normal - g * normal) * normal.transpose();
+    std::array<Matrix<Dim>, Dim> directions;
+    for (int k = 0; k < Dim; ++k) directions[k] = Vector<Dim>::Unit(k) * normal.transpose();
+    minimise<Dim>(directions);
+    Matrix<Dim> tangent;
+    for (int k = 0; k < Dim; ++k) tangent.col(k) = law_->stress_change(gradient_, directions[k]) * normal;
+    inverse_ = tangent.inverse();
+}
+
+/// Two normals in space: what is left is a bar along the edge. A turn about it costs nothing and is left out: n_1 stays in the
+/// plane of the bar and of where it was.
+template <int Dim>
+void LeastEnergy<Dim>::set_edge(const Matrix<Dim>& g, double contraction) {
+    if constexpr (Dim == 3) {
+        const Matrix<3> y = axes_ + g * axes_;
+        const Eigen::Vector3d along = Eigen::Vector3d(y.col(0)).normalized();
+        const Eigen::Vector3d u = (Eigen::Vector3d(y.col(1)) - along.dot(y.col(1)) * along).normalized(), v = along.cross(u);
+        const double stretch = std::sqrt(std::max(first_square, 1.0 + contraction * (1.0 - y.col(0).squaredNorm())));
+        Matrix<3> wanted;
+        wanted << y.col(0), stretch * u, stretch * v;
+        gradient_ = (wanted - axes_) * axes_.transpose();
+        const Vector<3> n_1 = axes_.col(1), n_2 = axes_.col(2);
+        minimise<5>({along * n_1.transpose(), u * n_1.transpose(), along * n_2.transpose(), u * n_2.transpose(),
+                     v * n_2.transpose()});
+    }
+}
+
+template <int Dim>
+Matrix<Dim> LeastEnergy<Dim>::pull_back(const Matrix<Dim>& gradient) const {
+    const Vector<Dim> normal = axes_.col(Dim - 1);
+    const Vector<Dim> z = inverse_ * (gradient * normal);
+    const Matrix<Dim> tangent = gradient - law_->stress_change(gradient_, z * normal.transpose());
+    return tangent - (tangent * normal) * normal.transpose();
+}
+
+template class LeastEnergy<2>;
+template class LeastEnergy<3>;
+
+}  // namespace abut::solid
