@@ -76,12 +76,19 @@ endfunction()
 # The library, its headers, its targets and a list of what has to be found before them. A shared library brings its back
 # ends along; one that links a static library has to find them.
 function(abut_install_layer name lower_layers public_targets private_targets)
+  set(libraries libraries)
+  set(development development)
+  if(name MATCHES "^(base|geometry|contact|dynamics|c)$")  # what a solver of one's own needs, without that of the others
+    set(libraries contact_libraries)
+    set(development contact_development)
+  endif()
+  set_property(GLOBAL APPEND PROPERTY abut_${libraries} ${name})
   install(TARGETS abut_${name} EXPORT abut_${name}
-    LIBRARY COMPONENT libraries NAMELINK_COMPONENT development
-    ARCHIVE COMPONENT development
-    FILE_SET HEADERS COMPONENT development)
+    LIBRARY COMPONENT ${libraries} NAMELINK_COMPONENT ${development}
+    ARCHIVE COMPONENT ${development}
+    FILE_SET HEADERS COMPONENT ${development})
   install(EXPORT abut_${name} NAMESPACE abut:: DESTINATION ${abut_package_dir} FILE abut-${name}-targets.cmake
-    COMPONENT development)
+    COMPONENT ${development})
 
   set(needed ${public_targets})
   get_target_property(type abut_${name} TYPE)
@@ -102,7 +109,7 @@ function(abut_install_layer name lower_layers public_targets private_targets)
   list(JOIN lines "" lines)
   set(file ${PROJECT_BINARY_DIR}/package/abut-${name}-dependencies.cmake)
   file(WRITE ${file} "set(abut_${name}_lower_layers ${lower_layers})\n${lines}")
-  install(FILES ${file} DESTINATION ${abut_package_dir} COMPONENT development)
+  install(FILES ${file} DESTINATION ${abut_package_dir} COMPONENT ${development})
 endfunction()
 
 function(abut_install_package)
@@ -114,9 +121,10 @@ function(abut_install_package)
   install(FILES ${PROJECT_BINARY_DIR}/package/abutConfig.cmake ${PROJECT_BINARY_DIR}/package/abutConfigVersion.cmake
     ${PROJECT_SOURCE_DIR}/cmake/FindGmsh.cmake ${PROJECT_SOURCE_DIR}/cmake/FindKokkos.cmake
     ${PROJECT_SOURCE_DIR}/cmake/FindLBFGSpp.cmake ${PROJECT_SOURCE_DIR}/cmake/FindZoltan.cmake
-    DESTINATION ${abut_package_dir} COMPONENT development)
+    DESTINATION ${abut_package_dir} COMPONENT contact_development)
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/examples DESTINATION ${CMAKE_INSTALL_DATADIR}/abut COMPONENT contact_development)
   install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/NOTICE ${PROJECT_SOURCE_DIR}/README.md TYPE DOC
-    COMPONENT libraries)
+    COMPONENT contact_libraries)
 endfunction()
 
 # Whether a header, named as it is included, includes base/vector.hpp, itself or through others.

@@ -20,7 +20,7 @@ const GmshFunctions& loaded_functions() {
     if (!functions) {
         const char* why = dlerror();
         throw MeshError("Gmsh, which makes this mesh, cannot be loaded: " + std::string(why ? why : path) +
-                        ". Install its library (package libgmsh4.8 of Debian 12).");
+                        ". Install its library (package libgmsh4.8 of Debian 12; beside packages of Abut libabut-gmsh0.1).");
     }
     return *static_cast<const GmshFunctions*>(functions);
 }
