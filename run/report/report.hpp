@@ -17,7 +17,7 @@ struct ReportFile {
 /// The text of report.html, for people: verdict, pictures of the bodies, if there are
 /// any, and of the energies, bodies, contact, warnings, settings, times,
 /// files. It needs nothing beside it and no network, runs no script, and is well-formed XML. Each figure that summary.json
-/// has is in an element <data id="PATH" value="JSON">: PATH is its place there, bodies.0.mass, and JSON what stands there.
+/// has is in an element `data` with an `id`, its path there (bodies.0.mass), and a `value`, the JSON that stands there.
 template <int Dim>
 [[nodiscard]] std::string report_html(const std::string& program, const Scene<Dim>& scene, const RunResult<Dim>& result,
                                       const std::vector<ReportFile>& files, const BodyPictures* pictures = nullptr);
