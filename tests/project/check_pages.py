@@ -1,4 +1,5 @@
-"""check_pages.py SOURCE: every file and every heading that a Markdown page links to is there."""
+"""check_pages.py SOURCE: every file and every heading that a Markdown page links to is there, and what is to be cited has the version
+of the build."""
 import pathlib
 import re
 import sys
@@ -27,11 +28,22 @@ def faults_of(root, page):
             yield f"{where}: {path.name} has no heading #{anchor}"
 
 
+def wrong_versions(root):
+    if not (root / "CITATION.cff").exists():
+        return
+    version = re.search(r"^project\(abut VERSION ([0-9.]+)", (root / "CMakeLists.txt").read_text(), re.M)[1]
+    for name in ("CITATION.cff", "docs/cite.md"):
+        found = re.search(r"^ *version *[:=] *{?([0-9.]+)", (root / name).read_text(), re.M)
+        if not found or found[1] != version:
+            yield f"{name}: the version is {found and found[1]}, the build has {version}"
+
+
 def main():
     root = pathlib.Path(sys.argv[1])
     pages = sorted(root.glob("*.md")) + sorted(root.glob("docs/*.md")) + sorted(root.glob("*/README.md"))
     assert pages, f"no page found in {root}"
     wrong = [fault for page in pages for fault in faults_of(root, page)]
+    wrong += wrong_versions(root)
     if wrong:
         sys.exit("\n".join(wrong))
     print(f"all links of {len(pages)} pages lead somewhere")
