@@ -84,7 +84,8 @@ void ResultFiles<Dim>::end(const dynamics::RunView<Dim>& run, solid::Solid<Dim>&
 template <int Dim>
 bool ResultFiles<Dim>::wants_look(std::int64_t step) const {
     return (probes_ && probes_->wants_look(step)) || (forces_ && forces_->wants_look(step)) ||
-           (frames_ && frames_->wants_look(step)) || snapshots_.wants_look(step);
+           (frames_ && frames_->wants_look(step)) ||
+           snapshots_.wants_look(step);
 }
 
 template <int Dim>
@@ -123,7 +124,8 @@ void ResultFiles<Dim>::draw_failure(const Failure& failure, solid::Solid<Dim>& s
 
 template <int Dim>
 std::string ResultFiles<Dim>::left_behind() const {
-    return has_begun_ ? " energy.csv.partial holds the records so far." + failed_ : "";
+    if (!has_begun_) return "";
+    return " energy.csv.partial holds the records so far." + failed_;
 }
 
 template <int Dim>
@@ -186,7 +188,10 @@ void ResultFiles<Dim>::finish(const Scene<Dim>& scene, RunResult<Dim>& result) {
     result.seconds.total += seconds;
     if (frames_) write_whole(out_ / paraview_script_name, paraview_script(name_));
     const BodyPictures pictures = snapshots_.pictures();
-    write_whole(out_ / "report.html", report_html(program_, scene, result, files_of_report(), &pictures));
+    const ReportSources sources{.pictures = &pictures,
+                                .forces = forces_ ? out_ / "forces.csv" : std::filesystem::path(),
+                                .probes = probes_ ? out_ / "probes.csv" : std::filesystem::path()};
+    write_whole(out_ / "report.html", report_html(program_, scene, result, files_of_report(), sources));
     write_whole(out_ / "summary.json", summary_json(program_, scene, result));
     if (result.complete && !keep_last_) checkpoints_.remove(texts_beside);
     lock_.reset();
@@ -197,6 +202,8 @@ std::vector<ReportFile> ResultFiles<Dim>::files_of_report() const {
     std::vector<ReportFile> files = {{"summary.json", "all figures of this page and more, for programs"},
                                      {"energy.csv", "energies and momenta, a row per record"},
                                      {"energy.svg", "the picture of the energies"}};
+    if (forces_) files.push_back({"forces.csv", "forces between bodies over time"});
+    if (probes_) files.push_back({"probes.csv", "what probes see over time"});
     if (frames_) {
         files.push_back({name_ + ".pvd", "cells over time, for ParaView"});
         files.push_back({name_ + "_surface.pvd", "boundary faces over time, for ParaView"});

@@ -8,6 +8,7 @@
 #include <span>
 #include <utility>
 
+#include "abut/run/report/colours.hpp"
 #include "abut/run/report/raster.hpp"
 #include "abut/run/report/svg.hpp"
 #include "abut/run/report/ticks.hpp"
@@ -23,14 +24,17 @@ constexpr double image_width = image_right - image_left;
 constexpr double least_image_height = 130.0, most_image_height = 400.0;
 constexpr double value_bar_gap = 14.0, value_bar_width = 12.0, axis_length = 16.0;
 constexpr int value_levels = 32, most_values = 6;
+constexpr double width_of_letter = 7.5, height_of_letter = 16.0;  // about
+constexpr std::size_t most_names = 12;
 
 constexpr double points_per_unit = 2.0;
 constexpr double margin_of_bodies = 0.06;          // around the bodies, of their size
 constexpr double strip_thickness = 8.0;            // of an obstacle in 2D [points]
-constexpr double rim_line = 1.2, cell_line = 0.6;  // half the strip_thickness of lines [points]
+constexpr double rim_line = 1.2, cell_line = 0.5, marked_line = 3.0;  // half the thickness of lines [points]
+constexpr double shade_of_line = 0.55;
 constexpr double few_cells = 14.0;                 // size of cells from which their edges are drawn [points]
-constexpr double highest_left_out = 0.02;          // part of the values
-constexpr Raster::Colour grey{150, 150, 146, 255}, obstacle_grey{128, 128, 124, 200}, faint_grey{128, 128, 124, 70};
+constexpr Raster::Colour grey{150, 150, 146, 255}, obstacle_grey{128, 128, 124, 200}, faint_grey{128, 128, 124, 70},
+    held_orange{217, 89, 31, 255}, loaded_pink{219, 38, 128, 255};
 
 double dot(const Position& a, const Position& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
@@ -114,23 +118,14 @@ std::vector<Position> clipped(std::vector<Position> corners, const BodyBox& box)
     return corners;
 }
 
-/// Ordered by lightness: viridis without its darkest end, which nobody sees on a dark page.
 Raster::Colour colour_of_value(double share) {
-    constexpr std::array<std::array<double, 3>, 9> stops{{{69, 55, 129},
-                                                          {57, 86, 140},
-                                                          {45, 112, 142},
-                                                          {35, 138, 141},
-                                                          {31, 163, 134},
-                                                          {61, 188, 116},
-                                                          {122, 209, 81},
-                                                          {189, 223, 38},
-                                                          {253, 231, 37}}};
-    const double place = std::clamp(share, 0.0, 1.0) * (stops.size() - 1);
-    const auto stop = std::min(static_cast<std::size_t>(place), stops.size() - 2);
+    const double place = std::clamp(share, 0.0, 1.0) * (value_colours.size() - 1);
+    const auto stop = std::min(static_cast<std::size_t>(place), value_colours.size() - 2);
     const double within = place - static_cast<double>(stop);
     Raster::Colour result{0, 0, 0, 255};
     for (std::size_t i = 0; i < 3; ++i)
-        result[i] = static_cast<std::uint8_t>(std::lround((1.0 - within) * stops[stop][i] + within * stops[stop + 1][i]));
+        result[i] = static_cast<std::uint8_t>(
+            std::lround((1.0 - within) * value_colours[stop][i] + within * value_colours[stop + 1][i]));
     return result;
 }
 
@@ -140,18 +135,9 @@ Raster::Colour lit(Raster::Colour colour, double light) {
 }
 
 /// Where the colours end.
-double upper_end(const BodyPictures& pictures) {
+double end_of_colours(const BodyPictures& pictures) {
     double end = pictures.polygons.least_end;
-    for (const Snapshot& snapshot : pictures.snapshots) {
-        std::vector<double> values;
-        for (const double value : snapshot.value)
-            if (std::isfinite(value)) values.push_back(value);
-        if (values.empty()) continue;
-        const auto nth = values.begin() + static_cast<std::ptrdiff_t>(
-                                              (1.0 - highest_left_out) * static_cast<double>(values.size() - 1) + 0.5);
-        std::ranges::nth_element(values, nth);
-        end = std::max(end, *nth);
-    }
+    for (const Snapshot& snapshot : pictures.snapshots) end = std::max(end, upper_end(snapshot.value));
     return end > 0.0 ? end : 1.0;
 }
 
@@ -169,7 +155,7 @@ public:
         : in_space_(pictures.polygons.in_space),
           view_(in_space_ ? EyeView::of_space() : EyeView()),
           box_(box_of(pictures)),
-          upper_(upper_end(pictures)) {
+          upper_(end_of_colours(pictures)) {
         BodyBox seen;
         if (in_space_)
             for (const Snapshot& snapshot : pictures.snapshots)
@@ -277,21 +263,43 @@ double size_of_cells(const BodySheet& sheet, const BodyPolygons& polygons, const
     return points_per_unit * sheet.scale() * sum / static_cast<double>(std::max<std::size_t>(1, polygons.cell.size()));
 }
 
-void draw_bodies(Raster& image, const BodySheet& sheet, const BodyPolygons& polygons, const Snapshot& snapshot) {
-    const double thin = size_of_cells(sheet, polygons, snapshot) >= few_cells ? cell_line : 0.0;
-    std::vector<Raster::Corner> corners;
-    std::vector<double> line;
-    for (std::size_t i = 0; i < polygons.cell.size(); ++i) {
-        corners.clear();
-        line.clear();
-        for (std::size_t k = polygons.offsets[i]; k < polygons.offsets[i + 1]; ++k) {
-            corners.push_back(sheet.corner(snapshot.position[static_cast<std::size_t>(polygons.corners[k])]));
-            line.push_back(!polygons.is_rim.empty() && polygons.is_rim[k] != 0 ? rim_line : thin);
+/// Lines along the edges of a polygon of some colour.
+class EdgeLines {
+public:
+    explicit EdgeLines(double of_inner) : of_inner_(of_inner) {}
+
+    void begin(std::span<const Edge> edges, const Raster::Colour& of_polygon) {
+        const Raster::Colour dark = lit(of_polygon, shade_of_line);
+        width_.clear();
+        colour_.clear();
+        for (const Edge edge : edges) {
+            const bool is_marked = edge == Edge::held || edge == Edge::loaded;
+            width_.push_back(is_marked ? marked_line : edge == Edge::rim ? rim_line : of_inner_);
+            colour_.push_back(edge == Edge::held ? held_orange : edge == Edge::loaded ? loaded_pink : dark);
         }
+    }
+    [[nodiscard]] std::span<const double> width() const { return width_; }
+    [[nodiscard]] std::span<const Raster::Colour> colour() const { return colour_; }
+
+private:
+    double of_inner_;
+    std::vector<double> width_;
+    std::vector<Raster::Colour> colour_;
+};
+
+void draw_bodies(Raster& image, const BodySheet& sheet, const BodyPolygons& polygons, const Snapshot& snapshot) {
+    EdgeLines lines(size_of_cells(sheet, polygons, snapshot) >= few_cells ? cell_line : 0.0);
+    std::vector<Raster::Corner> corners;
+    for (std::size_t i = 0; i < polygons.cell.size(); ++i) {
+        const std::size_t begin = polygons.offsets[i], n = polygons.offsets[i + 1] - begin;
+        corners.clear();
+        for (std::size_t k = begin; k < begin + n; ++k)
+            corners.push_back(sheet.corner(snapshot.position[static_cast<std::size_t>(polygons.corners[k])]));
         const double value = snapshot.value[i];
         Raster::Colour of_polygon = std::isfinite(value) ? colour_of_value(value / sheet.upper()) : grey;
         if (sheet.in_space()) of_polygon = lit(of_polygon, light_on(corners));
-        image.fill(corners, of_polygon, line);
+        lines.begin(std::span(polygons.edges).subspan(begin, n), of_polygon);
+        image.fill(corners, of_polygon, lines.width(), lines.colour());
     }
 }
 
@@ -339,6 +347,50 @@ Markup directions(const BodySheet& sheet) {
     return result;
 }
 
+/// The middle of each body, of the corners of its polygons.
+std::vector<Position> middles(const BodyPolygons& polygons, const Snapshot& snapshot) {
+    std::vector<Position> sum(polygons.body_names.size());
+    std::vector<double> n(sum.size(), 0.0);
+    for (std::size_t i = 0; i < polygons.body.size(); ++i)
+        for (std::size_t k = polygons.offsets[i]; k < polygons.offsets[i + 1]; ++k) {
+            const auto body = static_cast<std::size_t>(polygons.body[i]);
+            for (std::size_t axis = 0; axis < 3; ++axis)
+                sum[body][axis] += snapshot.position[static_cast<std::size_t>(polygons.corners[k])][axis];
+            n[body] += 1.0;
+        }
+    for (std::size_t body = 0; body < sum.size(); ++body)
+        for (double& x : sum[body]) x /= std::max(n[body], 1.0);
+    return sum;
+}
+
+/// Where there are several bodies, but few: as many of their names as do not lie on each other or leave the image.
+Markup names_of_bodies(const BodySheet& sheet, const BodyPolygons& polygons, const Snapshot& snapshot) {
+    const std::vector<std::string>& names = polygons.body_names;
+    if (names.size() < 2 || names.size() > most_names) return {};
+    struct Placed {
+        double x, y, half;
+    };
+    std::vector<Placed> placed;
+    Markup result;
+    const std::vector<Position> middle = middles(polygons, snapshot);
+    for (std::size_t body = 0; body < names.size(); ++body) {
+        const Raster::Corner at = sheet.corner(middle[body]);
+        const Placed here{image_left + at[0] / points_per_unit, image_top + at[1] / points_per_unit,
+                          0.5 * width_of_letter * static_cast<double>(names[body].size())};
+        const bool is_inside = here.x - here.half > image_left && here.x + here.half < image_right &&
+                               here.y - height_of_letter > image_top && here.y < sheet.lower_edge();
+        const bool is_free = std::ranges::none_of(placed, [&](const Placed& other) {
+            return std::abs(other.x - here.x) < other.half + here.half && std::abs(other.y - here.y) < height_of_letter;
+        });
+        if (!is_inside || !is_free) continue;
+        placed.push_back(here);
+        result +=
+            element("text", {{"class", "name"}, {"x", shown(here.x)}, {"y", shown(here.y + 4.0)}, {"text-anchor", "middle"}},
+                    names[body]);
+    }
+    return result;
+}
+
 Markup picture_of(const BodySheet& sheet, const BodyPolygons& polygons, const Snapshot& snapshot) {
     Raster image = sheet.image();
     draw_obstacles(image, sheet, snapshot);
@@ -356,7 +408,7 @@ Markup picture_of(const BodySheet& sheet, const BodyPolygons& polygons, const Sn
                  {"fill", "none"},
                  {"d", fmt::format("M{0},{1}H{2}V{3}H{0}Z", image_left, image_top, image_left + wide, shown(lower))}}) +
         value_bar(sheet, fmt::format("{} [{}]", polygons.value_name, polygons.value_unit)) + length_scale(sheet) +
-        directions(sheet);
+        directions(sheet) + names_of_bodies(sheet, polygons, snapshot);
     return element("svg",
                    {{"xmlns", "http://www.w3.org/2000/svg"},
                     {"viewBox", fmt::format("0 0 {:.0f} {:.1f}", sheet_width, lower + below_image)},
@@ -364,11 +416,21 @@ Markup picture_of(const BodySheet& sheet, const BodyPolygons& polygons, const Sn
                    content);
 }
 
+/// Three digits, without an exponent where few zeros do.
+std::string plain(double number) {
+    const double size = std::abs(number);
+    if (size == 0.0) return "0";
+    if (size < 1e-3 || size >= 1e6) return fmt::format("{:.2e}", number);
+    const double power = std::pow(10.0, 2.0 - std::floor(std::log10(size)));
+    return fmt::format("{:g}", std::round(power * number) / power);
+}
+
 std::string caption_of(const BodyPolygons& polygons, const Snapshot& snapshot) {
     std::string text = snapshot.what;
-    if (snapshot.force > 0.0) text += fmt::format(", {:.3g} N in all", snapshot.force);
-    return text + fmt::format(": t = {:.4g} s, {} up to {:.3g} {}", snapshot.time, polygons.value_name,
-                              largest_value(snapshot.value), polygons.value_unit);
+    if (snapshot.force > 0.0) text += fmt::format(", {} N in all", plain(snapshot.force));
+    const double largest = largest_value(snapshot.value);
+    return text + fmt::format(": t = {:.4g} s, {} up to {} {}", snapshot.time, polygons.value_name,
+                              plain(largest < polygons.least_end ? 0.0 : largest), polygons.value_unit);
 }
 
 }  // namespace

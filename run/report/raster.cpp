@@ -8,6 +8,8 @@
 #include <new>
 #include <string_view>
 
+#include "abut/run/report/base64.hpp"
+
 namespace abut::run {
 namespace {
 
@@ -67,16 +69,23 @@ Raster::Raster(int width, int height)
       colour_(width_ * height_, Colour{}),
       depth_(width_ * height_, -std::numeric_limits<double>::infinity()) {}
 
-void Raster::fill(std::span<const Corner> corners, const Colour& colour, std::span<const double> line) {
+void Raster::fill(std::span<const Corner> corners, const Colour& colour, std::span<const double> line,
+                  std::span<const Colour> of_line) {
     for (const Corner& corner : corners)
         if (!std::ranges::all_of(corner, [](double x) { return std::isfinite(x); })) return;
+    const Colour dark = darkened(colour);
     const auto line_of = [line](std::size_t edge) { return line.empty() ? 0.0 : line[edge]; };
-    for (std::size_t i = 1; i + 1 < corners.size(); ++i)
+    const auto colour_of = [&](std::size_t edge) { return of_line.empty() ? dark : of_line[edge]; };
+    for (std::size_t i = 1; i + 1 < corners.size(); ++i) {
+        const std::size_t last = i + 1;
         fill_triangle({corners[0], corners[i], corners[i + 1]}, colour,
-                      {i == 1 ? line_of(0) : 0.0, line_of(i), i + 2 == corners.size() ? line_of(i + 1) : 0.0});
+                      {i == 1 ? line_of(0) : 0.0, line_of(i), i + 2 == corners.size() ? line_of(last) : 0.0},
+                      {colour_of(0), colour_of(i), colour_of(last)});
+    }
 }
 
-void Raster::fill_triangle(const std::array<Corner, 3>& corners, const Colour& colour, const std::array<double, 3>& line) {
+void Raster::fill_triangle(const std::array<Corner, 3>& corners, const Colour& colour, const std::array<double, 3>& line,
+                           const std::array<Colour, 3>& of_line) {
     const auto& [a, b, c] = corners;
     const double area = twice_area(a, b, c);
     if (area == 0.0) return;
@@ -85,7 +94,6 @@ void Raster::fill_triangle(const std::array<Corner, 3>& corners, const Colour& c
         const Corner &from = corners[i], &to = corners[(i + 1) % 3];
         near[i] = line[i] * std::hypot(to[0] - from[0], to[1] - from[1]) / std::abs(area);
     }
-    const Colour dark = darkened(colour);
     const auto [low_x, high_x] = std::minmax({a[0], b[0], c[0]});
     const auto [low_y, high_y] = std::minmax({a[1], b[1], c[1]});
     const Span columns = points_between(low_x, high_x, width_), rows = points_between(low_y, high_y, height_);
@@ -98,7 +106,10 @@ void Raster::fill_triangle(const std::array<Corner, 3>& corners, const Colour& c
             const double depth = of_a * a[2] + of_b * b[2] + of_c * c[2];
             if (!(depth > depth_[index(x, y)])) continue;
             depth_[index(x, y)] = depth;
-            colour_[index(x, y)] = of_c < near[0] || of_a < near[1] || of_b < near[2] ? dark : colour;
+            colour_[index(x, y)] = of_c < near[0]   ? of_line[0]
+                                   : of_a < near[1] ? of_line[1]
+                                   : of_b < near[2] ? of_line[2]
+                                                    : colour;
         }
 }
 
@@ -125,16 +136,6 @@ std::string Raster::png() const {
     return result;
 }
 
-std::string data_address(const std::string& png) {
-    constexpr std::string_view letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string text = "data:image/png;base64,";
-    for (std::size_t i = 0; i < png.size(); i += 3) {
-        std::uint32_t bits = 0;
-        for (std::size_t k = 0; k < 3; ++k)
-            bits = bits << 8 | (i + k < png.size() ? static_cast<unsigned char>(png[i + k]) : 0U);
-        for (std::size_t k = 0; k < 4; ++k) text.push_back(i + k > png.size() ? '=' : letters[bits >> (18 - 6 * k) & 0x3F]);
-    }
-    return text;
-}
+std::string data_address(const std::string& png) { return "data:image/png;base64," + base64(png); }
 
 }  // namespace abut::run

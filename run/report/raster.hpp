@@ -19,9 +19,10 @@ public:
     Raster(int width, int height);
 
     /// A convex polygon, or one that its first corner sees all of. Points within `line[i]` of the edge from corner i to the
-    /// next are darker [points]; empty: none. Of polygons as near the one drawn first is seen. One with a corner that is not
-    /// finite is left out, and so is what lies outside the image.
-    void fill(std::span<const Corner> corners, const Colour& colour, std::span<const double> line = {});
+    /// next have the colour `of_line[i]`, or where there is none are darker [points]; empty: no lines. Of polygons as near the one drawn first is seen.
+    /// One with a corner that is not finite is left out, and so is what lies outside the image.
+    void fill(std::span<const Corner> corners, const Colour& colour, std::span<const double> line = {},
+              std::span<const Colour> of_line = {});
 
     [[nodiscard]] Colour at(int x, int y) const { return colour_[index(x, y)]; }
     /// The bytes of a PNG file.
@@ -31,7 +32,8 @@ private:
     [[nodiscard]] std::size_t index(int x, int y) const {
         return static_cast<std::size_t>(y) * width_ + static_cast<std::size_t>(x);
     }
-    void fill_triangle(const std::array<Corner, 3>& corners, const Colour& colour, const std::array<double, 3>& line);
+    void fill_triangle(const std::array<Corner, 3>& corners, const Colour& colour, const std::array<double, 3>& line,
+                       const std::array<Colour, 3>& of_line);
 
     std::size_t width_;
     std::size_t height_;

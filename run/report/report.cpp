@@ -7,11 +7,13 @@
 #include <chrono>
 #include <cmath>
 
+#include "abut/run/body_names.hpp"
 #include "abut/run/option_table.hpp"
 #include "abut/run/report/body_pictures.hpp"
 #include "abut/run/report/curves.hpp"
 #include "abut/run/report/figures.hpp"
 #include "abut/run/report/style.hpp"
+#include "abut/run/report/watched.hpp"
 #include "abut/run/summary.hpp"
 #include "abut/run/verdict.hpp"
 #include "abut/run/warnings.hpp"
@@ -63,7 +65,7 @@ Markup pictures_part(const BodyPictures& pictures) {
         drawn + element("p", {{"class", "faint"}},
                         "Bodies are where they were, displacements to scale, all in the same view and the same colours; "
                         "what is above the end of the colours has the last one. Obstacles, and rigid bodies among others, "
-                        "are grey."));
+                        "are grey. Faces that are held have orange edges, those under a traction pink ones."));
 }
 
 /// A row of a table of figures with units.
@@ -106,11 +108,42 @@ Markup bodies_part(const Figures& figures, const Scene<Dim>& scene, const RunRes
                                    rows));
 }
 
+/// Bodies of one material in one row.
 template <int Dim>
-Markup contact_part(const Figures& figures, const Scene<Dim>& scene, const RunResult<Dim>& result) {
+Markup materials_part(const Scene<Dim>& scene, const RunResult<Dim>& result) {
+    std::vector<std::pair<const solid::Material*, std::string>> of_bodies;
+    const auto same = [](const solid::Material& a, const solid::Material& b) {
+        return a.young == b.young && a.poisson == b.poisson && a.density == b.density && a.eta == b.eta;
+    };
+    for (std::size_t body = 0; body < result.start.size(); ++body) {
+        const solid::Material& material = scene.solid.materials[body];
+        const auto known = std::ranges::find_if(of_bodies, [&](const auto& other) { return same(*other.first, material); });
+        if (known == of_bodies.end())
+            of_bodies.emplace_back(&material, scene.mesh.body_names[body]);
+        else
+            known->second += ", " + scene.mesh.body_names[body];
+    }
+    std::vector<Markup> rows;
+    for (const auto& [material, names] : of_bodies)
+        rows.push_back(row({names, fmt::format("{:g}", material->young), fmt::format("{:g}", material->poisson),
+                            fmt::format("{:g}", material->density),
+                            fmt::format("{:.4g}", std::sqrt(material->wave_modulus() / material->density))}));
+    return section("Materials", table({"bodies", "Young's modulus [Pa]", "Poisson's ratio", "density [kg/m³]",
+                                       "speed of waves of compression [m/s]"},
+                                      rows));
+}
+
+template <int Dim>
+Markup contact_part(const Figures& figures, const Scene<Dim>& scene, const RunResult<Dim>& result,
+                    const ReportSources& sources) {
     if (!scene.contact) return section("Contact", element("p", "Bodies pass through each other: contact is off."));
+    const std::int64_t interval = scene.outputs.interval > 0 ? scene.outputs.interval : result.options.interval;
+    const Markup forces =
+        sources.forces.empty()
+            ? Markup()
+            : force_pictures(sources.forces, {.steps = result.steps, .interval = interval, .dt = result.dt});
     return section("Contact",
-                   contact_picture(result) +
+                   contact_picture(result) + forces +
                        table({"", ""}, {figure_row(figures, "openings, closings and slips within steps", "events", ""),
                                         figure_row(figures, "pairs in contact, at most", "active_pairs_max", ""),
                                         figure_row(figures, "pairs in contact, at the end", "active_pairs_final", ""),
@@ -123,15 +156,51 @@ Markup contact_part(const Figures& figures, const Scene<Dim>& scene, const RunRe
                                         figure_row(figures, "lists of candidates", "rebuilds", "")}));
 }
 
+template <int Dim>
+Markup probes_part(const Scene<Dim>& scene, const ReportSources& sources) {
+    if (sources.probes.empty()) return {};
+    std::vector<std::string> names;
+    for (const Probe<Dim>& probe : scene.outputs.probes) names.push_back(probe.name);
+    return section("Probes", probe_pictures(sources.probes, names));
+}
+
+/// A law of friction in words.
+std::string in_words(const contact::Friction& law) {
+    if (law.own_coefficient) return "a coefficient of its own";
+    std::string text;
+    if (law.coefficient > 0.0 || law.sliding_coefficient > 0.0) text = fmt::format("coefficient {:g}", law.coefficient);
+    if (std::isfinite(law.sliding_coefficient)) text += fmt::format(", {:g} when sliding", law.sliding_coefficient);
+    if (std::isfinite(law.decay_speed)) text += fmt::format(", where that falls by 1/e per {:g} m/s", law.decay_speed);
+    if (std::isfinite(law.decay_slip)) text += fmt::format(", where that falls over a path of {:g} m", law.decay_slip);
+    if (law.strength > 0.0) text += fmt::format("{}strength {:g} Pa", text.empty() ? "" : ", ", law.strength);
+    if (std::isfinite(law.relaxation_time)) text += fmt::format(", relaxes in {:g} s", law.relaxation_time);
+    return text.empty() ? "none" : text;
+}
+
+/// Who rubs on whom, and how.
+template <int Dim>
+Markup friction_laws(const Scene<Dim>& scene, const RunResult<Dim>& result) {
+    const contact::Friction& of_all = result.options.friction;
+    std::vector<Markup> rows;
+    for (const solid::BodyFriction& pair : scene.solid.body_friction)
+        rows.push_back(
+            row({quoted_name(scene, pair.bodies[0]) + ", " + quoted_name(scene, pair.bodies[1]), in_words(pair.law)}));
+    if (of_all.acts()) rows.push_back(row({rows.empty() ? "all" : "all others", in_words(of_all)}));
+    return table({"between", "friction"}, rows);
+}
+
 /// Nothing without friction.
-Markup friction_part(const Figures& figures) {
+template <int Dim>
+Markup friction_part(const Figures& figures, const Scene<Dim>& scene, const RunResult<Dim>& result) {
     if (!figures.summary().contains("friction")) return {};
-    return section("Friction", table({"", ""}, {figure_row(figures, "dissipated", "friction.dissipated", "J"),
-                                                figure_row(figures, "held by faces that stick", "friction.energy", "J"),
-                                                figure_row(figures, "faces that stick, at most", "friction.sticking_faces_max", ""),
-                                                figure_row(figures, "faces that slide, at most", "friction.sliding_faces_max", ""),
-                                                figure_row(figures, "force of sliding faces over its limit",
-                                                           "friction.sliding_share", "")}));
+    return section(
+        "Friction",
+        friction_laws(scene, result) +
+            table({"", ""}, {figure_row(figures, "dissipated", "friction.dissipated", "J"),
+                             figure_row(figures, "held by faces that stick", "friction.energy", "J"),
+                             figure_row(figures, "faces that stick, at most", "friction.sticking_faces_max", ""),
+                             figure_row(figures, "faces that slide, at most", "friction.sliding_faces_max", ""),
+                             figure_row(figures, "force of sliding faces over its limit", "friction.sliding_share", "")}));
 }
 
 Markup findings_part(const Figures& figures, const std::vector<Finding>& findings) {
@@ -209,14 +278,16 @@ Markup page(const std::string& title, const Markup& body) {
 
 template <int Dim>
 std::string report_html(const std::string& program, const Scene<Dim>& scene, const RunResult<Dim>& result,
-                        const std::vector<ReportFile>& files, const BodyPictures* pictures) {
+                        const std::vector<ReportFile>& files, const ReportSources& sources) {
     const Figures figures(Json::parse(summary_json(program, scene, result)));
     const std::vector<Warning> warnings = all_warnings(scene, result);
-    const Markup body =
-        heading(program, figures, result) + verdict_part(scene, result) + (pictures ? pictures_part(*pictures) : Markup()) +
-        warnings_part(warnings) + energies_part(figures, result) + bodies_part(figures, scene, result) +
-        contact_part(figures, scene, result) + friction_part(figures) + findings_part(figures, result.findings) +
-        settings_part(figures, scene, result) + seconds_part(figures) + files_part(files);
+    const Markup body = heading(program, figures, result) + verdict_part(scene, result) +
+                        (sources.pictures ? pictures_part(*sources.pictures) : Markup()) + warnings_part(warnings) +
+                        energies_part(figures, result) + bodies_part(figures, scene, result) +
+                        materials_part(scene, result) + contact_part(figures, scene, result, sources) +
+                        friction_part(figures, scene, result) + probes_part(scene, sources) +
+                        findings_part(figures, result.findings) + settings_part(figures, scene, result) +
+                        seconds_part(figures) + files_part(files);
     return "<!DOCTYPE html>\n" + page((scene.title.empty() ? program : scene.title) + ": report of a run", body).html() +
            "\n";
 }
@@ -233,7 +304,7 @@ std::string failure_html(const std::string& program, const BodyPictures& picture
 
 #define ABUT_INSTANTIATE(Dim)                                                                           \
     template std::string report_html<Dim>(const std::string&, const Scene<Dim>&, const RunResult<Dim>&, \
-                                          const std::vector<ReportFile>&, const BodyPictures*);
+                                          const std::vector<ReportFile>&, const ReportSources&);
 ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)
 #undef ABUT_INSTANTIATE

@@ -8,12 +8,12 @@ namespace abut::run {
 /// would have escaped.
 inline constexpr std::string_view report_style = R"css(
 :root { color-scheme: light dark; --ink: #1b1b1a; --faint: #6b6a66; --line: #dcdbd6; --paper: #ffffff; --good: #1c7c3c;
-  --bad: #b3361b; --blue: #2a78d6; --orange: #d9591f; --grey: #a5a49f; }
+  --bad: #b3361b; --blue: #2a78d6; --orange: #d9591f; --teal: #0a8f7c; --grey: #a5a49f; }
 @media (prefers-color-scheme: dark) {
   :root { --ink: #e9e8e4; --faint: #a3a29d; --line: #3c3b38; --paper: #181817; --good: #6cc98a; --bad: #ff8f73;
-    --blue: #6aa9f5; --orange: #ff9a66; --grey: #77766f; } }
+    --blue: #6aa9f5; --orange: #ff9a66; --teal: #4fd0b8; --grey: #77766f; } }
 @media print { :root { color-scheme: light; --ink: #000000; --faint: #444444; --line: #bbbbbb; --paper: #ffffff;
-  --good: #00551c; --bad: #8a1d06; --blue: #1d5cab; --orange: #b3400b; --grey: #999999; }
+  --good: #00551c; --bad: #8a1d06; --blue: #1d5cab; --orange: #b3400b; --teal: #00695a; --grey: #999999; }
   section { break-inside: avoid; } }
 body { font: 15px/1.5 system-ui, sans-serif; color: var(--ink); background: var(--paper); max-width: 60em;
   margin: 2em auto; padding: 0 1em; }
@@ -35,11 +35,13 @@ figure { margin: 1em 0; }
 svg { width: 100%; min-width: 36em; height: auto; font: 12px system-ui, sans-serif; }
 .pictures svg { min-width: 410px; }
 svg text { fill: var(--ink); }
+svg text.name { paint-order: stroke; stroke: var(--paper); stroke-width: 3px; stroke-linejoin: round; }
 .grid { stroke: var(--line); stroke-width: 1; }
 .axis { stroke: var(--ink); stroke-width: 1; }
 .curve { fill: none; stroke-width: 1.6; stroke-linejoin: round; }
 .blue { stroke: var(--blue); }
 .orange { stroke: var(--orange); }
+.teal { stroke: var(--teal); }
 .grey { stroke: var(--grey); stroke-width: 4; }
 .ink { stroke: var(--ink); }
 .bar { display: inline-block; height: 0.7em; background: var(--blue); print-color-adjust: exact; }

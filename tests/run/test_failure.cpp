@@ -153,3 +153,18 @@ TEST_CASE("files of a failure can be read back, and go with the next run in that
     for (const auto& entry : fs::directory_iterator(folder.path()))
         CHECK(entry.path().filename().string().find("failed") == std::string::npos);
 }
+
+TEST_CASE("a failure has its pictures also where contact was last searched far from the last sound state", "[run][failure]") {
+    const Folder folder;
+    run::Scene<2> scene = coarse_and_fine();
+    scene.contact = true;
+    run::RunOptions options = unstable_options(scene);
+    options.interval = 5;
+    options.contact.search.skin = 1e-3;
+    options.out = folder.path();
+    options.frames = 0;
+    run::ResultFiles<2> files(options, "mine", "blocks");
+    CHECK_THROWS_AS(static_cast<void>(run::simulate<2>(scene, options, files)), abut::Diverged);
+    CHECK(files.left_behind().find("could not be written") == std::string::npos);
+    CHECK(read_text(folder.path() / "failed.html").find("The last sound state") != std::string::npos);
+}

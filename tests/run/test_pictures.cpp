@@ -148,7 +148,7 @@ run::BodyPictures squares(bool in_space, const std::vector<double>& value, const
             pictures.polygons.corners.push_back(static_cast<std::int32_t>(4 * i) + corner);
         pictures.polygons.offsets.push_back(4 * (i + 1));
         pictures.polygons.cell.push_back(static_cast<std::int32_t>(i));
-        if (!in_space) pictures.polygons.is_rim.insert(pictures.polygons.is_rim.end(), 4, 1);
+        pictures.polygons.edges.insert(pictures.polygons.edges.end(), 4, in_space ? run::Edge::inner : run::Edge::rim);
     }
     for (const auto& at : places) {
         run::Snapshot snapshot{.what = "a < b", .value = value};
@@ -258,8 +258,40 @@ TEST_CASE("an obstacle is drawn as far as its picture goes", "[run][report]") {
     }
 }
 
-TEST_CASE("a report shows the bodies at the start, near the largest force and at the end, also without frames",
+TEST_CASE("faces that are held have orange edges, those under a traction pink ones", "[run][report]") {
+    for (const bool in_space : {false, true}) {
+        run::BodyPictures pictures = squares(in_space, {1.0}, {{0.0}});
+        const auto marks = [&](run::Edge edge, run::Raster::Colour colour) {
+            pictures.polygons.edges[0] = edge;
+            const Image image = images(run::body_pictures(pictures).html()).at(0);
+            return patch(image, [&](const run::Raster::Colour& point) { return point == colour; }).n;
+        };
+        const run::Raster::Colour orange{217, 89, 31, 255}, pink{219, 38, 128, 255};
+        CHECK(marks(run::Edge::inner, orange) == 0);
+        CHECK(marks(run::Edge::held, orange) > 100);
+        CHECK(marks(run::Edge::held, pink) == 0);
+        CHECK(marks(run::Edge::loaded, pink) > 100);
+    }
+}
+
+TEST_CASE("bodies have their names in a picture where there are several, each once, and none lies on another",
           "[run][report]") {
+    const auto names = [](std::vector<double> places) {
+        run::BodyPictures pictures = squares(false, {1.0, 1.0}, {places});
+        pictures.polygons.body = {0, 1};
+        pictures.polygons.body_names = {"left < 1", "right"};
+        const std::string html = run::body_pictures(pictures).html();
+        require_well_formed(html);
+        return std::pair(html.find(">left &lt; 1</text>") != std::string::npos,
+                         html.find(">right</text>") != std::string::npos);
+    };
+    CHECK(names({0.0, 2.0}) == std::pair(true, true));
+    CHECK(names({0.0, 0.01}) == std::pair(true, false));
+}
+
+TEST_CASE(
+    "a report shows the bodies at the start, in the middle, near the largest force and at the end, also without frames",
+    "[run][report]") {
     const test::Folder folder;
     const run::RunOptions options{.out = folder.path() / "out", .frames = 0};
     run::Scene<2> scene = test::block_on_plane(0.05);
@@ -269,15 +301,15 @@ TEST_CASE("a report shows the bodies at the start, near the largest force and at
     files.finish(scene, result);
     const std::string report = test::read_text(options.out / "report.html");
     require_well_formed(report);
-    CHECK_THAT(report, !Contains("<script") && Contains("At the start") && Contains("Near the largest contact force") &&
-                           Contains("At the end"));
+    CHECK_THAT(report, !Contains("<script") && Contains("At the start") && Contains("In the middle") &&
+                           Contains("Near the largest contact force") && Contains("At the end"));
     CHECK(report.find("href=\"http") == std::string::npos);
     const auto found = images(report);
-    REQUIRE(found.size() == 3);
+    REQUIRE(found.size() == 4);
     // Stress comes with contact: the block is of one dark colour before, and has lighter ones then.
     const auto is_light = [](const run::Raster::Colour& c) { return c[3] == 255 && brightness(c) > 150.0; };
     CHECK(patch(found[0], is_light).n == 0);
-    CHECK(patch(found[1], is_light).n > 1000);
+    CHECK(std::max(patch(found[1], is_light).n, patch(found[2], is_light).n) > 1000);
 }
 
 TEST_CASE("the end of a run that was asked to stop is in its report", "[run][report]") {

@@ -15,6 +15,7 @@
 #include "abut/run/report/plot.hpp"
 #include "abut/run/report/report.hpp"
 #include "abut/run/report/ticks.hpp"
+#include "abut/run/report/watched.hpp"
 #include "abut/run/result_files.hpp"
 #include "abut/run/simulation.hpp"
 #include "abut/run/summary.hpp"
@@ -288,4 +289,85 @@ TEST_CASE("a map of cells is as long along both axes, and shows the highest valu
     REQUIRE(dots.size() == 2);  // two colours, and not the low point below the high one
     CHECK(std::ranges::count(dots[0], 'M') == 2);
     CHECK(std::ranges::count(dots[1], 'M') == 1);
+}
+
+namespace {
+
+/// Points of the curve of a style in a figure, in units of the drawing.
+std::vector<std::pair<double, double>> points_of(const std::string& html, const std::string& style) {
+    pugi::xml_document root;
+    REQUIRE(root.load_string(("<figures>" + html + "</figures>").c_str()));
+    const auto curve = root.select_node(("//path[@class='curve " + style + "']").c_str()).node();
+    REQUIRE(curve);
+    std::vector<std::pair<double, double>> points;
+    std::string text = curve.attribute("d").value();
+    std::ranges::replace_if(
+        text, [](char c) { return c == ',' || c == 'M' || c == 'L'; }, ' ');
+    std::istringstream numbers(text);
+    for (double x, y; numbers >> x >> y;) points.emplace_back(x, y);
+    REQUIRE(points.size() > 2);
+    return points;
+}
+
+}  // namespace
+
+TEST_CASE("forces of a table are drawn to scale, and are 0 where there is no row", "[run][report]") {
+    const test::Folder folder;
+    std::filesystem::create_directories(folder.path());
+    const auto path = folder.path() / "forces.csv";
+    std::string table = "step,time,body_1,body_2,force_x,force_y,normal_force\n";
+    for (int step = 1; step <= 60; ++step)
+        table += std::to_string(step) + "," + std::to_string(0.1 * step) + ",a,b,0,-1," + (step <= 30 ? "3" : "1.5") + "\n";
+    test::write_text(path, table);
+    const std::string html = run::force_pictures(path, {.steps = 90, .interval = 1, .dt = 0.1}).html();
+    const auto points = points_of(html, "ink");
+    const double left = points.front().first, right = points.back().first;
+    double high = 0.0, middle = 0.0, low = 0.0;
+    for (const auto& [x, y] : points) {
+        const double share = (x - left) / (right - left);
+        (share < 0.32 ? high : share > 0.35 && share < 0.65 ? middle : low) = y;
+    }
+    CHECK(middle - high == Approx(low - middle).epsilon(0.01));
+    CHECK(low - high > 50.0);
+    CHECK_THAT(html, Contains("'a'") && Contains("'b'"));
+}
+
+TEST_CASE("of very many forces the means are drawn", "[run][report]") {
+    const test::Folder folder;
+    std::filesystem::create_directories(folder.path());
+    const auto path = folder.path() / "forces.csv";
+    std::string table = "step,time,body_1,body_2,force_x,force_y,normal_force\n";
+    for (int step = 1; step <= 20000; step += 2)  // every other row is not there: 0
+        table += std::to_string(step) + "," + std::to_string(step) + ",a,b,0,-1,2\n";
+    test::write_text(path, table);
+    const auto points = points_of(run::force_pictures(path, {.steps = 20000, .interval = 1, .dt = 1.0}).html(), "ink");
+    for (const auto& [x, y] : points) CHECK(y == Approx(points.front().second).margin(0.11));
+}
+
+TEST_CASE("a report draws the forces and probes that a scene asks for, and says of what the bodies are", "[run][report]") {
+    const test::Folder folder;
+    const run::RunOptions options{.out = folder.path() / "out", .frames = 0};
+    run::Scene<2> scene = test::block_on_plane(0.05);
+    scene.outputs.forces = true;
+    scene.outputs.probes = {{.name = "=tip, \"left\"", .body = 0, .position = Vector<2>(0.1, 0.9)},
+                            {.name = "whole", .body = 0}};
+    run::ResultFiles<2> files(options, "mine", "block");
+    run::RunResult<2> result = run::simulate<2>(scene, options, files);
+    files.finish(scene, result);
+    const auto root = parsed(test::read_text(options.out / "report.html"));
+    std::vector<std::string> captions = all(root, "figcaption");
+    const auto has = [&](const std::string& text) {
+        return std::ranges::any_of(captions,
+                                   [&](const std::string& caption) { return caption.find(text) != std::string::npos; });
+    };
+    CHECK(has("Force of 'block' on 'obstacle_0'"));
+    for (const std::string probe : {"=tip, \"left\"", "whole"}) {
+        CHECK(has("Displacement at '" + probe + "'"));
+        CHECK(has("von Mises stress at '" + probe + "'"));
+    }
+    const auto cells = all(root, "td");
+    const auto body = std::ranges::find(cells, "block");
+    REQUIRE(body != cells.end());
+    CHECK(std::vector<std::string>(body, body + 5) ==
+          std::vector<std::string>{"block", "1", "0", "1", "1"});  // c = sqrt(E/rho)
 }
