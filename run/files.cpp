@@ -10,6 +10,7 @@
 #include "abut/base/error.hpp"
 #include "abut/base/text.hpp"
 #include "abut/dynamics/ledger.hpp"
+#include "abut/run/animation.hpp"
 #include "abut/run/failure_files.hpp"
 #include "abut/run/paraview_script.hpp"
 
@@ -19,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 
 const std::vector<std::string> plain_results = {"summary.json",       "report.html", "energy.csv", "energy.svg",
-                                                paraview_script_name, "probes.csv",  "forces.csv"};
+                                                paraview_script_name, "probes.csv",  "forces.csv", animation_name};
 
 bool take(std::string_view& text, std::string_view start) {
     if (!text.starts_with(start)) return false;

@@ -13,8 +13,8 @@ void claim_results(const std::filesystem::path& directory, const std::vector<std
 /// Whether a run has claimed the folder.
 [[nodiscard]] bool holds_results(const std::filesystem::path& directory);
 
-/// claim_results for what ResultFiles may leave: summary.json, report.html, energy.csv, its picture, probes.csv, forces.csv, the
-/// script for ParaView, the lists and frames of `series`, and what is left of a run that failed. Everything else stays.
+/// claim_results for what ResultFiles may leave: summary.json, report.html, animation.html, energy.csv, its picture, probes.csv,
+/// forces.csv, the script for ParaView, the lists and frames of `series`, and what is left of a run that failed. Everything else stays.
 void remove_earlier_results(const std::filesystem::path& directory, const std::string& series);
 
 /// The series of pairs in contact beside that of cells.

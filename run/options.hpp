@@ -63,7 +63,8 @@ struct RunOptions {
     std::filesystem::path out;          ///< folder of ResultFiles; a simulation alone writes nothing
     int interval = 0;                   ///< steps between ledger records; 0: see records_interval
     int frames = 21;                    ///< of the VTU series of ResultFiles, the first and the last included; 0: none
-    bool pieces = false;                ///< each rank writes its own cells of these frames
+    int animation = 0;                  ///< frames of animation.html of ResultFiles, first and last included; 0: none
+    bool pieces = false;                ///< each rank writes its own cells of the frames of the VTU series
     bool keep_last_checkpoint = false;  ///< of a run that comes to its end, too: another one may go on from there
     bool other_end = false;             ///< a run that goes on may end at another time than the one it goes on from
     double checkpoint = 10.0;  ///< minutes from one checkpoint of ResultFiles to the next; 0: none, not even at a signal

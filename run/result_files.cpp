@@ -45,6 +45,7 @@ ResultFiles<Dim>::ResultFiles(const RunOptions& options, std::string program, st
         checkpoints_.remove(texts_beside);
     }
     if (options.frames > 0) frames_.emplace(out_, name_, options.frames, options.pieces);
+    if (options.animation > 0) animation_.emplace(out_ / animation_name, program_, options.animation);
 }
 
 template <int Dim>
@@ -56,6 +57,7 @@ void ResultFiles<Dim>::begin(const Scene<Dim>& scene, const RunResult<Dim>& resu
     if (!scene.outputs.probes.empty()) probes_.emplace(out_ / "probes.csv").begin(scene, result);
     if (scene.outputs.forces) forces_.emplace(out_ / "forces.csv").begin(scene, result);
     if (frames_) frames_->begin(scene, result);
+    if (animation_) animation_->begin(scene, result);
     snapshots_.begin(scene, result);
 }
 
@@ -72,6 +74,7 @@ void ResultFiles<Dim>::look(const dynamics::RunView<Dim>& run, solid::Solid<Dim>
     if (probes_) probes_->look(run, solid);
     if (forces_) forces_->look(run, solid);
     if (frames_) frames_->look(run, solid);
+    if (animation_) animation_->look(run, solid);
     snapshots_.look(run, solid);
 }
 
@@ -84,7 +87,7 @@ void ResultFiles<Dim>::end(const dynamics::RunView<Dim>& run, solid::Solid<Dim>&
 template <int Dim>
 bool ResultFiles<Dim>::wants_look(std::int64_t step) const {
     return (probes_ && probes_->wants_look(step)) || (forces_ && forces_->wants_look(step)) ||
-           (frames_ && frames_->wants_look(step)) ||
+           (frames_ && frames_->wants_look(step)) || (animation_ && animation_->wants_look(step)) ||
            snapshots_.wants_look(step);
 }
 
@@ -125,7 +128,8 @@ void ResultFiles<Dim>::draw_failure(const Failure& failure, solid::Solid<Dim>& s
 template <int Dim>
 std::string ResultFiles<Dim>::left_behind() const {
     if (!has_begun_) return "";
-    return " energy.csv.partial holds the records so far." + failed_;
+    const std::string film = fmt::format(" {0}.partial, renamed to {0}, shows the run so far.", animation_name);
+    return " energy.csv.partial holds the records so far." + (animation_ ? film : "") + failed_;
 }
 
 template <int Dim>
@@ -156,6 +160,7 @@ void ResultFiles<Dim>::save(StateWriter& state) {
     if (probes_) probes_->save(state);
     if (forces_) forces_->save(state);
     if (frames_) frames_->save(state);
+    if (animation_) animation_->save(state);
     snapshots_.save(state);
 }
 
@@ -171,6 +176,7 @@ void ResultFiles<Dim>::resume(const Scene<Dim>& scene, const RunResult<Dim>& res
     if (!scene.outputs.probes.empty()) probes_.emplace(out_ / "probes.csv").resume(scene, result, state);
     if (scene.outputs.forces) forces_.emplace(out_ / "forces.csv").resume(scene, result, state);
     if (frames_) frames_->resume(scene, result, state);
+    if (animation_) animation_->resume(scene, result, state);
     snapshots_.resume(scene, result, state);
 }
 
@@ -182,6 +188,7 @@ void ResultFiles<Dim>::finish(const Scene<Dim>& scene, RunResult<Dim>& result) {
         energies_.finish();
         if (probes_) probes_->finish();
         if (forces_) forces_->finish();
+        if (animation_) animation_->finish();
         write_energy_picture<Dim>(out_, title_of(program_, scene, result), result.ledger.entries(), result.scale);
     }
     result.seconds.output += seconds_ + seconds;
@@ -204,6 +211,7 @@ std::vector<ReportFile> ResultFiles<Dim>::files_of_report() const {
                                      {"energy.svg", "the picture of the energies"}};
     if (forces_) files.push_back({"forces.csv", "forces between bodies over time"});
     if (probes_) files.push_back({"probes.csv", "what probes see over time"});
+    if (animation_) files.push_back({animation_name, "the run as a film, in this browser"});
     if (frames_) {
         files.push_back({name_ + ".pvd", "cells over time, for ParaView"});
         files.push_back({name_ + "_surface.pvd", "boundary faces over time, for ParaView"});
@@ -221,6 +229,7 @@ std::string ResultFiles<Dim>::table() const {
                        table_line("summary", path("summary.json"));
     if (probes_) text += table_line("probes", path("probes.csv"));
     if (forces_) text += table_line("forces", path("forces.csv"));
+    if (animation_) text += table_line("animation", path(animation_name));
     if (frames_) text += table_line("for ParaView", path(name_ + ".pvd") + ", " + path(name_ + "_surface.pvd"));
     if (frames_ && frames_->has_pairs()) text += table_line("", path(pairs_series(name_) + ".pvd"));
     return text + table_line("picture", path("energy.svg"));

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "abut/run/animation.hpp"
 #include "abut/run/checkpoint_folder.hpp"
 #include "abut/run/energy_file.hpp"
 #include "abut/run/folder_lock.hpp"
@@ -19,8 +20,8 @@
 
 namespace abut::run {
 
-/// All files of a run in one folder, RunOptions::out: energy.csv, the VTU series, probes.csv and forces.csv (where
-/// Scene::outputs asks for them) as it goes, then energy.svg, the script for ParaView, report.html and summary.json;
+/// All files of a run in one folder, RunOptions::out: energy.csv, the VTU series, animation.html, probes.csv and forces.csv
+/// (where options and Scene::outputs ask for them) as it goes, then energy.svg, the script for ParaView, report.html and summary.json;
 /// in `checkpoints`, what a run that is stopped goes on from; of a run that fails its last sound state, where it failed
 /// (write_failure), and pictures of the bodies until then. The folder is its own (FolderLock) until `finish`, or until it
 /// goes.
@@ -76,6 +77,7 @@ private:
     std::string name_;  // of the series
     EnergyFile<Dim> energies_;
     std::optional<Frames<Dim>> frames_;
+    std::optional<Animation<Dim>> animation_;
     std::optional<ProbeFile<Dim>> probes_;
     std::optional<ForceFile<Dim>> forces_;
     Snapshots<Dim> snapshots_;

@@ -82,6 +82,7 @@ const Topic output{"output", "Results",
   summary.json         for programs: all figures and the options as they were used
   energy.csv           energies and momenta, a row per record (--interval)
   energy.svg           their picture
+  animation.html       the run as a film, in any browser (--animation 100)
   bodies.pvd           cells over time for ParaView (--frames), bodies_surface.pvd boundary faces,
                        bodies_pairs.pvd pairs of faces in contact
   view_in_paraview.py  opens them with sensible views: paraview --script=...

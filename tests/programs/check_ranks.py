@@ -20,7 +20,7 @@ LONG = {"steps": 60000, "frames": 0, "interval": 20}
 
 def command(program, scene, folder, *more, steps=150, frames=3, interval=1, threads=1):
     return [program, "run", scene, *OPTIONS, "--threads", str(threads), "--steps", str(steps), "--frames", str(frames), "--interval", str(interval),
-            "--out", str(folder), *more]
+            "--animation", str(frames), "--out", str(folder), *more]
 
 
 def files_of(folder, without=()):

@@ -115,4 +115,5 @@ def main():
         assert look(browser, folder, 1280, "asks.html")["requests"], "a request of the page was not seen"
 
 
-main()
+if __name__ == "__main__":
+    main()

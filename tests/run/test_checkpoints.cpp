@@ -72,7 +72,7 @@ std::map<std::string, std::string> contents(const fs::path& folder) {
 
 TEST_CASE("a run that was stopped and goes on leaves the files of the run that was not", "[run][checkpoint]") {
     using run::SolidIntegrator;
-    run::RunOptions options{.steps = 60, .interval = 7, .frames = 5};
+    run::RunOptions options{.steps = 60, .interval = 7, .frames = 5, .animation = 4};
     SECTION("MEMM") {}
     SECTION("MEMM with filter and neutral restarts") {
         options.filter = true;
