@@ -81,6 +81,23 @@ typedef struct abut_faces {
 } abut_faces;
 #define ABUT_FACES_INIT {sizeof(abut_faces), 0, 0, 0, 0, 0, 0, 0, 0, 0, 0}
 
+/* Cells of a host, for abut_surface_of. */
+typedef struct abut_cells {
+    size_t struct_size;
+    int64_t n_cells;
+    /* Corners, one cell after the other, in the order that VTK and most codes have: three or four (2D); four (tetrahedron), five
+       (pyramid), six (prism) or eight (hexahedron) */
+    const int32_t* nodes;
+    int64_t n_nodes;         /* entries of `nodes` */
+    const int32_t* offsets;  /* (n_cells + 1) where each cell begins in `nodes`; NULL: all have as many corners */
+    const int32_t* body;     /* (n_cells); NULL: all are of one body */
+    int32_t index_base;      /* 0 or 1, also of what comes out */
+} abut_cells;
+#define ABUT_CELLS_INIT {sizeof(abut_cells), 0, 0, 0, 0, 0, 0}
+
+/* Boundary faces that Abut has found. */
+typedef struct abut_surface abut_surface;
+
 enum { ABUT_NOTE = 0, ABUT_WARNING = 1 };
 
 /* A law of friction, in the words of abut_options. */
@@ -250,6 +267,15 @@ ABUT_API int abut_limit_threads(int32_t n, abut_error* error);
 
 /* One k per body: lambda + 2 mu over the mean depth of those of its faces that will touch; with mu its shear stiffness. */
 ABUT_API int abut_skin_stiffness(double modulus, const double* depth, int64_t n, double* stiffness, abut_error* error);
+
+/* The faces that one cell alone has, turned outwards whatever the sense of the cells, with half the height of the cell behind each as
+   depth. */
+ABUT_API int abut_surface_of(int32_t dim, abut_array rest, const abut_cells* cells, abut_surface** surface, abut_error* error);
+/* Points `faces` (nodes, offsets, body, depth and their numbers; the rest of it stays) and `cell` (n_faces, the cell behind each; may
+   be NULL) at what the surface holds until `abut_surface_destroy`. */
+ABUT_API int abut_surface_faces(const abut_surface* surface, abut_faces* faces, const int32_t** cell, abut_error* error);
+/* NULL is no error. */
+ABUT_API void abut_surface_destroy(abut_surface* surface);
 
 /* `rest`: all nodes of the host at rest. Obstacles are rigid bodies, whose nodes the host places. `options` may be NULL. */
 ABUT_API int abut_create(int32_t dim, abut_array rest, const abut_faces* faces, const abut_options* options,

@@ -34,6 +34,15 @@ module abut
     integer(c_int32_t) :: index_base
   end type
 
+  type, bind(c), public :: abut_cells
+    integer(c_size_t) :: struct_size
+    integer(c_int64_t) :: n_cells
+    type(c_ptr) :: nodes
+    integer(c_int64_t) :: n_nodes
+    type(c_ptr) :: offsets, body
+    integer(c_int32_t) :: index_base
+  end type
+
   type, bind(c), public :: abut_friction_law
     real(c_double) :: friction, sliding_friction, decay_speed, decay_slip, shear_strength, relaxation_time
   end type
@@ -106,10 +115,10 @@ module abut
 
   public :: abut_options_init, abut_limit_threads, abut_skin_stiffness, abut_create, abut_destroy, abut_step, abut_evaluate, &
     abut_pairs, abut_bodies, abut_body_pairs, abut_friction, abut_get_report, abut_stable_step, abut_save, abut_restore, &
-    abut_replace_surface, abut_find_overlaps
+    abut_replace_surface, abut_find_overlaps, abut_surface_of, abut_surface_faces, abut_surface_destroy
   public :: abut_version, abut_wanted, abut_law_of, abut_own_coefficient, abut_cancel, abut_log, abut_columns
-  public :: abut_points, abut_nothing, abut_faces_of, abut_new_error, abut_new_result, abut_new_report, abut_new_stable, &
-    abut_message
+  public :: abut_points, abut_nothing, abut_faces_of, abut_cells_of, abut_new_error, abut_new_result, abut_new_report, &
+    abut_new_stable, abut_message
 
   ! What the callbacks of abut_options look like: options%wanted = c_funloc(mine), options%user = c_loc(my_data).
   abstract interface
@@ -158,6 +167,26 @@ module abut
       real(c_double), intent(out) :: stiffness
       type(abut_error), intent(inout) :: error
     end function
+    integer(c_int) function abut_surface_of(dim, rest, cells, surface, error) bind(c)
+      import
+      integer(c_int32_t), value :: dim
+      type(abut_array), value :: rest
+      type(abut_cells), intent(in) :: cells
+      type(c_ptr), intent(out) :: surface
+      type(abut_error), intent(inout) :: error
+    end function
+    ! cell: for c_f_pointer to (n_faces) integers of c_int32_t
+    integer(c_int) function abut_surface_faces(surface, faces, cell, error) bind(c)
+      import
+      type(c_ptr), value :: surface
+      type(abut_faces), intent(inout) :: faces
+      type(c_ptr), intent(out) :: cell
+      type(abut_error), intent(inout) :: error
+    end function
+    subroutine abut_surface_destroy(surface) bind(c)
+      import
+      type(c_ptr), value :: surface
+    end subroutine
     ! options: c_loc of abut_options, or c_null_ptr
     integer(c_int) function abut_create(dim, rest, faces, options, contact, error) bind(c)
       import
@@ -356,6 +385,21 @@ contains
     if (present(shear_stiffness)) faces%shear_stiffness = c_loc(shear_stiffness)
     faces%n_bodies = size(stiffness, kind=c_int64_t)
     faces%index_base = 1
+  end function
+
+  ! All cells with as many corners: nodes(corners, n), counted from 1 as bodies are.
+  function abut_cells_of(nodes, body) result(cells)
+    integer(c_int32_t), target, contiguous, intent(in) :: nodes(:, :)
+    integer(c_int32_t), target, contiguous, intent(in), optional :: body(:)
+    type(abut_cells) :: cells
+    cells%struct_size = c_sizeof(cells)
+    cells%n_cells = size(nodes, 2, c_int64_t)
+    cells%nodes = c_loc(nodes)
+    cells%n_nodes = size(nodes, kind=c_int64_t)
+    cells%offsets = c_null_ptr
+    cells%body = c_null_ptr
+    if (present(body)) cells%body = c_loc(body)
+    cells%index_base = 1
   end function
 
   function abut_new_error() result(error)

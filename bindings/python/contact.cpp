@@ -256,6 +256,73 @@ py::array_t<abut_overlap> find_overlaps(const py::array& nodes, const py::object
         4 * of_host.view.n_faces);
 }
 
+/// Tables of cells: one array, the arrays of a dict, of pairs, or of blocks with `type` and `data`.
+std::vector<Packed<std::int32_t>> tables_of(const py::object& cells) {
+    std::vector<Packed<std::int32_t>> tables;
+    const auto take = [&](const py::handle& given) {
+        tables.push_back(integers_of(py::reinterpret_borrow<py::object>(given), "cells"));
+        if (tables.back().ndim() != 2) throw py::value_error("cells must have the shape (n, corners)");
+    };
+    if (py::isinstance<py::array>(cells)) {
+        take(cells);
+        return tables;
+    }
+    const py::object blocks = py::isinstance<py::dict>(cells) ? py::object(cells.attr("items")()) : cells;
+    for (const py::handle block : blocks) {
+        if (py::hasattr(block, "type") && py::hasattr(block, "data"))
+            take(block.attr("data"));
+        else if (py::isinstance<py::sequence>(block) && py::len(block) == 2 && py::isinstance<py::str>(block[py::int_(0)]))
+            take(block[py::int_(1)]);
+        else {
+            tables.clear();
+            take(cells);  // lists of corners
+            break;
+        }
+    }
+    return tables;
+}
+
+py::dict surface_of(const py::array& points, const py::object& given, const py::object& body, bool with_cells) {
+    const int dim = dimension_of(points);
+    std::vector<std::int32_t> nodes, offsets{0};
+    for (const auto& table : tables_of(given)) {
+        nodes.insert(nodes.end(), table.data(), table.data() + table.size());
+        for (py::ssize_t i = 0; i < table.shape(0); ++i)
+            offsets.push_back(offsets.back() + static_cast<std::int32_t>(table.shape(1)));
+    }
+    abut_cells cells = ABUT_CELLS_INIT;
+    cells.n_cells = std::ssize(offsets) - 1;
+    cells.nodes = nodes.data();
+    cells.n_nodes = std::ssize(nodes);
+    cells.offsets = offsets.data();
+    Packed<std::int32_t> of_cells;
+    if (!body.is_none()) {
+        of_cells = integers_of(body, "body");
+        if (of_cells.size() != cells.n_cells)
+            throw py::value_error("body has " + std::to_string(of_cells.size()) + " entries for " +
+                                  std::to_string(cells.n_cells) + " cells; give one each");
+        cells.body = of_cells.data();
+    }
+    const abut_array rest = view_of(points, dim, "points");
+    abut_surface* handle = nullptr;
+    call_unlocked([&](abut_error* error) { return abut_surface_of(dim, rest, &cells, &handle, error); });
+    const std::unique_ptr<abut_surface, decltype(&abut_surface_destroy)> surface(handle, abut_surface_destroy);
+    abut_faces faces = ABUT_FACES_INIT;
+    const std::int32_t* cell = nullptr;
+    abut_error error = ABUT_ERROR_INIT;
+    require_ok(abut_surface_faces(handle, &faces, &cell, &error), error);
+    const auto copied = [](const auto* data, std::int64_t n) {
+        return copy_of(std::span(data, static_cast<std::size_t>(n)));
+    };
+    py::dict found;
+    found["faces"] = copied(faces.nodes, faces.n_nodes);
+    found["offsets"] = copied(faces.offsets, faces.n_faces + 1);
+    found["body"] = copied(faces.body, faces.n_faces);
+    found["depth"] = copied(faces.depth, faces.n_faces);
+    if (with_cells) found["cell"] = copied(cell, faces.n_faces);
+    return found;
+}
+
 double skin_stiffness(double modulus, const Packed<double>& depth) {
     double stiffness = 0.0;
     abut_error error = ABUT_ERROR_INIT;
@@ -352,6 +419,24 @@ PYBIND11_MODULE(_contact, module) {
         "find_overlaps", &find_overlaps, "nodes"_a, "faces"_a, "body"_a, "distance"_a, "offsets"_a = py::none(),
         "Every pair of faces of two bodies that look at each other, share an area and have a gap of at most distance, as a "
         "structured array with their distance in space beside it; faces with four corners appear by halves.");
+    module.def("surface_of", &surface_of, "points"_a, "cells"_a, "body"_a = py::none(), py::kw_only(),
+               "with_cells"_a = false,
+               "The boundary of cells in the words of NodalContact, a dict: faces (flat), offsets, body, and depth, half "
+               "the height of the "
+               "cell behind each face. Faces look outwards whatever the sense of the cells. points: (n, dim) at rest. "
+               "cells: (n, corners) of "
+               "triangles, quadrangles, tetrahedra, pyramids, prisms or hexahedra, or several of them as {type: cells}, "
+               "pairs, or the "
+               "blocks of meshio. body: one number per cell; bodies have nodes of their own. with_cells: adds cell, the one "
+               "behind each "
+               "face.\n\n"
+               ">>> import abut, numpy as np\n"
+               ">>> points = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])\n"
+               ">>> surface = abut.surface_of(points, [[0, 1, 2], [0, 3, 2]])\n"
+               ">>> surface['faces'].reshape(-1, 2).tolist(), surface['depth'].tolist()\n"
+               "([[0, 1], [1, 2], [3, 0], [2, 3]], [0.5, 0.5, 0.5, 0.5])\n"
+               ">>> k = abut.skin_stiffness(1.0, surface['depth'])\n"
+               ">>> contact = abut.NodalContact(points, **surface, stiffness=[k])\n");
     module.def("skin_stiffness", &skin_stiffness, "modulus"_a, "depth"_a,
                "k of a body: lambda + 2 mu over the mean depth of those of its faces that will touch; with mu its shear "
                "stiffness.");

@@ -579,6 +579,44 @@ static void overlaps_alone(void) {
     CHECK(abut_find_overlaps(5, packed(x), &faces, 0.2, &overlap, sizeof(overlap), 1, &n, &error) == ABUT_BAD_INPUT);
 }
 
+/* A square of two triangles, the second in the other sense: half the height is 0.5 behind its sides. */
+static void a_surface_is_found_of_cells(void) {
+    abut_error error = ABUT_ERROR_INIT;
+    double x[2 * n_nodes];
+    lowered(0.0, x);
+    const int32_t nodes[6] = {1, 2, 3, 1, 4, 3}, of_body[2] = {2, 2};
+    abut_cells cells = ABUT_CELLS_INIT;
+    cells.n_cells = 2;
+    cells.nodes = nodes;
+    cells.n_nodes = 6;
+    cells.body = of_body;
+    cells.index_base = 1;
+    abut_surface* surface = NULL;
+    CHECK(abut_surface_of(2, packed(x), &cells, &surface, &error) == ABUT_OK && surface != NULL);
+    abut_faces faces = ABUT_FACES_INIT;
+    const int32_t* cell = NULL;
+    CHECK(abut_surface_faces(surface, &faces, &cell, &error) == ABUT_OK && faces.n_faces == 4 && faces.n_nodes == 8);
+    const int32_t expected[8] = {1, 2, 2, 3, 4, 1, 3, 4}, behind[4] = {1, 1, 2, 2};
+    CHECK(faces.index_base == 1 && memcmp(faces.nodes, expected, sizeof(expected)) == 0);
+    CHECK(cell != NULL && memcmp(cell, behind, sizeof(behind)) == 0);
+    for (int i = 0; i < 4; ++i)
+        CHECK(faces.body[i] == 2 && faces.offsets[i] == 2 * i + 1 && fabs(faces.depth[i] - 0.5) < 1e-15);
+    abut_surface_destroy(surface);
+    abut_surface_destroy(NULL);
+
+    cells.n_nodes = 5;
+    CHECK(abut_surface_of(2, packed(x), &cells, &surface, &error) == ABUT_BAD_INPUT && strstr(error.message, "give offsets"));
+    const int32_t offsets[3] = {1, 4, 7};
+    cells.n_nodes = 6;
+    cells.offsets = offsets;
+    CHECK(abut_surface_of(2, packed(x), &cells, &surface, &error) == ABUT_OK);
+    CHECK(abut_surface_faces(surface, &faces, NULL, &error) == ABUT_OK && faces.n_faces == 4);
+    CHECK(abut_surface_faces(NULL, &faces, NULL, &error) == ABUT_MISUSE);
+    abut_surface_destroy(surface);
+    cells.nodes = NULL;
+    CHECK(abut_surface_of(2, packed(x), &cells, &surface, &error) == ABUT_MISUSE);
+}
+
 static void small_things(void) {
     abut_error error = ABUT_ERROR_INIT;
     double k = 0.0;
@@ -604,6 +642,7 @@ int main(void) {
     what_is_wrong_is_refused_by_name();
     a_force_that_is_not_finite_is_an_error();
     overlaps_alone();
+    a_surface_is_found_of_cells();
     small_things();
     printf("%d failures\n", failures);
     return failures == 0 ? 0 : 1;

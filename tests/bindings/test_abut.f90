@@ -109,6 +109,7 @@ program test_abut
   call callbacks_are_called()
   call what_is_wrong_is_refused_by_name()
   call overlaps_alone()
+  call a_surface_is_found_of_cells()
   call small_things()
   print '(i0,a)', failures, ' failures'
   if (failures > 0) error stop 1
@@ -560,6 +561,29 @@ contains
     call check(n == 1 .and. found(1)%face_1 == 3 .and. found(1)%face_2 == 5, 'one overlap within 0.2')
     call check(abs(found(1)%area - 0.8d0) < 1d-15 .and. abs(found(1)%gap - 0.1d0) < 1d-15, 'its area and gap')
     call expect(abut_bad_input, abut_find_overlaps(5, x, squares(), 0.2d0, found, entry_size, one, n, error), 'dim of 5')
+  end subroutine
+
+  subroutine a_surface_is_found_of_cells()
+    integer(c_int32_t), target :: nodes(3, 2), body(2)
+    integer(c_int32_t), pointer :: of_faces(:), cell(:)
+    real(c_double), pointer :: depths(:)
+    real(c_double), target :: x(2, 4)
+    type(c_ptr) :: surface, behind
+    type(abut_faces) :: faces
+    x = reshape([0d0, 0d0, 1d0, 0d0, 1d0, 1d0, 0d0, 1d0], [2, 4])
+    nodes = reshape([1, 2, 3, 1, 4, 3], [3, 2])
+    body = 2
+    call expect(abut_ok, abut_surface_of(2, abut_points(x), abut_cells_of(nodes, body), surface, error), 'surface_of')
+    faces = squares()
+    call expect(abut_ok, abut_surface_faces(surface, faces, behind, error), 'surface_faces')
+    call check(faces%n_faces == 4 .and. faces%n_nodes == 8 .and. faces%index_base == 1, 'four faces')
+    call c_f_pointer(faces%nodes, of_faces, [8])
+    call c_f_pointer(faces%depth, depths, [4])
+    call c_f_pointer(behind, cell, [4])
+    call check(all(of_faces == [1, 2, 2, 3, 4, 1, 3, 4]) .and. all(cell == [1, 1, 2, 2]), 'their nodes and cells')
+    call check(all(abs(depths - 0.5d0) < 1d-15), 'their depths')
+    call abut_surface_destroy(surface)
+    call expect(abut_bad_input, abut_surface_of(4, abut_points(x), abut_cells_of(nodes), surface, error), 'dim of 4')
   end subroutine
 
   subroutine small_things()

@@ -349,5 +349,33 @@ class Contact(unittest.TestCase):
         self.assertEqual(len(pairs), 0)
 
 
+
+class Surfaces(unittest.TestCase):
+    POINTS = np.array([[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [0.0, 1.0], [3.0, 0.0], [3.0, 1.0]])
+
+    def test_cells_may_be_an_array_lists_a_dict_pairs_or_blocks(self):
+        class Block:
+            type, data = "triangle", np.array([[0, 1, 2], [0, 3, 2]])  # the second in the other sense
+        triangles = Block.data
+        for cells in (triangles, triangles.tolist(), {"triangle": triangles}, [("triangle", triangles)], [Block()]):
+            surface = abut.surface_of(self.POINTS, cells, with_cells=True)
+            self.assertEqual(surface["faces"].reshape(-1, 2).tolist(), [[0, 1], [1, 2], [3, 0], [2, 3]])
+            np.testing.assert_allclose(surface["depth"], [0.5, 1.0, 1.0, 0.5], rtol=1e-14)  # half the heights 1 and 2
+            self.assertEqual(surface["cell"].tolist(), [0, 0, 1, 1])
+            self.assertEqual(surface["body"].tolist(), [0] * 4)
+
+    def test_shapes_mix(self):
+        surface = abut.surface_of(self.POINTS, {"triangle": [[0, 1, 2], [0, 2, 3]], "quad": [[1, 4, 5, 2]]})
+        self.assertEqual(len(surface["body"]), 6)
+        np.testing.assert_allclose(surface["depth"][-3:], [0.5] * 3, rtol=1e-14)
+
+    def test_what_cannot_be_is_refused(self):
+        with self.assertRaisesRegex(abut.BadInput, "cell 1 of body 1 shares a face with cell 0 of body 0"):
+            abut.surface_of(self.POINTS, [[0, 1, 2], [0, 3, 2]], [0, 1])
+        with self.assertRaisesRegex(ValueError, "body has 1 entries for 2 cells"):
+            abut.surface_of(self.POINTS, [[0, 1, 2], [0, 3, 2]], [0])
+        with self.assertRaisesRegex(TypeError, "cells must be an array of integers"):
+            abut.surface_of(self.POINTS, [[0.5, 1.0, 2.0]])
+
 if __name__ == "__main__":
     unittest.main()

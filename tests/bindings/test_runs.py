@@ -11,7 +11,7 @@ import unittest
 import numpy as np
 
 import abut
-from abut import _contact, _scenes, solid
+from abut import _scenes, solid
 
 SCENES = pathlib.Path(sys.argv.pop(1))
 BARS = SCENES / "colliding_bars.toml"
@@ -181,7 +181,9 @@ class Scenes(unittest.TestCase):
 
 
 def load_tests(_loader, tests, _pattern):
-    tests.addTests(doctest.DocTestSuite(_scenes))
+    for module in (_scenes, solid):
+        tests.addTests(doctest.DocTestSuite(module))
+    tests.addTest(doctest.DocTestCase(doctest.DocTestParser().get_doctest(abut.surface_of.__doc__, {}, "abut.surface_of", None, 0)))
     return tests
 
 
