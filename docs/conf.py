@@ -6,6 +6,7 @@ release = version = os.environ["ABUT_VERSION"]  # scripts/site reads it from CMa
 html_title = f"Abut {release}"
 html_copy_source = False
 html_show_copyright = False
+html_use_index = False         # pages have no entries of an index
 
 extensions = ["myst_parser"]
 myst_heading_anchors = 4       # headings are linked to as on GitHub
