@@ -100,9 +100,11 @@ class Chromium:
         return result["result"].get("value")
 
     def open(self, address):
-        """Events from the begin of a page until it and its pictures stand."""
+        """Waits until a page and its pictures stand; self.events has what happens meanwhile. Says what is wrong if there is no such page."""
         self.events = []
-        self.call("Page.navigate", url=address)
+        failed = self.call("Page.navigate", url=address).get("errorText")
+        if failed:
+            return failed
         while not any(event.get("method") == "Page.loadEventFired" for event in self.events):
             self.events.append(self.message())
         self.value("Promise.all([...document.images].map((i) => { i.loading = 'eager'; return i.decode().catch(() => 0); }))"
@@ -137,7 +139,10 @@ def faults_of(events):
 def look(browser, page, pictures, name):
     for width, height in WIDTHS.items():
         browser.call("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=width < 600)
-        browser.open(page.as_uri())
+        failed = browser.open(page.as_uri())
+        if failed:
+            yield f"cannot be opened: {failed}"
+            return
         seen = browser.value(QUESTIONS)
         yield from faults_of(browser.events)
         yield from (f"shows a picture that is not there: {picture}" for picture in seen["missing"])
