@@ -111,10 +111,10 @@ void check_scheme(const OptionFacts& option, const OptionValue& value, const Opt
         !asks_for(value, by_default))
         return;
     const bool is_word = option.kind == OptionKind::word;
-    throw BadInput(fmt::format("{}{} is for {}, and {} was chosen. Take --integrator {}, or {}.", option.flag(),
-                               is_word ? " " + text_of(value) : "", fmt::join(option.schemes, " and "), scheme,
-                               option.schemes.front(),
-                               is_word ? option.flag() + " " + text_of(by_default) : "leave " + option.flag() + " out"));
+    throw BadInput(fmt::format(
+        "{}{} is for {}, and {} was chosen. Take --integrator {}, or {}.", option.flag(),
+        is_word ? " " + abut::text_of(value) : "", fmt::join(option.schemes, " and "), scheme, option.schemes.front(),
+        is_word ? option.flag() + " " + abut::text_of(by_default) : "leave " + option.flag() + " out"));
 }
 
 void check_together(const RunOptions& options) {
