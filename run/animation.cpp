@@ -36,10 +36,10 @@ std::string packed(const std::vector<Number>& numbers) {
     return base64({reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(Number)});
 }
 
-/// As the content of an element <script>, which "</" would end.
+/// As the content of an element <script>, where no text may begin a tag or a comment.
 std::string for_script(const Json& json) {
     std::string text = text_of(json);
-    for (std::size_t at = text.find("</"); at != std::string::npos; at = text.find("</", at)) text.replace(at, 2, "<\\/");
+    for (std::size_t at = text.find('<'); at != std::string::npos; at = text.find('<', at)) text.replace(at, 1, "\\u003c");
     return text;
 }
 

@@ -17,6 +17,7 @@
 #include "abut/run/summary.hpp"
 #include "abut/run/verdict.hpp"
 #include "abut/run/warnings.hpp"
+#include "abut/solid/option_words.hpp"
 
 namespace abut::run {
 namespace {
@@ -108,28 +109,37 @@ Markup bodies_part(const Figures& figures, const Scene<Dim>& scene, const RunRes
                                    rows));
 }
 
+/// Figures of a material, and its law where large strains are known.
+std::vector<std::string> said_of(const solid::Material& material, bool is_finite) {
+    std::string law = is_finite ? word_of(solid::elastic_law_words, material.law) : "";
+    if (is_finite && material.law == solid::ElasticLaw::mooney_rivlin)
+        law += fmt::format(", share {:g}", material.second_share);
+    return {fmt::format("{:g}", material.young), fmt::format("{:g}", material.poisson),
+            fmt::format("{:g}", material.density),
+            fmt::format("{:.4g}", std::sqrt(material.wave_modulus() / material.density)), law};
+}
+
 /// Bodies of one material in one row.
 template <int Dim>
 Markup materials_part(const Scene<Dim>& scene, const RunResult<Dim>& result) {
-    std::vector<std::pair<const solid::Material*, std::string>> of_bodies;
-    const auto same = [](const solid::Material& a, const solid::Material& b) {
-        return a.young == b.young && a.poisson == b.poisson && a.density == b.density && a.eta == b.eta;
-    };
+    std::vector<std::pair<std::vector<std::string>, std::string>> of_bodies;
     for (std::size_t body = 0; body < result.start.size(); ++body) {
-        const solid::Material& material = scene.solid.materials[body];
-        const auto known = std::ranges::find_if(of_bodies, [&](const auto& other) { return same(*other.first, material); });
+        const bool is_finite = kinematics_of(scene, result, body) == solid::Kinematics::finite;
+        const std::vector<std::string> said = said_of(scene.solid.materials[body], is_finite);
+        const auto known = std::ranges::find_if(of_bodies, [&](const auto& other) { return other.first == said; });
         if (known == of_bodies.end())
-            of_bodies.emplace_back(&material, scene.mesh.body_names[body]);
+            of_bodies.emplace_back(said, scene.mesh.body_names[body]);
         else
             known->second += ", " + scene.mesh.body_names[body];
     }
     std::vector<Markup> rows;
-    for (const auto& [material, names] : of_bodies)
-        rows.push_back(row({names, fmt::format("{:g}", material->young), fmt::format("{:g}", material->poisson),
-                            fmt::format("{:g}", material->density),
-                            fmt::format("{:.4g}", std::sqrt(material->wave_modulus() / material->density))}));
+    for (const auto& [said, names] : of_bodies) {
+        std::vector<Markup> cells{names};
+        cells.insert(cells.end(), said.begin(), said.end());
+        rows.push_back(row(cells));
+    }
     return section("Materials", table({"bodies", "Young's modulus [Pa]", "Poisson's ratio", "density [kg/m³]",
-                                       "speed of waves of compression [m/s]"},
+                                       "speed of waves of compression [m/s]", "at large strains"},
                                       rows));
 }
 

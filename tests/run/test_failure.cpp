@@ -164,10 +164,12 @@ TEST_CASE("a failure has its pictures also where contact was last searched far f
     options.out = folder.path();
     options.frames = 0;
     options.animation = 10;
-    run::ResultFiles<2> files(options, "mine", "blocks");
-    CHECK_THROWS_AS(static_cast<void>(run::simulate<2>(scene, options, files)), abut::Diverged);
-    CHECK(files.left_behind().find("could not be written") == std::string::npos);
-    CHECK(files.left_behind().find("animation.html.partial") != std::string::npos);
+    {
+        run::ResultFiles<2> files(options, "mine", "blocks");
+        CHECK_THROWS_AS(static_cast<void>(run::simulate<2>(scene, options, files)), abut::Diverged);
+        CHECK(files.left_behind().find("could not be written") == std::string::npos);
+        CHECK(files.left_behind().find("animation.html.partial") != std::string::npos);
+    }
     CHECK(read_text(folder.path() / "failed.html").find("The last sound state") != std::string::npos);
     CHECK(read_text(folder.path() / "animation.html.partial").find("class=\"frame\"") != std::string::npos);
 }
