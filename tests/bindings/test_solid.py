@@ -59,6 +59,15 @@ class Meshes(unittest.TestCase):
                 np.testing.assert_array_equal(again.points, mesh.points)
                 np.testing.assert_array_equal(again.body, mesh.body)
 
+    def test_the_surface_of_cells_is_that_of_the_mesh_they_make(self):
+        for mesh in (two_boxes(), solid.sphere(size=0.5), *(solid.structured_box((0, 0, 0), (1, 2, 3), (2, 2, 2), shape=shape)
+                                                           for shape in ("hexahedron", "wedge", "pyramid", "tetra"))):
+            ours, found = mesh.surface, abut.surface_of(mesh.points, mesh.cells, mesh.body, with_cells=True)
+            of = lambda surface, cell: sorted(zip(cell.tolist(), (sorted(surface["faces"][a:b].tolist()) for a, b in
+                                                                  zip(surface["offsets"], surface["offsets"][1:])), surface["depth"].round(9)))
+            self.assertEqual(of(ours, mesh.surface_cells), of(found, found["cell"]))
+            self.assertEqual(np.bincount(ours["body"]).tolist(), np.bincount(found["body"]).tolist())
+
     def test_a_surface_goes_to_contact_on_nodes(self):
         mesh = two_boxes()
         surface = mesh.surface

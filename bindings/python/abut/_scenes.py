@@ -23,7 +23,7 @@ def run(scene, set=None, look=None, **options):
     >>> abut.run(scene, set={"bodies.left.density": 2.0}, steps=3).steps
     3
     """
-    return _solid().run_toml(*_source(scene, set), look, options)
+    return built_solid().run_toml(*_source(scene, set), look, options)
 
 
 def memm(scene, set=None, outside=(), **options):
@@ -39,16 +39,16 @@ def memm(scene, set=None, outside=(), **options):
     True
     """
     file, toml, meshes, changes = _source(scene, set)
-    return _solid().memm_toml(file, toml, meshes, ["run.steps=1", *changes], list(outside), options)
+    return built_solid().memm_toml(file, toml, meshes, ["run.steps=1", *changes], list(outside), options)
 
 
-def _solid():
+def built_solid():
     try:
         from . import _solid
     except ImportError as error:
         if "_solid" not in str(error):
             raise
-        raise ImportError("this build of Abut has contact alone, and scenes need all of it. Build it without "
+        raise ImportError("this build of Abut has contact alone, and meshes and scenes need all of it. Build it without "
                           "-DABUT_LAYERS=contact.") from None
     return _solid
 
@@ -93,7 +93,7 @@ def _toml(value, meshes):
         return "[" + ", ".join(_toml(item, meshes) for item in value) + "]"
     if isinstance(value, dict):
         return "{" + ", ".join(f"{_key(key)} = {_toml(item, meshes)}" for key, item in value.items()) + "}"
-    if isinstance(value, (_solid().Mesh2D, _solid().Mesh3D)):
+    if isinstance(value, (built_solid().Mesh2D, built_solid().Mesh3D)):
         text = f"mesh {len(meshes)} of Python, '{value.name}'"
         meshes[text] = value
         return _quoted(text)

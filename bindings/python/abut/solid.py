@@ -1,5 +1,7 @@
 """Meshes, solids of linear elasticity in contact, and their runs. docs/languages.md walks through it."""
-from . import _show, _solid
+from . import _scenes, _show
+
+_solid = _scenes.built_solid()  # says what is missing where this is contact alone
 from ._solid import (Material, Memm2D, Memm3D, Mesh2D, Mesh3D, State2D, State3D, box, combine, cylinder, disc, memm, read_mesh,
                      simulate, sphere, structured_box)
 
