@@ -12,6 +12,7 @@ extensions = ["myst_parser"]
 myst_heading_anchors = 4       # headings are linked to as on GitHub
 suppress_warnings = ["myst.header"]  # a page may leave out a level of headings
 highlight_language = "none"    # of code that names no language
+smartquotes = False            # --option keeps its two hyphens
 
 html_theme = "furo"
 html_static_path = ["_static"]
