@@ -16,7 +16,7 @@ using contact::TakenForce;
 
 namespace {
 
-using Points = std::vector<Vector<2>>;
+using Corners = std::vector<Vector<2>>;
 
 /// One face along the ground that looks up, and one above it that looks down; D = 0.2.
 struct TwoFaces {
@@ -29,8 +29,8 @@ struct TwoFaces {
         scene.faces.append_face(std::vector<std::int32_t>{2, 3}, 0.1, 1);
     }
     /// With the upper face's first corner there.
-    [[nodiscard]] Points at(double x, double y) const {
-        Points all = scene.rest;
+    [[nodiscard]] Corners at(double x, double y) const {
+        Corners all = scene.rest;
         all[2] = {x, y};
         all[3] = {x + 1.0, y};
         return all;
@@ -74,7 +74,7 @@ TEST_CASE(
     const TwoFaces faces;
     for (const double depth : {0.001, 0.0019, 0.0021, 0.1, 0.25, 0.3}) {
         NodalContact<2> contact(faces.scene.surface(), with_skin(0.05));
-        const Points beside = faces.at(2.0, -depth);
+        const Corners beside = faces.at(2.0, -depth);
         contact.step(1.0, beside, beside);
         CHECK(go(contact, faces, {2.0, -depth}, {0.5, -depth}).is_active() == (depth < 0.002));
         CHECK(contact.report().missed_contacts == 0);
@@ -84,7 +84,7 @@ TEST_CASE(
 TEST_CASE("a pair that leaves the list forgets that it was admitted", "[contact][nodal]") {
     const TwoFaces faces;
     NodalContact<2> contact(faces.scene.surface(), with_skin(0.05));
-    const Points above = faces.at(0.0, 0.1);
+    const Corners above = faces.at(0.0, 0.1);
     contact.step(1.0, above, above);
     CHECK(go(contact, faces, {0.0, 0.1}, {0.0, -0.1}).is_active());  // admitted from above
     go(contact, faces, {0.0, -0.1}, {0.0, 0.1});
@@ -99,7 +99,7 @@ TEST_CASE("what acts only inside a step is followed", "[contact][nodal]") {
     // Above at the start, past the end of the other face at the end, and for a moment in between pressed in by 0.003.
     const TwoFaces faces;
     NodalContact<2> contact(faces.scene.surface(), with_skin(0.5));
-    const Points start = faces.at(0.9, 0.001), end = faces.at(1.2, -0.019);
+    const Corners start = faces.at(0.9, 0.001), end = faces.at(1.2, -0.019);
     contact.step(1.0, start, start);
     const NodalStep<2>& step = contact.step(1.0, start, end);
     const auto expected = geometry::pair_mean_gradient<2>({start[0], start[1], start[2], start[3]},
@@ -113,7 +113,7 @@ TEST_CASE("what acts only inside a step is followed", "[contact][nodal]") {
 TEST_CASE("to evaluate elsewhere changes nothing that the next steps depend on", "[contact][nodal]") {
     const TwoFaces faces;
     NodalContact<2> contact(faces.scene.surface(), with_skin(0.05)), other(faces.scene.surface(), with_skin(0.05));
-    const Points apart = faces.at(0.0, 0.02), closed = faces.at(0.1, -0.05), on = faces.at(0.1, -0.06);
+    const Corners apart = faces.at(0.0, 0.02), closed = faces.at(0.1, -0.05), on = faces.at(0.1, -0.06);
     for (auto* one : {&contact, &other}) {
         one->step(1.0, apart, apart);
         one->step(1.0, apart, closed);
@@ -121,7 +121,7 @@ TEST_CASE("to evaluate elsewhere changes nothing that the next steps depend on",
     REQUIRE(contact.last().is_active());
     const double energy = contact.evaluate(closed).energy;
     const auto state = contact.state();
-    for (const Points& far : {faces.at(5.0, 3.0), faces.at(0.1, 2.0), faces.at(-7.0, -0.1)}) {
+    for (const Corners& far : {faces.at(5.0, 3.0), faces.at(0.1, 2.0), faces.at(-7.0, -0.1)}) {
         CHECK(contact.evaluate(far).energy == 0.0);
         CHECK(contact.state() == state);
         CHECK(contact.evaluate(closed).energy == energy);
@@ -137,7 +137,7 @@ TEST_CASE("W is that of the pair at any depth, whether a list holds there or not
     const TwoFaces faces;
     for (const double skin : {0.02, 3.0}) {
         NodalContact<2> contact(faces.scene.surface(), with_skin(skin));
-        const Points apart = faces.at(0.0, 0.01), closed = faces.at(0.0, -0.01);
+        const Corners apart = faces.at(0.0, 0.01), closed = faces.at(0.0, -0.01);
         contact.step(1.0, apart, apart);
         contact.step(1.0, apart, closed);
         for (const double depth : {0.1, 0.5, 0.9})  // far more than the limit of 2 D
@@ -180,7 +180,7 @@ TEST_CASE("errors name the faces of the host, not their halves", "[contact][noda
 
 TEST_CASE("faces of bodies that have become one, or rigid, press on each other no more", "[contact][nodal]") {
     const TwoFaces faces;
-    const Points apart = faces.at(0.0, 0.01), closed = faces.at(0.0, -0.05);
+    const Corners apart = faces.at(0.0, 0.01), closed = faces.at(0.0, -0.05);
     const std::vector<std::int32_t> old_face_of{0, 1};
     NodalScene<2> one_body = faces.scene, rigid = faces.scene;
     one_body.faces.body = {0, 0};
