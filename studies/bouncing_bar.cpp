@@ -21,8 +21,6 @@
 namespace abut::studies::bouncing_bar_study {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 const Bar the_bar;
 constexpr double height = ExactBounce::height, impact_speed = ExactBounce::speed, period = ExactBounce::period;  // SI
 const double contact_time = the_bar.contact_time();                                                              // [s]
@@ -59,14 +57,16 @@ void add_options(Flags& flags, BounceOptions& options) {
     apps::add_gauge(flags, options.schemes);
     apps::add_local_steps(flags, options.schemes);
     flags.group("Schemes");
-    auto* filter = flags.choice("--filter", options.filter,
-                                "of memm: energy-neutral filter of the parasitic mode, after each step in contact",
-                                apps::Choices<bool>{{"none", false}, {"neutral", true}});
-    auto* patch = flags.count("--patch", options.patch, "of the filter: masses, from the wall on, that it changes", 2);
-    needs(patch, filter);
-    auto* restart = flags.count("--restart", options.restart,
-                                "of memm: steps between neutral restarts, which clear that mode everywhere; 0: none", 0);
-    for (auto* option : {filter, patch, restart}) apps::restrict_to(option, options.schemes, {apps::Scheme::memm});
+    const apps::Flag filter = flags.choice(
+        "--filter", options.filter, "of memm: energy-neutral filter of the parasitic mode, after each step in contact",
+        apps::Choices<bool>{{"none", false}, {"neutral", true}});
+    apps::Flag patch = flags.count("--patch", options.patch, "of the filter: masses, from the wall on, that it changes", 2);
+    patch.needs(filter);
+    const apps::Flag restart =
+        flags.count("--restart", options.restart,
+                    "of memm: steps between neutral restarts, which clear that mode everywhere; 0: none", 0);
+    for (const apps::Flag& option : {filter, patch, restart})
+        apps::restrict_to(option, options.schemes, {apps::Scheme::memm});
     flags.out(options.out);
     apps::add_interval_option(flags, options.interval);
 }
@@ -198,14 +198,14 @@ apps::Picture picture(const std::vector<apps::SchemeRun>& runs, double end) {
         .name = program.name, .purpose = "The bar, from the .csv files beside this file", .height = 1500, .script = script};
 }
 
-Json to_json(const BounceOptions& options, std::int64_t steps) {
-    Json json = {{"cells", options.cells}, {"gravity", options.gravity}, {"cfl", options.cfl}, {"steps", steps}};
-    json.update(apps::to_json(options.schemes));
-    json["filter"] = options.filter ? "neutral" : "none";
-    if (options.filter) json["patch"] = options.patch;
-    json["restart"] = options.restart;
-    json["out"] = options.out.string();
-    return json;
+run::NamedValues named_values(const BounceOptions& options, std::int64_t steps) {
+    run::NamedValues values = {
+        {"cells", options.cells}, {"gravity", options.gravity}, {"cfl", options.cfl}, {"steps", steps}};
+    apps::append(values, apps::named_values(options.schemes));
+    values.push_back({"filter", options.filter ? "neutral" : "none"});
+    if (options.filter) values.push_back({"patch", options.patch});
+    apps::append(values, {{"restart", options.restart}, {"out", options.out.string()}});
+    return values;
 }
 
 void check(const BounceOptions& options) {
@@ -247,7 +247,7 @@ void run_study(const BounceOptions& options) {
     apps::Comparison comparison{
         .title = fmt::format("{} masses, {} steps of {:.6g} s (c dt/h = {:g}), gravity {:g} m/s^2, H0 = {:g} J", n,
                              schedule.steps, dt, options.cfl, options.gravity, impact_energy),
-        .options = to_json(options, schedule.steps)};
+        .options = named_values(options, schedule.steps)};
     for (const apps::Scheme scheme : options.schemes.schemes)
         comparison.runs.push_back(run_scheme(scheme, options, start, schedule));
     comparison.picture = picture(comparison.runs, static_cast<double>(schedule.steps) * dt);

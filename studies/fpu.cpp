@@ -129,11 +129,11 @@ apps::Picture picture(const std::vector<apps::SchemeRun>& runs, double time) {
             .script = script + "unset multiplot\n"};
 }
 
-nlohmann::ordered_json to_json(const FpuOptions& options) {
-    nlohmann::ordered_json json = {{"omega", options.omega}, {"dt", options.dt}, {"time", options.time}};
-    json.update(apps::to_json(options.schemes));
-    json["out"] = options.out.string();
-    return json;
+run::NamedValues named_values(const FpuOptions& options) {
+    run::NamedValues values = {{"omega", options.omega}, {"dt", options.dt}, {"time", options.time}};
+    apps::append(values, apps::named_values(options.schemes));
+    values.push_back({"out", options.out.string()});
+    return values;
 }
 
 void run_study(const FpuOptions& options) {
@@ -149,7 +149,7 @@ void run_study(const FpuOptions& options) {
     schedule.interval = apps::rows_interval(options.interval, schedule.steps);
     apps::Comparison comparison{.title = fmt::format("{} steps of {:g} s, omega dt = {:g}, H0 = {:.9g} J", schedule.steps,
                                                      options.dt, omega * options.dt, schedule.energy_scale),
-                                .options = to_json(options)};
+                                .options = named_values(options)};
     for (const apps::Scheme scheme : options.schemes.schemes) {
         Chain system = chain(omega);
         Oscillators oscillators(omega);

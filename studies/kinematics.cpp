@@ -41,7 +41,7 @@ void add_options(Flags& flags, Options& options) {
 }
 
 void run(const Options& options) {
-    const nlohmann::ordered_json used{
+    const run::NamedValues used{
         {"only", options.only}, {"quick", options.quick}, {"steps", options.steps}, {"turns", options.turns}};
     run_study_in_parts(
         program, parts, options, used,

@@ -20,7 +20,6 @@ namespace abut::studies::slow_fast_wave_study {
 namespace {
 
 using Chain = dynamics::Particles<dynamics::LineSpring>;
-using Json = nlohmann::ordered_json;
 
 constexpr double fast_speed = 10.0, slow_speed = 1.0;  // [m/s]
 constexpr double interface = 0.5;                      // [m]
@@ -51,7 +50,8 @@ void add_options(Flags& flags, WaveOptions& options) {
                  {.above = 0.0, .below = 1.0, .closed = true, .remedy = "Above 1 every scheme here is unstable."});
     apps::add_integrator(flags, options.schemes);
     flags.group("Schemes");
-    auto* ratio = flags.count("--ratio", options.ratio, "of memm_async: steps of the fast half in one of the slow half", 1);
+    const apps::Flag ratio =
+        flags.count("--ratio", options.ratio, "of memm_async: steps of the fast half in one of the slow half", 1);
     apps::restrict_to(ratio, options.schemes, {apps::Scheme::memm_async});
     flags.group("Wave");
     flags.count("--refinements", options.refinements,
@@ -252,21 +252,21 @@ void check(const WaveOptions& options) {
                         options.ratio, options.cfl, slow));
 }
 
-Json to_json(const WaveOptions& options) {
-    Json json = {{"cells", options.cells},
-                 {"time", options.time},
-                 {"cfl", options.cfl},
-                 {"ratio", options.ratio},
-                 {"refinements", options.refinements}};
-    json.update(apps::to_json(options.schemes));
-    json["out"] = options.out.string();
-    return json;
+run::NamedValues named_values(const WaveOptions& options) {
+    run::NamedValues values = {{"cells", options.cells},
+                               {"time", options.time},
+                               {"cfl", options.cfl},
+                               {"ratio", options.ratio},
+                               {"refinements", options.refinements}};
+    apps::append(values, apps::named_values(options.schemes));
+    values.push_back({"out", options.out.string()});
+    return values;
 }
 
 void run_study(const WaveOptions& options) {
     check(options);
     const run::FolderLock lock = apps::prepare_results(program, options.out, {"profile.csv"});
-    apps::Comparison comparison{.options = to_json(options)};
+    apps::Comparison comparison{.options = named_values(options)};
     for (const apps::Scheme scheme : options.schemes.schemes) comparison.runs.push_back(run_refined(scheme, options));
     const double fine =
         comparison.runs.front().dt / (options.schemes.schemes.front() == apps::Scheme::memm_async ? options.ratio : 1);

@@ -70,7 +70,7 @@ void add_options(Flags& flags, Options& options) {
     flags.out(options.out);
 }
 
-nlohmann::ordered_json to_json(const Options& options) {
+run::NamedValues named_values(const Options& options) {
     return {{"only", options.only},     {"settings", apps::name_of(extents, options.extent)},
             {"also", options.settings}, {"levels", options.levels},
             {"limit", options.limit},   {"repetitions", options.repetitions}};
@@ -148,7 +148,7 @@ void run(const Options& options) {
         for (Row& row : climb(problem, options)) rows.push_back(std::move(row));
     }
     compare(rows);
-    write_report(program, options.out, to_json(options), rows);
+    write_report(program, options.out, named_values(options), rows);
 }
 
 const bool is_listed = list(entry_of(program, Options{}, add_options, run));

@@ -33,7 +33,7 @@ void add_options(Flags& flags, Options& options) {
     flags.flag("--filter", options.run.filter, "take the alternating mode of memm out of what touches");
     flags.count("--restart", options.run.restart, "steps of memm from one neutral restart to the next; 0: none", 0);
     flags.number("--cfl", options.run.cfl, "time step over the advised one", {.above = 0.0});
-    flags.count("--steps", options.long_steps, "of the long runs");
+    flags.count("--steps", options.long_steps, "of the long runs", 1);
     flags.group("Output");
     flags.count("--frames", options.run.frames, "for ParaView, of each run; 0: none", 0);
 }
@@ -43,10 +43,10 @@ void run(const Options& options) {
         throw BadInput(
             "--scheme leapfrog: filter and restart are made for memm, which has the mode they take out. Leave "
             "--filter and --restart out.");
-    const nlohmann::ordered_json used{{"only", options.only},         {"scheme", dynamics::name_of(options.run.integrator)},
-                                      {"filter", options.run.filter}, {"restart", options.run.restart},
-                                      {"cfl", options.run.cfl},       {"steps", options.long_steps},
-                                      {"quick", options.quick}};
+    const run::NamedValues used{{"only", options.only},         {"scheme", dynamics::name_of(options.run.integrator)},
+                                {"filter", options.run.filter}, {"restart", options.run.restart},
+                                {"cfl", options.run.cfl},       {"steps", options.long_steps},
+                                {"quick", options.quick}};
     run_study_in_parts(program, parts, options, used, {22, 30, 8, {"correction_max", "seconds", "seconds_of_steps"}});
 }
 

@@ -3,15 +3,15 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <optional>
 #include <vector>
 
 #include "apps/abut/build_info.hpp"
-#include "apps/abut/command_tree.hpp"
 #include "apps/abut/completion.hpp"
 #include "apps/abut/info.hpp"
 #include "apps/abut/man_page.hpp"
 #include "apps/abut/topics.hpp"
-#include "apps/support/command_line.hpp"
+#include "apps/support/command_parser.hpp"
 #include "apps/support/terminal.hpp"
 
 namespace abut::apps {
@@ -23,43 +23,39 @@ constexpr std::size_t width_of_no_terminal = 80;
 std::string help_of(const Asked& asked) {
     if (asked.topic.empty())
         return "Topics, abut help TOPIC:\n" + topic_list() + "Of a command: abut help COMMAND, or abut COMMAND --help.\n";
-    for (const CLI::App* command : asked.app->get_subcommands([](const CLI::App*) { return true; }))
-        if (command->get_name() == asked.topic) return command->help(asked.app->get_name());
+    if (const std::optional<std::string> help = asked.program->help_of(asked.topic)) return *help;
     return topic_text(asked.topic, terminal_width(STDOUT_FILENO).value_or(width_of_no_terminal));
 }
 
-std::string completion_of(const CLI::App& app, const std::string& shell) {
-    const std::vector<Command> commands = commands_of(app);
+std::string completion_of(const CommandParser& program, const std::string& shell) {
+    const std::vector<Command> commands = program.commands();
     std::vector<std::string> words;
     for (const Topic& topic : topics()) words.push_back(topic.name);
     for (const Command& command : commands) words.push_back(command.name);
-    return completion(shell, app.get_name(), commands, words);
+    return completion(shell, program.name(), commands, words);
 }
 
-std::string man_page_of(const CLI::App& app) {
-    return man_page({app.get_name(), build_info().version, app.get_description()}, commands_of(app), topics());
+std::string man_page_of(const CommandParser& program) {
+    return man_page({program.name(), build_info().version, program.purpose()}, program.commands(), topics());
 }
 
 }  // namespace
 
-void add_asked(CLI::App& app, Asked& asked) {
-    asked.app = &app;
-    asked.info = app.add_subcommand("info", "says what is in a mesh, a surface, a scene or a folder of results");
-    asked.info->add_option("file", asked.file, "the file or the folder")->required()->type_name("FILE");
-    asked.help = app.add_subcommand("help", "explains a topic or a command; alone, lists the topics");
-    asked.help->add_option("topic", asked.topic, "what to explain")->type_name("TOPIC");
-    asked.completion = app.add_subcommand("completion", "prints the script that completes command lines in a shell");
-    asked.completion->add_option("shell", asked.shell, "the shell")
-        ->required()
-        ->check(one_of(completing_shells()))
-        ->type_name("SHELL");
-    asked.man = app.add_subcommand("man", "prints the manual page: abut man > abut.1");
+void add_asked(CommandParser& parser, Asked& asked) {
+    asked.program = &parser;
+    asked.info = &parser.add_command("info", "says what is in a mesh, a surface, a scene or a folder of results");
+    asked.info->path("file", asked.file, "the file or the folder").required().takes("FILE");
+    asked.help = &parser.add_command("help", "explains a topic or a command; alone, lists the topics");
+    asked.help->text("topic", asked.topic, "what to explain").takes("TOPIC");
+    asked.completion = &parser.add_command("completion", "prints the script that completes command lines in a shell");
+    asked.completion->text("shell", asked.shell, "the shell").required().one_of(completing_shells()).takes("SHELL");
+    asked.man = &parser.add_command("man", "prints the manual page: abut man > abut.1");
 }
 
 std::string answer(const Asked& asked) {
-    if (asked.info->parsed()) return info(asked.file);
-    if (asked.completion->parsed()) return completion_of(*asked.app, asked.shell);
-    if (asked.man->parsed()) return man_page_of(*asked.app);
+    if (asked.info->is_given()) return info(asked.file);
+    if (asked.completion->is_given()) return completion_of(*asked.program, asked.shell);
+    if (asked.man->is_given()) return man_page_of(*asked.program);
     return help_of(asked);
 }
 

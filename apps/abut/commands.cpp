@@ -40,12 +40,12 @@ struct CommandLine {
     std::vector<std::string> sweep;
     run::RunOptions options;
     Messages messages = Messages::normal;
-    CLI::App* run = nullptr;
-    CLI::App* check = nullptr;
-    CLI::App* restart = nullptr;
-    CLI::App* make = nullptr;
-    CLI::App* keys = nullptr;
-    CLI::App* detect = nullptr;
+    CommandParser* run = nullptr;
+    CommandParser* check = nullptr;
+    CommandParser* restart = nullptr;
+    CommandParser* make = nullptr;
+    CommandParser* keys = nullptr;
+    CommandParser* detect = nullptr;
     Asked asked;
     DetectOptions detection;
 };
@@ -59,63 +59,58 @@ const Program abut_program{.name = "abut",
                                "its message, 130, 143 or 129 ended by SIGINT, SIGTERM or SIGHUP.",
                            .takes_ranks = true};
 
-void add_scene_options(CLI::App& command, CommandLine& line) {
-    command.add_option("scene", line.scene, "the scene, a TOML file")->required()->type_name("FILE");
+void add_scene_options(CommandParser& command, CommandLine& line) {
+    command.path("scene", line.scene, "the scene, a TOML file").required().takes("FILE");
     command
-        .add_option("--set", line.set,
-                    "a value in place of that of the file, bodies.left.density=2, as often as you like; by default none")
-        ->expected(1)
-        ->take_all()
-        ->type_name("KEY=VALUE");
+        .texts("--set", line.set,
+               "a value in place of that of the file, bodies.left.density=2, as often as you like; by default none")
+        .several()
+        .takes("KEY=VALUE");
     add_preset_option(command, line.options);
     add_time_options(command, line.options, "that of the scene");
     add_contact_options(command, line.options);
     add_output_options(command, line.options);
-    command.get_option("--out")->default_str("out/SCENE");
+    command.at("--out").by_default("out/SCENE");
 }
 
-void add_commands(CLI::App& app, CommandLine& line) {
-    app.set_version_flag("--version", version_text());
-    app.require_subcommand(1);
-    line.run = app.add_subcommand("run", "runs a scene; options stand above its values");
+void add_commands(CommandParser& parser, CommandLine& line) {
+    parser.add_version(version_text());
+    line.run = &parser.add_command("run", "runs a scene; options stand above its values");
     add_scene_options(*line.run, line);
     add_message_options(*line.run, line.messages);
     line.run
-        ->add_option("--sweep", line.sweep,
-                     "a key and its values in turn, a folder for each run and sweep.csv for all; of several keys all "
-                     "combinations; by default none")
-        ->expected(1)
-        ->take_all()
-        ->type_name("KEY=A,B,...");
-    line.check = app.add_subcommand("check", "says all that is wrong with a scene, or what a run of it would take");
+        ->texts("--sweep", line.sweep,
+                "a key and its values in turn, a folder for each run and sweep.csv for all; of several keys all "
+                "combinations; by default none")
+        .several()
+        .takes("KEY=A,B,...");
+    line.check = &parser.add_command("check", "says all that is wrong with a scene, or what a run of it would take");
     add_scene_options(*line.check, line);
-    line.restart = app.add_subcommand("restart", "goes on with a run that was stopped or killed, from its last checkpoint");
-    line.restart->add_option("results", line.results, "the folder of its results, that of --out")
-        ->required()
-        ->type_name("DIR");
+    line.restart = &parser.add_command("restart", "goes on with a run that was stopped or killed, from its last checkpoint");
+    line.restart->path("results", line.results, "the folder of its results, that of --out").required().takes("DIR");
     add_number(*line.restart, "--until", line.restarted.time,
                "another end of the run than it had; a run that has come to its end goes on if it was made with "
                "--keep-last-checkpoint",
                {.unit = "s", .above = 0.0})
-        ->group("Time");
+        .group("Time");
     add_count(*line.restart, "--threads", line.restarted.threads,
               "threads; 0: as the run had. The results do not depend on it", 0);
     add_ranks_options(*line.restart, line.restarted);
     add_message_options(*line.restart, line.messages);
-    line.make = app.add_subcommand("new", "writes a commented scene to start from");
-    line.make->add_option("name", line.new_file, "the file; .toml is added")->required()->type_name("NAME");
-    line.keys = app.add_subcommand("keys", "prints all keys of a scene");
-    line.detect = app.add_subcommand("detect", "finds which faces of bodies lie opposite each other, and how near");
-    line.detect->footer(detect_program.footer);
+    line.make = &parser.add_command("new", "writes a commented scene to start from");
+    line.make->path("name", line.new_file, "the file; .toml is added").required().takes("NAME");
+    line.keys = &parser.add_command("keys", "prints all keys of a scene");
+    line.detect = &parser.add_command("detect", "finds which faces of bodies lie opposite each other, and how near");
+    line.detect->end_help_with(detect_program.footer);
     add_options(*line.detect, line.detection);
-    add_asked(app, line.asked);
+    add_asked(parser, line.asked);
 }
 
 /// Of two options that exclude each other on the command line the one of the scene goes.
-void drop_excluded(const CLI::App& command, run::RunOptions& options) {
-    if (command.count("--steps") > 0) options.time = run::not_given;
-    if (command.count("--time") > 0) options.steps = 0;
-    if (command.count("--cfl") + command.count("--preset") > 0) {
+void drop_excluded(const CommandParser& command, run::RunOptions& options) {
+    if (command.at("--steps").is_given()) options.time = run::not_given;
+    if (command.at("--time").is_given()) options.steps = 0;
+    if (command.at("--cfl").is_given() || command.at("--preset").is_given()) {
         options.dt = run::not_given;
         options.allow_unstable = false;
     }
@@ -124,12 +119,12 @@ void drop_excluded(const CLI::App& command, run::RunOptions& options) {
 /// Reads the command line once more, above the options of the scene.
 input::Overrides overrides(int argc, char** argv, const CommandLine& first) {
     return {.set = first.set, .options = [argc, argv](run::RunOptions& options) {
-                CLI::App app;
+                CommandParser parser;
                 CommandLine line{.options = options};
-                add_commands(app, line);
-                app.parse(argc, argv);
+                add_commands(parser, line);
+                parser.parse(argc, argv);
                 options = line.options;
-                drop_excluded(line.run->parsed() ? *line.run : *line.check, options);
+                drop_excluded(line.run->is_given() ? *line.run : *line.check, options);
             }};
 }
 
@@ -164,10 +159,10 @@ void restart_run(const Program& program, const fs::path& results, const run::Run
     std::vector<char*> words;
     std::vector<std::string> arguments = restart.arguments;
     for (std::string& argument : arguments) words.push_back(argument.data());
-    CLI::App app;
+    CommandParser parser;
     CommandLine line;
-    add_commands(app, line);
-    app.parse(static_cast<int>(words.size()), words.data());
+    add_commands(parser, line);
+    parser.parse(static_cast<int>(words.size()), words.data());
     input::Overrides over = overrides(static_cast<int>(words.size()), words.data(), line);
     over.origin = restart.scene;
     over.options = [&, options = over.options](run::RunOptions& of_run) {
@@ -215,25 +210,25 @@ void write_new_scene(fs::path path) {
 int run_abut(int argc, char** argv) {
     CommandLine line;
     Program program = abut_program;
-    const auto add_options = [&](CLI::App& app) { add_commands(app, line); };
+    const auto add_options = [&](CommandParser& parser) { add_commands(parser, line); };
     return run_program(program, argc, argv, add_options, [&] {
         program.messages = line.messages;
-        if (!line.run->parsed() && !line.restart->parsed()) refuse_ranks("this command");
-        if (line.run->parsed() && !line.sweep.empty()) {
+        if (!line.run->is_given() && !line.restart->is_given()) refuse_ranks("this command");
+        if (line.run->is_given() && !line.sweep.empty()) {
             refuse_ranks("--sweep");
             run_sweep(line.scene, overrides(argc, argv, line), read_sweeps(line.sweep), program.messages,
                       [&](const input::SceneFile& file) { run_file(program, file, {}); });
-        } else if (line.run->parsed()) {
+        } else if (line.run->is_given()) {
             run_scene_file(program, line.scene, overrides(argc, argv, line), {argv, argv + argc});
-        } else if (line.restart->parsed())
+        } else if (line.restart->is_given())
             restart_run(program, line.results, line.restarted);
-        else if (line.check->parsed())
+        else if (line.check->is_given())
             check_file(line.scene, overrides(argc, argv, line));
-        else if (line.make->parsed())
+        else if (line.make->is_given())
             write_new_scene(line.new_file);
-        else if (line.keys->parsed())
+        else if (line.keys->is_given())
             fmt::print("{}", input::grammar());
-        else if (line.detect->parsed())
+        else if (line.detect->is_given())
             detect(line.detection);
         else
             fmt::print("{}", answer(line.asked));

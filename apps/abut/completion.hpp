@@ -2,7 +2,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/abut/command_tree.hpp"
+#include "apps/support/command_parser.hpp"
 
 namespace abut::apps {
 

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "apps/abut/command_tree.hpp"
 #include "apps/abut/topics.hpp"
+#include "apps/support/command_parser.hpp"
 
 namespace abut::apps {
 

@@ -17,7 +17,7 @@ namespace abut::apps {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::json;
+using Json = nlohmann::ordered_json;
 
 Json read_summary(const fs::path& path) {
     const Json summary = Json::parse(file_bytes(path), nullptr, false);

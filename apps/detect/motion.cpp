@@ -127,7 +127,7 @@ Motion::Motion(const DetectOptions& options, const Bodies& bodies)
       scripts_(bodies.names.size()),
       centres_(centres_of(bodies)),
       deforms_(!bodies.displacement.empty()),
-      largest_motion_(options.largest_motion) {
+      largest_motion_(options.search.largest_motion) {
     for (std::size_t body = 0; body < even_.size(); ++body) even_[body].centre = centres_[body];
     for (const std::string& text : options.translations) add_translation(text, bodies);
     for (const std::string& text : options.rotations) add_rotation(text, bodies);

@@ -6,7 +6,6 @@
 
 #include "abut/contact/options.hpp"
 #include "abut/mesh/surface_mesh.hpp"
-#include "apps/support/cli.hpp"
 #include "apps/support/program.hpp"
 
 namespace abut::apps {
@@ -27,7 +26,6 @@ struct DetectOptions {
     std::string script;
     std::string displacement;
     int steps = 0;  ///< 0: not given
-    double largest_motion = 1.0;
 
     contact::CandidateOptions search;  ///< of these `distance` and `skin` come from the two below
     double distance, depth, skin;      ///< [m]
@@ -46,7 +44,7 @@ struct DetectOptions {
     int write_every = 0;
 };
 
-void add_options(CLI::App& app, DetectOptions& options);
+void add_options(CommandParser& parser, DetectOptions& options);
 [[nodiscard]] nlohmann::ordered_json to_json(const DetectOptions& options);
 
 }  // namespace abut::apps

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <charconv>
@@ -12,7 +11,7 @@
 #include <limits>
 #include <string_view>
 
-#include "apps/support/terminal.hpp"
+#include "abut/base/error.hpp"
 
 namespace abut::apps {
 namespace {
@@ -35,8 +34,8 @@ std::string allowed(const Limits& limits) {
 }
 
 [[noreturn]] void refuse(const std::string& option, const std::string& what, const Limits& limits) {
-    throw CLI::ValidationError(
-        option, fmt::format("{}; {}.{}{}", what, allowed(limits), *limits.remedy == '\0' ? "" : " ", limits.remedy));
+    throw BadInput(
+        fmt::format("{}: {}; {}.{}{}", option, what, allowed(limits), *limits.remedy == '\0' ? "" : " ", limits.remedy));
 }
 
 BodyValues parse_body_values(const std::string& text, const std::string& option, const Limits& limits) {
@@ -46,9 +45,8 @@ BodyValues parse_body_values(const std::string& text, const std::string& option,
         return {value, value};
     }
     if (text.find(',', comma + 1) != std::string::npos)
-        throw CLI::ValidationError(
-            option,
-            fmt::format("'{}' holds more than two values; give one for both bodies, or two separated by a comma.", text));
+        throw BadInput(fmt::format(
+            "{}: '{}' holds more than two values; give one for both bodies, or two separated by a comma.", option, text));
     return {parse_number(text.substr(0, comma), option, limits), parse_number(text.substr(comma + 1), option, limits)};
 }
 
@@ -58,9 +56,9 @@ std::int64_t parse_count(std::string_view text, const std::string& option, std::
     std::int64_t value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (error != std::errc() || end != text.data() + text.size() || value < least || value > most)
-        throw CLI::ValidationError(option, fmt::format("'{}' is not allowed; it must be a whole number {}.", text,
-                                                       most >= many ? fmt::format("of at least {}", least)
-                                                                    : fmt::format("from {} to {}", least, most)));
+        throw BadInput(
+            fmt::format("{}: '{}' is not allowed; it must be a whole number {}.", option, text,
+                        most >= many ? fmt::format("of at least {}", least) : fmt::format("from {} to {}", least, most)));
     return value;
 }
 int parse_int(std::string_view text, const std::string& option, int least) {
@@ -86,29 +84,42 @@ std::vector<std::string_view> parts_of(std::string_view text) {
     return parts;
 }
 
+/// An option of a table, without default and heading.
+Flag add_of_kind(CommandParser& parser, const BoundOption& option) {
+    const OptionFacts& facts = *option.facts;
+    const std::string flag = facts.flag();
+    const auto add = [&](const std::string& help, const std::string& takes, auto value_of) {
+        const auto read = [set = option.set, value_of](const std::string& text) { set(value_of(text)); };
+        return parser.text(flag, read, help).takes(takes);
+    };
+    const auto add_words = [&](const std::vector<std::string>& words, auto value_of) {
+        return add(facts.help, joined(words), value_of).one_of(words);
+    };
+    switch (facts.kind) {
+        case OptionKind::number:
+            return add(unit_after(facts.help, facts.limits), "X", [flag, limits = facts.limits](const std::string& text) {
+                return OptionValue(parse_number(text, flag, limits));
+            });
+        case OptionKind::count:
+            return add(unit_after(facts.help, {}), "N",
+                       [flag, least = facts.least, most = facts.most](const std::string& text) {
+                           return OptionValue(parse_count(text, flag, least, most));
+                       });
+        case OptionKind::path:
+            return add(facts.help, "DIR", [](const std::string& text) { return OptionValue(text); });
+        case OptionKind::word:
+            return add_words(facts.words, [](const std::string& text) { return OptionValue(text); });
+        case OptionKind::truth:
+            break;
+    }
+    if (facts.is_switch) return add_words({"on", "off"}, [](const std::string& text) { return OptionValue(text == "on"); });
+    return parser.flag(
+        flag, [set = option.set] { set(true); }, facts.help);
+}
+
 }  // namespace
 
 std::string joined(const std::vector<std::string>& names) { return fmt::format("{}", fmt::join(names, "|")); }
-
-CLI::Validator one_of(const std::vector<std::string>& names) {
-    const auto check = [names](std::string& text) {
-        if (std::ranges::find(names, text) != names.end()) return std::string();
-        return fmt::format("'{}' is not known; choose one of {}.", text, fmt::join(names, ", "));
-    };
-    return CLI::Validator(check, "");
-}
-
-std::string HelpFormatter::make_option_opts(const CLI::Option* option) const {
-    return option->get_type_size() == 0 ? "" : " " + option->get_type_name();
-}
-
-std::string HelpFormatter::make_option_desc(const CLI::Option* option) const {
-    const std::string& by_default = option->get_default_str();
-    const std::string text = by_default.empty() ? option->get_description()
-                                                : fmt::format("{} (default {})", option->get_description(), by_default);
-    const auto width = terminal_width(STDOUT_FILENO);
-    return width && *width > 2 * get_column_width() ? wrapped(text, *width - get_column_width()) : text;
-}
 
 std::string shown(double value) { return fmt::format("{:g}", value); }
 
@@ -120,92 +131,71 @@ double parse_number(const std::string& text, const std::string& option, const Li
     return value;
 }
 
-CLI::Option* add_number(CLI::App& app, const std::string& option, double& value, const std::string& help,
-                        const Limits& limits) {
+Flag add_number(CommandParser& parser, const std::string& option, double& value, const std::string& help,
+                const Limits& limits) {
     const auto read = [&value, option, limits](const std::string& text) { value = parse_number(text, option, limits); };
-    auto* added = app.add_option_function<std::string>(option, read, unit_after(help, limits))->type_name("X");
-    return std::isnan(value) ? added : added->default_str(shown(value));
+    Flag added = parser.text(option, read, unit_after(help, limits)).takes("X");
+    return std::isnan(value) ? added : added.by_default(shown(value));
 }
 
-CLI::Option* add_body_values(CLI::App& app, const std::string& option, BodyValues& values, const std::string& help,
-                             const Limits& limits) {
+Flag add_body_values(CommandParser& parser, const std::string& option, BodyValues& values, const std::string& help,
+                     const Limits& limits) {
     const auto read = [&values, option, limits](const std::string& text) {
         values = parse_body_values(text, option, limits);
     };
-    auto* added = app.add_option_function<std::string>(option, read, unit_after(help, limits))->type_name("X[,X]");
-    return added->default_str(default_text(values));
+    Flag added = parser.text(option, read, unit_after(help, limits)).takes("X[,X]");
+    return added.by_default(default_text(values));
 }
 
-CLI::Option* add_count(CLI::App& app, const std::string& option, int& value, const std::string& help, int least) {
+Flag add_count(CommandParser& parser, const std::string& option, int& value, const std::string& help, int least) {
     const auto read = [&value, option, least](const std::string& text) { value = parse_int(text, option, least); };
-    return app.add_option_function<std::string>(option, read, unit_after(help, {}))
-        ->type_name("N")
-        ->default_str(fmt::format("{}", value));
+    return parser.text(option, read, unit_after(help, {})).takes("N").by_default(fmt::format("{}", value));
 }
 
-CLI::Option* add_option(CLI::App& app, const BoundOption& option) {
-    const OptionFacts& facts = *option.facts;
-    const OptionValue present = option.get();
-    const std::string flag = facts.flag();
-    CLI::Option* added = nullptr;
-    const auto add = [&](const std::string& help, const std::string& takes, auto value_of) {
-        added = app.add_option_function<std::string>(
-                       flag, [set = option.set, value_of](const std::string& text) { set(value_of(text)); }, help)
-                    ->type_name(takes);
+Flag add_count(CommandParser& parser, const std::string& option, std::int64_t& value, const std::string& help, int least) {
+    const auto read = [&value, option, least](const std::string& text) {
+        value = parse_count(text, option, least, std::numeric_limits<std::int64_t>::max());
     };
-    switch (facts.kind) {
-        case OptionKind::number:
-            add(unit_after(facts.help, facts.limits), "X", [flag, limits = facts.limits](const std::string& text) {
-                return OptionValue(parse_number(text, flag, limits));
-            });
-            break;
-        case OptionKind::count:
-            add(unit_after(facts.help, {}), "N", [flag, least = facts.least, most = facts.most](const std::string& text) {
-                return OptionValue(parse_count(text, flag, least, most));
-            });
-            break;
-        case OptionKind::path:
-            add(facts.help, "DIR", [](const std::string& text) { return OptionValue(text); });
-            break;
-        case OptionKind::word:
-            add(facts.help, joined(facts.words), [](const std::string& text) { return OptionValue(text); });
-            added->check(one_of(facts.words));
-            break;
-        case OptionKind::truth: {
-            if (!facts.is_switch) {
-                added = app.add_flag_callback(
-                    flag, [set = option.set] { set(true); }, facts.help);
-                break;
-            }
-            const std::vector<std::string> words = {"on", "off"};
-            add(facts.help, joined(words), [](const std::string& text) { return OptionValue(text == "on"); });
-            added->check(one_of(words));
-            break;
-        }
-    }
-    return added->default_str(default_text(facts, present))->group(facts.group);
+    return parser.text(option, read, unit_after(help, {})).takes("N").by_default(fmt::format("{}", value));
 }
 
-CLI::Option* add_numbers(CLI::App& app, const std::string& option, std::vector<double>& values, const std::string& help,
-                         const Limits& limits) {
+Flag add_out(CommandParser& parser, std::filesystem::path& folder) {
+    return parser.path("--out", folder, "folder of all results; made if it is not there")
+        .takes("DIR")
+        .by_default(folder.string())
+        .group("Output");
+}
+
+Flag add_option(CommandParser& parser, const BoundOption& option) {
+    const OptionFacts& facts = *option.facts;
+    return add_of_kind(parser, option).by_default(default_text(facts, option.get())).group(facts.group);
+}
+
+Flag add_word(CommandParser& parser, const std::string& option, const std::function<void(const std::string&)>& choose,
+              const std::string& help, const std::vector<std::string>& words, const std::string& by_default) {
+    return parser.text(option, choose, help).one_of(words).takes(joined(words)).by_default(by_default);
+}
+
+Flag add_numbers(CommandParser& parser, const std::string& option, std::vector<double>& values, const std::string& help,
+                 const Limits& limits) {
     const auto read = [&values, option, limits](const std::string& text) {
         values.clear();
         for (const std::string_view part : parts_of(text)) values.push_back(parse_number(std::string(part), option, limits));
     };
-    auto* added = app.add_option_function<std::string>(option, read, unit_after(help, limits))->type_name("X[,X...]");
-    if (!values.empty()) added->default_str(fmt::format("{}", fmt::join(values, ",")));
+    Flag added = parser.text(option, read, unit_after(help, limits)).takes("X[,X...]");
+    if (!values.empty()) added.by_default(fmt::format("{}", fmt::join(values, ",")));
     return added;
 }
 
-CLI::Option* add_counts(CLI::App& app, const std::string& option, std::vector<int>& values, const std::string& help,
-                        int least) {
+Flag add_counts(CommandParser& parser, const std::string& option, std::vector<int>& values, const std::string& help,
+                int least) {
     const auto read = [&values, option, least](const std::string& text) {
         values.clear();
         for (const std::string_view part : parts_of(text)) values.push_back(parse_int(part, option, least));
     };
-    return app.add_option_function<std::string>(option, read, unit_after(help, {}))
-        ->type_name("N[,N...]")
-        ->default_str(fmt::format("{}", fmt::join(values, ",")));
+    return parser.text(option, read, unit_after(help, {}))
+        .takes("N[,N...]")
+        .by_default(fmt::format("{}", fmt::join(values, ",")));
 }
 
 }  // namespace abut::apps

@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "abut/base/error.hpp"
 #include "abut/run/files.hpp"
 #include "apps/support/command_line.hpp"
-#include "apps/support/run_options.hpp"
 
 namespace abut::apps {
 namespace {
@@ -74,7 +74,7 @@ Json summary(const Program& program, const Comparison& comparison) {
     Json json = {{"program", program.name}, {"version", ABUT_VERSION}};
     for (const run::Finding& finding : comparison.findings) json[finding.key] = to_json(finding.value);
     for (const SchemeRun& run : comparison.runs) json["schemes"][run.name] = run_json(run);
-    json["options"] = comparison.options;
+    json["options"] = to_json(comparison.options);
     return json;
 }
 
@@ -100,15 +100,9 @@ double detail::clock_seconds() {
     return seconds;
 }
 
-void add_out_option(CLI::App& app, fs::path& out) {
-    app.add_option("--out", out, "folder of all results; made if it is not there")
-        ->type_name("DIR")
-        ->capture_default_str()
-        ->group("Output");
-}
-
-void add_interval_option(CLI::App& app, int& interval) {
-    add_count(app, "--interval", interval, "steps between two rows of the files; 0: about 10,000 rows", 0)->group("Output");
+void add_interval_option(CommandParser& parser, int& interval) {
+    add_count(parser, "--interval", interval, "steps between two rows of the files; 0: about 10,000 rows", 0)
+        .group("Output");
 }
 
 std::int64_t rows_interval(int given, std::int64_t steps) {

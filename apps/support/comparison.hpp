@@ -1,6 +1,4 @@
 #pragma once
-#include <nlohmann/json.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -182,9 +180,8 @@ SchemeRun follow(Scheme scheme, S& system, const Start& start, const SchemeOptio
     return follow(scheme, system, start, options, schedule, watcher, [](auto&) {});
 }
 
-/// --out and --interval.
-void add_out_option(CLI::App& app, std::filesystem::path& out);
-void add_interval_option(CLI::App& app, int& interval);
+/// --interval.
+void add_interval_option(CommandParser& parser, int& interval);
 
 /// Steps between two rows of a file of about 10,000 rows, unless the user has given it.
 [[nodiscard]] std::int64_t rows_interval(int given, std::int64_t steps);
@@ -199,7 +196,7 @@ struct Comparison {
     std::string title;  ///< of the table
     std::vector<SchemeRun> runs;
     std::vector<run::Finding> findings;  ///< of all of them together
-    nlohmann::ordered_json options;
+    run::NamedValues options;            ///< as they were used
     apps::Picture picture;
 };
 

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <type_traits>
+#include <variant>
 
 #include "abut/base/text.hpp"
 #include "abut/run/files.hpp"
@@ -23,6 +25,27 @@ std::string all_digits(double number) { return std::isnan(number) ? "" : fmt::fo
 std::string two_digits(double number) { return std::isnan(number) ? "-" : fmt::format("{:.2g}", number); }
 nlohmann::ordered_json json_number(double number) {
     return std::isfinite(number) ? nlohmann::ordered_json(number) : nlohmann::ordered_json();
+}
+
+nlohmann::ordered_json to_json(const run::Value& value) {
+    return std::visit(
+        [](const auto& held) {
+            if constexpr (std::is_same_v<std::decay_t<decltype(held)>, std::monostate>)
+                return nlohmann::ordered_json();
+            else
+                return nlohmann::ordered_json(held);
+        },
+        value);
+}
+
+nlohmann::ordered_json to_json(const run::NamedValues& values) {
+    nlohmann::ordered_json json = nlohmann::ordered_json::object();
+    for (const run::NamedValue& value : values) json[value.name] = to_json(value.value);
+    return json;
+}
+
+void append(run::NamedValues& values, const run::NamedValues& more) {
+    values.insert(values.end(), more.begin(), more.end());
 }
 
 void write_json(const std::filesystem::path& path, const nlohmann::ordered_json& json) {

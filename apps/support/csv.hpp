@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "abut/run/value.hpp"
+
 namespace abut::apps {
 
 /// Rows of numbers under the names of their columns.
@@ -21,6 +23,11 @@ void write_csv(const std::filesystem::path& path, const Table& table);
 [[nodiscard]] std::string two_digits(double number);
 /// null where it is no finite number.
 [[nodiscard]] nlohmann::ordered_json json_number(double number);
+/// A value, and values by name, as a summary shows them.
+[[nodiscard]] nlohmann::ordered_json to_json(const run::Value& value);
+[[nodiscard]] nlohmann::ordered_json to_json(const run::NamedValues& values);
+/// Adds what else a summary names.
+void append(run::NamedValues& values, const run::NamedValues& more);
 /// A file of JSON. Never seen half-written; what is not UTF-8 in it, as of a path, has U+FFFD in its place. Throws BadInput.
 void write_json(const std::filesystem::path& path, const nlohmann::ordered_json& json);
 /// Text as a field: in quotation marks, those inside doubled; as_cell.

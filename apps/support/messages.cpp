@@ -1,7 +1,8 @@
 #include "apps/support/messages.hpp"
-#include "apps/support/command_line.hpp"
 
 #include <spdlog/spdlog.h>
+
+#include "apps/support/command_parser.hpp"
 
 namespace abut::apps {
 
@@ -9,18 +10,15 @@ void set_log(Messages messages) {
     spdlog::set_level(messages == Messages::normal ? spdlog::level::info : spdlog::level::off);
 }
 
-void add_message_options(CLI::App& app, Messages& messages) {
+void add_message_options(CommandParser& parser, Messages& messages) {
     const auto add = [&](const char* name, Messages meant, const char* help) {
-        return app
-            .add_flag_callback(
-                name, [&messages, meant] { messages = meant; }, help)
-            ->default_str("off")
-            ->group("Messages");
+        const auto set = [&messages, meant] { messages = meant; };
+        return parser.flag(name, set, help).by_default("off").group("Messages");
     };
-    auto* quiet = add("--quiet", Messages::quiet, "errors alone");
+    const Flag quiet = add("--quiet", Messages::quiet, "errors alone");
     add("--json", Messages::json,
         "a line of JSON for each thing that happens: start, warning, progress, record, end, error (docs/results.md)")
-        ->excludes(quiet);
+        .excludes(quiet);
 }
 
 }  // namespace abut::apps

@@ -1,7 +1,8 @@
 #pragma once
-#include "apps/support/cli.hpp"
 
 namespace abut::apps {
+
+class CommandParser;
 
 /// What a program says while it runs a scene. Errors are on standard error in any case.
 enum class Messages {
@@ -14,6 +15,6 @@ enum class Messages {
 void set_log(Messages messages);
 
 /// --quiet and --json, of which one at most is taken.
-void add_message_options(CLI::App& app, Messages& messages);
+void add_message_options(CommandParser& parser, Messages& messages);
 
 }  // namespace abut::apps

@@ -31,33 +31,31 @@ std::string words_of(Preset preset) {
 }
 
 void apply_words(const std::string& words, run::RunOptions& options) {
-    CLI::App app;
-    app.set_help_flag();
-    add_preset_option(app, options);
-    add_time_options(app, options, "");
-    add_contact_options(app, options);
+    CommandParser parser;
+    parser.take_no_help();
+    add_preset_option(parser, options);
+    add_time_options(parser, options, "");
+    add_contact_options(parser, options);
     try {
-        app.parse(words, false);
-    } catch (const CLI::ParseError& error) {
+        parser.parse(words);
+    } catch (const BadInput& error) {
         throw BadInput(fmt::format("'{}': {} Take options of the groups Preset, Time and Contact of abut run --help.", words,
                                    error.what()));
     }
 }
 
-void add_preset_option(CLI::App& app, run::RunOptions& options) {
+void add_preset_option(CommandParser& parser, run::RunOptions& options) {
     std::vector<std::string> names;
     for (const auto& [name, preset] : presets) names.push_back(name);
     const auto choose = [&options](const std::string& text) {
         for (const auto& [name, preset] : presets)
             if (name == text) run::apply(preset, options);
     };
-    app.add_option_function<std::string>("--preset", choose,
-                                         "several choices at once, which other options overrule (docs/trade.md): fast is " +
-                                             words_of(Preset::fast) + ", exact is " + words_of(Preset::exact))
-        ->check(one_of(names))
-        ->type_name(joined(names))
-        ->default_str("balanced")
-        ->group("Preset");
+    add_word(parser, "--preset", choose,
+             "several choices at once, which other options overrule (docs/trade.md): fast is " + words_of(Preset::fast) +
+                 ", exact is " + words_of(Preset::exact),
+             names, "balanced")
+        .group("Preset");
 }
 
 }  // namespace abut::apps

@@ -19,6 +19,6 @@ inline const Choices<Preset> presets = choices_of(run::preset_words);
 void apply_words(const std::string& words, run::RunOptions& options);
 
 /// --preset. To be added before the options that a preset chooses: those on the command line then win, wherever they stand.
-void add_preset_option(CLI::App& app, run::RunOptions& options);
+void add_preset_option(CommandParser& parser, run::RunOptions& options);
 
 }  // namespace abut::apps

@@ -8,11 +8,12 @@
 #include <cstdio>
 #include <exception>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 
 #include "abut/base/text.hpp"
 #include "abut/run/user_words.hpp"
-#include "apps/support/command_line.hpp"
+#include "apps/support/command_parser.hpp"
 #include "apps/support/json_lines.hpp"
 #include "apps/support/rank_session.hpp"
 #include "apps/support/signals.hpp"
@@ -21,12 +22,6 @@
 
 namespace abut::apps {
 namespace {
-
-std::string message_of(const CLI::App* app, const CLI::Error& error) {
-    return for_terminal(
-        as_utf8(fmt::format("{0}: error: {1} ({0} --help lists all options.)\n", app->get_name(), error.what())),
-        STDERR_FILENO);
-}
 
 /// Says it wherever somebody may hear it. What is not UTF-8 in it, as of a path, has another letter in its place.
 int report(const Program& program, const std::exception& error) {
@@ -58,26 +53,21 @@ int run_body(const Program& program, const std::function<void()>& body) {
     return noted_signal() == 0 ? 0 : exit_code_of(noted_signal());
 }
 
-int run_on_ranks(const Program& program, int argc, char** argv, const std::function<void(CLI::App&)>& add_options,
+int run_on_ranks(const Program& program, int argc, char** argv, const std::function<void(CommandParser&)>& add_options,
                  const std::function<void()>& body) {
-    CLI::App app(program.purpose, program.name);
-    app.formatter(std::make_shared<HelpFormatter>());
-    app.failure_message(message_of);
-    app.footer(for_terminal(program.footer, STDOUT_FILENO));
-    add_options(app);
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::ParseError& error) {
-        if (app.exit(error) == 0) return 0;
-        leave_ranks(fmt::format("{}: error: {}", program.name, error.what()));
-        return 1;
-    }
-    return run_body(program, body);
+    CommandParser parser(program.name, program.purpose);
+    parser.end_help_with(for_terminal(program.footer, STDOUT_FILENO));
+    add_options(parser);
+    const std::optional<std::string> end = parser.parse_or_print(argc, argv);
+    if (!end) return run_body(program, body);
+    if (end->empty()) return 0;
+    leave_ranks(fmt::format("{}: error: {}", program.name, *end));
+    return 1;
 }
 
 }  // namespace
 
-int run_program(const Program& program, int argc, char** argv, const std::function<void(CLI::App&)>& add_options,
+int run_program(const Program& program, int argc, char** argv, const std::function<void(CommandParser&)>& add_options,
                 const std::function<void()>& body) {
     open_closed_streams();
     std::unique_ptr<ranks::Session> ranks;  // ends after all that is said

@@ -4,10 +4,11 @@
 #include <utility>
 #include <vector>
 
-#include "apps/support/cli.hpp"
 #include "apps/support/messages.hpp"
 
 namespace abut::apps {
+
+class CommandParser;
 
 /// What a program is called and what it leaves behind.
 struct Program {
@@ -27,7 +28,7 @@ struct Program {
 /// well. Standard streams that are closed lead to /dev/null. A
 /// command line that cannot be read touches no file. `program` is read again once the command line is: `messages` may be an
 /// option.
-int run_program(const Program& program, int argc, char** argv, const std::function<void(CLI::App&)>& add_options,
+int run_program(const Program& program, int argc, char** argv, const std::function<void(CommandParser&)>& add_options,
                 const std::function<void()>& body);
 
 }  // namespace abut::apps

@@ -1,8 +1,5 @@
 #include "apps/support/run_options.hpp"
 
-#include <type_traits>
-#include <variant>
-
 #include "abut/run/option_table.hpp"
 #include "apps/support/command_line.hpp"
 
@@ -12,65 +9,45 @@ namespace {
 using run::RunOptions;
 
 template <class Wanted>
-void add_wanted(CLI::App& app, RunOptions& options, const Wanted& wanted) {
+void add_wanted(CommandParser& parser, RunOptions& options, const Wanted& wanted) {
     for (const Option<RunOptions>& option : run::run_options())
-        if (option.places.command_line && wanted(option)) add_option(app, bound(option, options));
+        if (option.places.command_line && wanted(option)) add_option(parser, bound(option, options));
 }
 
-CLI::Option* add_named(CLI::App& app, RunOptions& options, const std::string& name) {
-    return add_option(app, bound(named(run::run_options(), name), options));
-}
-
-nlohmann::ordered_json to_json(const run::NamedValues& values) {
-    nlohmann::ordered_json json = nlohmann::ordered_json::object();
-    for (const run::NamedValue& value : values) json[value.name] = apps::to_json(value.value);
-    return json;
+Flag add_named(CommandParser& parser, RunOptions& options, const std::string& name) {
+    return add_option(parser, bound(named(run::run_options(), name), options));
 }
 
 }  // namespace
 
-void add_time_options(CLI::App& app, RunOptions& options, const std::string& default_of_time) {
+void add_time_options(CommandParser& parser, RunOptions& options, const std::string& default_of_time) {
     BoundOption time = bound(named(run::run_options(), "time"), options);
     OptionFacts told = *time.facts;
     told.by_default = default_of_time;
     time.facts = &told;
-    CLI::Option* end = add_option(app, time);
-    add_wanted(app, options, [](const OptionFacts& option) { return option.group == "Time" && option.name != "time"; });
-    app.get_option("--steps")->excludes(end);
-    app.get_option("--dt")->excludes(app.get_option("--cfl"));
-    app.get_option("--allow-unstable")->needs(app.get_option("--dt"));
+    const Flag end = add_option(parser, time);
+    add_wanted(parser, options, [](const OptionFacts& option) { return option.group == "Time" && option.name != "time"; });
+    parser.at("--steps").excludes(end);
+    parser.at("--dt").excludes(parser.at("--cfl"));
+    parser.at("--allow-unstable").needs(parser.at("--dt"));
 }
 
-void add_contact_options(CLI::App& app, RunOptions& options) {
-    add_wanted(app, options, [](const OptionFacts& option) { return option.group == "Contact"; });
+void add_contact_options(CommandParser& parser, RunOptions& options) {
+    add_wanted(parser, options, [](const OptionFacts& option) { return option.group == "Contact"; });
 }
 
-void add_model_options(CLI::App& app, RunOptions& options) {
-    add_wanted(app, options, [](const OptionFacts& option) { return option.shapes_rest; });
+void add_model_options(CommandParser& parser, RunOptions& options) {
+    add_wanted(parser, options, [](const OptionFacts& option) { return option.shapes_rest; });
 }
 
-void add_compression_limit(CLI::App& app, RunOptions& options) { add_named(app, options, "compression_limit"); }
+void add_compression_limit(CommandParser& parser, RunOptions& options) { add_named(parser, options, "compression_limit"); }
 
-void add_ranks_options(CLI::App& app, RunOptions& options) {
-    for (const char* name : {"ranks", "rebalance", "rebalance_above"}) add_named(app, options, name);
+void add_ranks_options(CommandParser& parser, RunOptions& options) {
+    for (const char* name : {"ranks", "rebalance", "rebalance_above"}) add_named(parser, options, name);
 }
 
-void add_output_options(CLI::App& app, RunOptions& options) {
-    add_wanted(app, options, [](const OptionFacts& option) { return option.group == "Output"; });
+void add_output_options(CommandParser& parser, RunOptions& options) {
+    add_wanted(parser, options, [](const OptionFacts& option) { return option.group == "Output"; });
 }
-
-nlohmann::ordered_json to_json(const run::Value& value) {
-    return std::visit(
-        [](const auto& held) {
-            if constexpr (std::is_same_v<std::decay_t<decltype(held)>, std::monostate>)
-                return nlohmann::ordered_json();
-            else
-                return nlohmann::ordered_json(held);
-        },
-        value);
-}
-
-nlohmann::ordered_json to_json(const run::RunOptions& options) { return to_json(run::named_values(options)); }
-nlohmann::ordered_json model_json(const run::RunOptions& options) { return to_json(run::model_values(options)); }
 
 }  // namespace abut::apps

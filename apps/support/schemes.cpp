@@ -29,61 +29,61 @@ bool known_to_any(const std::vector<Scheme>& known, const std::vector<Scheme>& c
 
 }  // namespace
 
-void add_integrator(CLI::App& app, SchemeOptions& options) {
+void add_integrator(CommandParser& parser, SchemeOptions& options) {
     Choices<std::vector<Scheme>> choices = {{"all", options.schemes}};
     for (const Scheme scheme : options.schemes) choices.push_back({name_of(scheme), {scheme}});
-    add_choice(app, "--integrator", options.schemes, "scheme in time (docs/integrators.md)", choices)->group("Schemes");
+    add_choice(parser, "--integrator", options.schemes, "scheme in time (docs/integrators.md)", choices).group("Schemes");
 }
 
-void add_mean(CLI::App& app, SchemeOptions& options) {
-    auto* mean = add_choice(app, "--mean", options.mean,
-                            "of memm and energy_momentum: mean of the force along a step, exact or by Gauss points", means);
-    restrict_to(mean->group("Schemes"), options, {Scheme::memm, Scheme::energy_momentum});
+void add_mean(CommandParser& parser, SchemeOptions& options) {
+    Flag mean = add_choice(parser, "--mean", options.mean,
+                           "of memm and energy_momentum: mean of the force along a step, exact or by Gauss points", means);
+    restrict_to(mean.group("Schemes"), options, {Scheme::memm, Scheme::energy_momentum});
 }
 
-void add_gauge(CLI::App& app, SchemeOptions& options) {
-    auto* gauge = add_number(app, "--gauge", options.gauge, "of bilbao: c in psi = sqrt(2 (V + c))",
-                             {.unit = "J", .above = 0.0, .zero = true});
-    restrict_to(gauge->group("Schemes"), options, {Scheme::bilbao});
+void add_gauge(CommandParser& parser, SchemeOptions& options) {
+    Flag gauge = add_number(parser, "--gauge", options.gauge, "of bilbao: c in psi = sqrt(2 (V + c))",
+                            {.unit = "J", .above = 0.0, .zero = true});
+    restrict_to(gauge.group("Schemes"), options, {Scheme::bilbao});
 }
 
-void add_local_steps(CLI::App& app, SchemeOptions& options) {
-    auto* parts =
-        add_count(app, "--parts", options.parts, "of memm_async: steps of the fast masses in one of the others", 1);
-    auto* fast = add_count(app, "--fast", options.fast, "of memm_async: how many masses, from the first on, are fast", 0);
-    for (auto* option : {parts, fast}) restrict_to(option->group("Schemes"), options, {Scheme::memm_async});
+void add_local_steps(CommandParser& parser, SchemeOptions& options) {
+    Flag parts =
+        add_count(parser, "--parts", options.parts, "of memm_async: steps of the fast masses in one of the others", 1);
+    Flag fast = add_count(parser, "--fast", options.fast, "of memm_async: how many masses, from the first on, are fast", 0);
+    for (Flag option : {parts, fast}) restrict_to(option.group("Schemes"), options, {Scheme::memm_async});
 }
 
-void add_start(CLI::App& app, SchemeOptions& options) {
-    auto* start = add_choice(app, "--start", options.naive_start,
-                             "momenta half a step before and after: p -+ dt/2 F, or naively p for both", starts);
-    restrict_to(start->group("Schemes"), options, {Scheme::memm, Scheme::leapfrog, Scheme::bilbao, Scheme::memm_async});
+void add_start(CommandParser& parser, SchemeOptions& options) {
+    Flag start = add_choice(parser, "--start", options.naive_start,
+                            "momenta half a step before and after: p -+ dt/2 F, or naively p for both", starts);
+    restrict_to(start.group("Schemes"), options, {Scheme::memm, Scheme::leapfrog, Scheme::bilbao, Scheme::memm_async});
 }
 
-void restrict_to(CLI::Option* option, SchemeOptions& options, std::vector<Scheme> schemes) {
+void restrict_to(const Flag& option, SchemeOptions& options, std::vector<Scheme> schemes) {
     options.special.emplace_back(option, std::move(schemes));
 }
 
 void check(const SchemeOptions& options) {
     for (const auto& [option, schemes] : options.special) {
-        if (option->count() == 0 || known_to_any(schemes, options.schemes)) continue;
-        throw BadInput(fmt::format("{}: {} does not know it. Take --integrator {}, or leave {} out.", option->get_name(),
+        if (!option.is_given() || known_to_any(schemes, options.schemes)) continue;
+        throw BadInput(fmt::format("{}: {} does not know it. Take --integrator {}, or leave {} out.", option.name(),
                                    fmt::join(names_of(options.schemes), ", "), fmt::join(names_of(schemes), " or "),
-                                   option->get_name()));
+                                   option.name()));
     }
 }
 
-nlohmann::ordered_json to_json(const SchemeOptions& options) {
-    nlohmann::ordered_json json = {{"integrator", names_of(options.schemes)}};
-    const nlohmann::ordered_json values = {{"--mean", name_of(means, options.mean)},
-                                           {"--gauge", options.gauge},
-                                           {"--fast", options.fast},
-                                           {"--parts", options.parts},
-                                           {"--start", name_of(starts, options.naive_start)}};
+run::NamedValues named_values(const SchemeOptions& options) {
+    const run::NamedValues values = {{"mean", name_of(means, options.mean)},
+                                     {"gauge", options.gauge},
+                                     {"fast", options.fast},
+                                     {"parts", options.parts},
+                                     {"start", name_of(starts, options.naive_start)}};
+    run::NamedValues used = {{"integrator", names_of(options.schemes)}};
     for (const auto& [option, schemes] : options.special)
-        if (known_to_any(schemes, options.schemes) && values.contains(option->get_name()))
-            json[option->get_name().substr(2)] = values[option->get_name()];
-    return json;
+        for (const run::NamedValue& value : values)
+            if (option.name() == "--" + value.name && known_to_any(schemes, options.schemes)) used.push_back(value);
+    return used;
 }
 
 dynamics::LocalSteps local_steps_of_first(const SchemeOptions& options, std::size_t n) {

@@ -1,12 +1,11 @@
 #pragma once
-#include <nlohmann/json.hpp>
-
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "abut/dynamics/with_scheme.hpp"
-#include "apps/support/cli.hpp"
+#include "abut/run/value.hpp"
+#include "apps/support/command_parser.hpp"
 
 namespace abut::apps {
 
@@ -26,23 +25,23 @@ struct SchemeOptions {
     bool naive_start = false;                              ///< p^{-1/2} = p^{1/2} = p^0 instead of p^0 -+ dt/2 F(q^0)
 
     /// Options that only some schemes know.
-    std::vector<std::pair<CLI::Option*, std::vector<Scheme>>> special;
+    std::vector<std::pair<Flag, std::vector<Scheme>>> special;
 };
 
 /// Options by themselves; their defaults are the present values. `add_integrator` offers the present schemes, one or all.
-void add_integrator(CLI::App& app, SchemeOptions& options);
-void add_mean(CLI::App& app, SchemeOptions& options);
-void add_gauge(CLI::App& app, SchemeOptions& options);
-void add_local_steps(CLI::App& app, SchemeOptions& options);
-void add_start(CLI::App& app, SchemeOptions& options);
+void add_integrator(CommandParser& parser, SchemeOptions& options);
+void add_mean(CommandParser& parser, SchemeOptions& options);
+void add_gauge(CommandParser& parser, SchemeOptions& options);
+void add_local_steps(CommandParser& parser, SchemeOptions& options);
+void add_start(CommandParser& parser, SchemeOptions& options);
 
 /// Says that an option is for some schemes only.
-void restrict_to(CLI::Option* option, SchemeOptions& options, std::vector<Scheme> schemes);
+void restrict_to(const Flag& option, SchemeOptions& options, std::vector<Scheme> schemes);
 /// Throws BadInput if an option was given that none of the chosen schemes knows.
 void check(const SchemeOptions& options);
 
 /// What was used of the options that were offered, by the names of the command line.
-[[nodiscard]] nlohmann::ordered_json to_json(const SchemeOptions& options);
+[[nodiscard]] run::NamedValues named_values(const SchemeOptions& options);
 
 /// The first `options.fast` of n masses take `options.parts` steps. Throws BadInput if there are not so many.
 [[nodiscard]] dynamics::LocalSteps local_steps_of_first(const SchemeOptions& options, std::size_t n);

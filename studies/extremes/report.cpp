@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "abut/run/files.hpp"
+#include "abut/run/option_table.hpp"
 #include "apps/support/csv.hpp"
 #include "apps/support/run_options.hpp"
 
@@ -64,7 +65,7 @@ Json family_json(const Family& family, const std::vector<Row>& rows) {
 
 Json summary(const apps::Program& program, const SweepOptions& options, const std::vector<Row>& rows) {
     Json json = begun_summary(program);
-    json["options"] = apps::to_json(options.run);
+    json["options"] = apps::to_json(run::named_values(options.run));
     json["options"].update({{"steps", options.steps}, {"quick", options.quick}});
     json["asked"] = {{"pseudo_energy_drift", largest_drift},
                      {"momentum_drift", largest_momentum_drift},
@@ -78,7 +79,7 @@ Json summary(const apps::Program& program, const SweepOptions& options, const st
     }
     json["rows"] = Json::array();
     for (const Row& row : rows) {
-        json["rows"].push_back(to_json(table, row));
+        json["rows"].push_back(studies::to_json(members(table, row)));
         json["rows"].back()["numbers"] = to_json(row.numbers);
     }
     return json;

@@ -30,8 +30,8 @@ apps::Program as_typed(apps::Program study) {
 
 int run_command(const apps::Program& typed, int argc, char** argv, const std::function<void(Flags&)>& add_options,
                 const std::function<void()>& body) {
-    const auto add = [&](CLI::App& app) {
-        Flags flags(app);
+    const auto add = [&](apps::CommandParser& parser) {
+        Flags flags(parser);
         add_options(flags);
     };
     return apps::run_program(typed, argc, argv, add, body);

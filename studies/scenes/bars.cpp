@@ -9,6 +9,7 @@
 #include "abut/base/error.hpp"
 #include "abut/base/stopwatch.hpp"
 #include "abut/mesh/shapes/shapes.hpp"
+#include "abut/run/option_table.hpp"
 #include "abut/run/simulation.hpp"
 #include "apps/support/comparison.hpp"
 #include "apps/support/log.hpp"
@@ -17,8 +18,6 @@
 
 namespace abut::studies {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 const apps::Choices<BarBody> bodies = {
     {"chain", BarBody::chain}, {"strip2d", BarBody::strip2d}, {"strip3d", BarBody::strip3d}};
@@ -193,10 +192,10 @@ std::string BarOptions::body_name() const { return apps::name_of(bodies, body); 
 
 void BarOptions::check() const {
     if (body != BarBody::chain) return;
-    for (const CLI::Option* option : of_solver)
-        if (is_given(option))
+    for (const apps::Flag& option : of_solver)
+        if (option.is_given())
             throw BadInput(fmt::format("{}: a chain does not know it. Take --body strip2d or strip3d, or leave it out.",
-                                       name_of(option)));
+                                       option.name()));
 }
 
 BarOptions default_bar_options(const apps::Program& program, std::vector<int> cells, double length) {
@@ -220,19 +219,18 @@ void add_bar_options(Flags& flags, BarOptions& options, const std::vector<BarBod
                                       "energy-neutral filter of the parasitic mode, after each step in contact",
                                       apps::Choices<bool>{{"none", false}, {"neutral", true}})};
     apps::add_contact_options(flags, options.run);
-    for (CLI::Option* option : flags.of_group("Contact")) options.of_solver.push_back(option);
+    for (const apps::Flag& option : flags.of_group("Contact")) options.of_solver.push_back(option);
     flags.out(options.run.out);
 }
 
-nlohmann::ordered_json to_json(const BarOptions& options) {
-    Json json = {{"body", options.body_name()}, {"cells", options.cells}};
+run::NamedValues named_values(const BarOptions& options) {
+    run::NamedValues values = {{"body", options.body_name()}, {"cells", counts(options.cells)}};
     if (options.body != BarBody::chain) {
-        json.update(apps::to_json(options.run));
-        for (const char* name : {"interval", "frames"}) json.erase(name);
+        apps::append(values, run::named_values(options.run));
+        std::erase_if(values, [](const run::NamedValue& one) { return one.name == "interval" || one.name == "frames"; });
     }
-    json["cfl"] = options.cfl;
-    json["out"] = options.run.out.string();
-    return json;
+    apps::append(values, {{"cfl", options.cfl}, {"out", options.run.out.string()}});
+    return values;
 }
 
 BarRun run_bar(const BarOnWall& scene, const BarOptions& options, int cells, const std::vector<double>& profile_times) {
@@ -289,7 +287,7 @@ void run_study(const apps::Program& program, const BarOptions& options, const Ba
     }
     study.curves = {{"history", std::move(history)}, {"exact", bars.exact}};
     study.pictures = {bars.picture};
-    study.options = to_json(options);
+    study.options = named_values(options);
     if (bars.complete) bars.complete(study);
     report(program, options.run.out, study);
 }

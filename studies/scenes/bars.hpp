@@ -7,6 +7,7 @@
 
 #include "abut/dynamics/particles.hpp"
 #include "abut/run/scene.hpp"
+#include "apps/support/command_parser.hpp"
 #include "studies/table/study.hpp"
 
 /// Straight elastic bars that hit a rigid wall or each other. With nu = 0 and rollers at their sides their waves are those
@@ -169,7 +170,7 @@ struct BarOptions {
     /// Throws BadInput where options of the full solver were given for a chain.
     void check() const;
 
-    std::vector<CLI::Option*> of_solver;  ///< options that a chain does not know
+    std::vector<apps::Flag> of_solver;  ///< options that a chain does not know
 };
 
 /// With what an impact at a third of the wave speed needs: the foot gives way by up to twice its cell, and more when
@@ -180,7 +181,7 @@ struct BarOptions {
 void add_bar_options(Flags& flags, BarOptions& options,
                      const std::vector<BarBody>& bodies = {BarBody::chain, BarBody::strip2d, BarBody::strip3d});
 /// As they were used.
-[[nodiscard]] nlohmann::ordered_json to_json(const BarOptions& options);
+[[nodiscard]] run::NamedValues named_values(const BarOptions& options);
 
 /// Runs a bar under MEMM; profiles are taken at the nodes nearest to the times. The step is `cfl` h/c, or a little less so
 /// that the last node is the end of the run. Throws as `simulate`.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "apps/support/csv.hpp"
 
@@ -22,9 +23,14 @@ std::string field(const Cell& cell, bool is_quoted) {
     return is_quoted ? apps::quoted(text) : text;
 }
 
-nlohmann::ordered_json to_json(const Cell& cell) {
-    if (const auto* number = std::get_if<double>(&cell)) return apps::json_number(*number);
-    return std::visit([](const auto& value) { return nlohmann::ordered_json(value); }, cell);
+nlohmann::ordered_json to_json(const std::vector<std::pair<std::string, Cell>>& members) {
+    nlohmann::ordered_json json = nlohmann::ordered_json::object();
+    for (const auto& [key, cell] : members) {
+        const auto* number = std::get_if<double>(&cell);
+        json[key] = number ? apps::json_number(*number)
+                           : std::visit([](const auto& value) { return nlohmann::ordered_json(value); }, cell);
+    }
+    return json;
 }
 
 nlohmann::ordered_json begun_summary(const apps::Program& program) {

@@ -1,9 +1,10 @@
 #pragma once
 #include <cstdint>
 #include <functional>
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <span>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -31,7 +32,8 @@ using Columns = std::vector<Column<Row>>;
 [[nodiscard]] std::string shown(const Cell& cell, int width, const char* digits = "{}");
 /// A field of a CSV file: all digits, 1 and 0 for true and false.
 [[nodiscard]] std::string field(const Cell& cell, bool is_quoted);
-[[nodiscard]] nlohmann::ordered_json to_json(const Cell& cell);
+/// An object; what is not finite is null.
+[[nodiscard]] nlohmann::ordered_json to_json(const std::vector<std::pair<std::string, Cell>>& members);
 /// Members that every summary begins with: program and version.
 [[nodiscard]] nlohmann::ordered_json begun_summary(const apps::Program& program);
 
@@ -71,13 +73,13 @@ template <class Row>
     return names + "\n" + lines;
 }
 
-/// An object with a member per column.
+/// A row of a file by the names of its columns.
 template <class Row>
-[[nodiscard]] nlohmann::ordered_json to_json(const Columns<Row>& columns, const Row& row) {
-    nlohmann::ordered_json json = nlohmann::ordered_json::object();
+[[nodiscard]] std::vector<std::pair<std::string, Cell>> members(const Columns<Row>& columns, const Row& row) {
+    std::vector<std::pair<std::string, Cell>> cells;
     for (const Column<Row>& column : columns)
-        if (!column.key.empty()) json[column.key] = to_json(column.value(row));
-    return json;
+        if (!column.key.empty()) cells.emplace_back(column.key, column.value(row));
+    return cells;
 }
 
 }  // namespace abut::studies

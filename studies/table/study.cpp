@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <set>
 
 #include "abut/run/files.hpp"
@@ -85,14 +86,14 @@ Json to_json(const Level& level) {
     Json json{{"name", level.name}, {"seconds", level.seconds}, {"quantities", Json::array()}};
     if (level.size > 0.0) json["size"] = level.size;
     for (const Quantity& quantity : level.quantities) json["quantities"].push_back(to_json(quantity));
-    if (level.energies) json["energies"] = to_json(energy_columns, *level.energies);
+    if (level.energies) json["energies"] = studies::to_json(members(energy_columns, *level.energies));
     return json;
 }
 
 Json summary(const apps::Program& program, const Study& study) {
     Json json = begun_summary(program);
     json.update({{"title", study.title}, {"reference", study.reference}});
-    json["options"] = study.options;
+    json["options"] = apps::to_json(study.options);
     json["levels"] = Json::array();
     for (const Level& level : study.levels) json["levels"].push_back(to_json(level));
     json["orders"] = Json::object();
@@ -103,6 +104,8 @@ Json summary(const apps::Program& program, const Study& study) {
 }
 
 }  // namespace
+
+std::vector<std::int64_t> counts(const std::vector<int>& numbers) { return {numbers.begin(), numbers.end()}; }
 
 nlohmann::ordered_json to_json(const Quantity& quantity) {
     Json json{{"name", quantity.name},

@@ -1,8 +1,8 @@
 #pragma once
-#include <nlohmann/json.hpp>
-
+#include <cstdint>
 #include <filesystem>
 #include <limits>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -66,6 +66,9 @@ template <class Run>
     return run();
 }
 
+/// Numbers of cells for Study::options.
+[[nodiscard]] std::vector<std::int64_t> counts(const std::vector<int>& numbers);
+
 /// The least order of convergence that counts as reproduced.
 struct OrderTarget {
     std::string quantity;
@@ -79,7 +82,7 @@ struct Study {
     std::vector<Level> levels;
     std::vector<std::pair<std::string, apps::Table>> curves;  ///< "pressure" is left as pressure.csv
     std::vector<apps::Picture> pictures;
-    nlohmann::ordered_json options;  ///< as they were used
+    run::NamedValues options;  ///< as they were used
     std::vector<OrderTarget> orders{};
 };
 

@@ -3,6 +3,7 @@
 #include <array>
 #include <cctype>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 namespace abut::studies {
 namespace {
@@ -55,7 +56,7 @@ Json to_json(const Row& row, const Columns<Figures>& columns) {
     json["quantities"] = Json::array();
     for (const Quantity& quantity : row.quantities) json["quantities"].push_back(to_json(quantity));
     json.update({{"seconds", row.seconds}, {"remark", row.remark}});
-    if (row.run) json["run"] = to_json(columns, *row.run);
+    if (row.run) json["run"] = studies::to_json(members(columns, *row.run));
     return json;
 }
 
@@ -130,10 +131,10 @@ void print(const Row& row, const RowTable& table) {
     if (!row.remark.empty()) fmt::print("      {}\n", row.remark);
 }
 
-void write_rows(const apps::Program& program, const std::filesystem::path& out, const Json& options,
+void write_rows(const apps::Program& program, const std::filesystem::path& out, const run::NamedValues& options,
                 const std::vector<Row>& rows, const RowTable& table) {
     Json json = begun_summary(program);
-    json["options"] = options;
+    json["options"] = apps::to_json(options);
     json["levels"] = Json::array();
     std::vector<QuantityLine> lines;
     for (const Row& row : rows) {

@@ -96,13 +96,13 @@ struct RowTable {
 
 void print(const Row& row, const RowTable& table);
 /// Leaves <program>.csv, one line per quantity, and summary.json; prints how many rows miss a target.
-void write_rows(const apps::Program& program, const std::filesystem::path& out, const nlohmann::ordered_json& options,
+void write_rows(const apps::Program& program, const std::filesystem::path& out, const run::NamedValues& options,
                 const std::vector<Row>& rows, const RowTable& table);
 
 /// A study in parts: runs them, prints its table and leaves its files. `used` are the options for the summary.
 template <class Options>
 void run_study_in_parts(const apps::Program& program, const std::vector<Part<Options, Row>>& parts, const Options& options,
-                        const nlohmann::ordered_json& used, const RowTable& table) {
+                        const run::NamedValues& used, const RowTable& table) {
     const run::FolderLock lock(options.out, program.name);
     run::claim_results(options.out, {"summary.json", program.name + ".csv"});
     const std::string all_heads = shown("", -table.scene) + shown("", -table.setting) + heads(table.columns());

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "abut/run/files.hpp"
@@ -96,7 +97,7 @@ Json to_json(const Row& row) {
                 {"setting", row.setting},
                 {"model", word_of(row.model)},
                 {"message", row.refusal}};
-    Json json = to_json(table(), row);
+    Json json = studies::to_json(members(table(), row));
     json["seconds_over_balanced"] = json["ratio"];
     json["errors"] = Json::object();
     json["on_front"] = Json::array();
@@ -243,11 +244,11 @@ void print(const Row& row) {
     std::fflush(stdout);
 }
 
-void write_report(const apps::Program& program, const std::filesystem::path& out, const Json& options,
+void write_report(const apps::Program& program, const std::filesystem::path& out, const run::NamedValues& options,
                   const std::vector<Row>& rows) {
     run::write_whole(out / "trade.csv", csv_text(table(), rows));
     Json json = begun_summary(program);
-    json["options"] = options;
+    json["options"] = apps::to_json(options);
     const std::string without_picture = draw(out, picture(rows));
     if (!without_picture.empty()) json["without_picture"] = without_picture;
     json["never_on_a_front"] = never_on_a_front(rows);

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "abut/run/value.hpp"
 #include "apps/support/program.hpp"
 #include "studies/trade/ladder.hpp"
 #include "studies/trade/problems.hpp"
@@ -35,7 +36,7 @@ void print_head(const Problem& problem);
 void print(const Row& row);
 
 /// Leaves trade.csv, summary.json and the picture pareto.png with its script.
-void write_report(const apps::Program& program, const std::filesystem::path& out, const nlohmann::ordered_json& options,
+void write_report(const apps::Program& program, const std::filesystem::path& out, const run::NamedValues& options,
                   const std::vector<Row>& rows);
 
 }  // namespace abut::studies::trade

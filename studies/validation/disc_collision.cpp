@@ -7,6 +7,7 @@
 
 #include <array>
 
+#include "abut/run/option_table.hpp"
 #include "apps/support/comparison.hpp"
 #include "apps/support/preset.hpp"
 #include "studies/program/entry.hpp"
@@ -118,8 +119,8 @@ void run_study(const Options& options) {
             study.curves.emplace_back(curve_name(offset, size), std::move(collision.curve));
         }
     study.pictures = {picture(options.sizes)};
-    study.options = apps::to_json(options.run);
-    study.options["size"] = options.sizes;
+    study.options = run::named_values(options.run);
+    study.options.push_back({"size", options.sizes});
     report(program, options.run.out, study);
 }
 

@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 
+#include "abut/run/option_table.hpp"
 #include "apps/support/comparison.hpp"
 #include "apps/support/preset.hpp"
 #include "studies/program/entry.hpp"
@@ -104,8 +105,8 @@ void run_study(const Options& options) {
         study.curves.emplace_back(curve_name(cells), std::move(one.curve));
     }
     study.pictures = {picture(options.cells)};
-    study.options = apps::to_json(options.run);
-    study.options["cells"] = options.cells;
+    study.options = run::named_values(options.run);
+    study.options.push_back({"cells", options.cells});
     report(program, options.run.out, study);
 }
 

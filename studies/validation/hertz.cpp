@@ -11,6 +11,7 @@
 
 #include <string>
 
+#include "abut/run/option_table.hpp"
 #include "apps/support/comparison.hpp"
 #include "studies/program/entry.hpp"
 #include "studies/table/study.hpp"
@@ -154,15 +155,15 @@ Study solve(const Options& options) {
     return study;
 }
 
-nlohmann::ordered_json to_json(const Options& options) {
+run::NamedValues named_values(const Options& options) {
     const HertzOptions& hertz = options.hertz;
-    nlohmann::ordered_json json{{"dim", options.dim},     {"support", apps::name_of(supports, hertz.support)},
-                                {"load", hertz.load},     {"radius", hertz.radius},
-                                {"young", hertz.young},   {"poisson", hertz.poisson},
-                                {"faces", options.faces}, {"ratio", hertz.ratio},
-                                {"coarse", hertz.coarse}, {"tolerance", hertz.statics.tolerance}};
-    json.update(apps::model_json(options.run));
-    return json;
+    run::NamedValues values{{"dim", options.dim},     {"support", apps::name_of(supports, hertz.support)},
+                            {"load", hertz.load},     {"radius", hertz.radius},
+                            {"young", hertz.young},   {"poisson", hertz.poisson},
+                            {"faces", options.faces}, {"ratio", hertz.ratio},
+                            {"coarse", hertz.coarse}, {"tolerance", hertz.statics.tolerance}};
+    apps::append(values, run::model_values(options.run));
+    return values;
 }
 
 void check(Options& options) {
@@ -179,7 +180,7 @@ void run_study(Options& options) {
     for (const double faces : options.faces) curves.push_back(curve_name(faces));
     const auto lock = prepare_study(program, options.run.out, curves, {"pressure"});
     Study study = options.dim == 2 ? solve<2>(options) : solve<3>(options);
-    study.options = to_json(options);
+    study.options = named_values(options);
     report(program, options.run.out, study);
 }
 

@@ -12,6 +12,7 @@
 #include <array>
 #include <cmath>
 
+#include "abut/run/option_table.hpp"
 #include "apps/support/comparison.hpp"
 #include "apps/support/preset.hpp"
 #include "studies/program/entry.hpp"
@@ -146,8 +147,8 @@ void run_study(Options& options) {
         study.curves.emplace_back(curve_name(faces), std::move(impact.curve));
     }
     study.pictures = {picture(options.faces)};
-    study.options = apps::to_json(options.run);
-    study.options.update({{"faces", options.faces}, {"coarse", options.spheres.coarse}});
+    study.options = run::named_values(options.run);
+    apps::append(study.options, {{"faces", options.faces}, {"coarse", options.spheres.coarse}});
     report(program, options.run.out, study);
 }
 

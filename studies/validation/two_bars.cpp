@@ -128,8 +128,8 @@ apps::Picture picture(const Options& options) {
 void run_study(const Options& options) {
     check(options);
     const auto add_options_used = [&](Study& study) {
-        study.options["speed"] = options.speed;
-        study.options["cells_2"] = options.upper_cells.empty() ? options.bars.cells : options.upper_cells;
+        study.options.push_back({"speed", std::vector<double>(options.speed.begin(), options.speed.end())});
+        study.options.push_back({"cells_2", counts(options.upper_cells.empty() ? options.bars.cells : options.upper_cells)});
     };
     run_study(program, options.bars,
               {.title = fmt::format("two equal bars meet head on at {:g} and {:g} m/s", options.speed[0], options.speed[1]),

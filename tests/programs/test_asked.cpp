@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "abut/contact/option_table.hpp"
 #include "abut/run/option_table.hpp"
 #include "apps/support/terminal.hpp"
 #include "programs/program.hpp"
@@ -315,4 +316,11 @@ TEST_CASE("every option of a run is in help, manual page and completions, and in
         CHECK_THAT(zsh, Contains("*" + flag + "["));
         CHECK_THAT(fish, Contains(" -l " + flag.substr(2)));
     }
+}
+
+TEST_CASE("detect explains what it has in common with runs in the words of their table", "[programs][asked][options]") {
+    const std::string help = answer("detect --help");
+    for (const char* name : {"broad_phase", "facing_cosine", "largest_motion", "self_contact_rings"})
+        CHECK_THAT(help, Contains(named(contact::search_options(), name).help));
+    CHECK_THAT(help, Contains(named(contact::contact_options(), "area").help));
 }

@@ -1,6 +1,5 @@
 // Options of a table on a command line.
-#include <CLI/CLI.hpp>
-
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <string>
 
@@ -12,39 +11,40 @@ namespace {
 using namespace abut;
 using Catch::Contains;
 
-void add_soil(CLI::App& app, test::Soil& soil) {
-    for (const Option<test::Soil>& option : test::soil_options()) apps::add_option(app, bound(option, soil));
+void add_soil(apps::CommandParser& parser, test::Soil& soil) {
+    for (const Option<test::Soil>& option : test::soil_options()) apps::add_option(parser, bound(option, soil));
 }
 
 test::Soil parsed(const std::string& line) {
-    CLI::App app;
+    apps::CommandParser parser;
     test::Soil soil;
-    add_soil(app, soil);
-    app.parse(line, false);
+    add_soil(parser, soil);
+    parser.parse(line);
     return soil;
 }
 
 }  // namespace
 
 TEST_CASE("every option of a table is a flag that help explains with unit, words and default", "[programs][options]") {
-    CLI::App app;
+    apps::CommandParser program;
     test::Soil soil;
     soil.layers = 4;
-    add_soil(app, soil);
-    const auto check = [&](const char* flag, const char* takes, const char* text, const char* by_default) {
+    add_soil(program.add_command("dig", "digs"), soil);
+    const apps::Command command = program.commands().at(0);
+    const auto check = [&](const char* flag, const char* takes, const char* text) {
         CAPTURE(flag);
-        const CLI::Option* option = app.get_option(flag);
-        if (*takes != '\0') CHECK(option->get_type_name() == takes);
-        CHECK(option->get_description() == text);
-        CHECK(option->get_default_str() == by_default);
-        CHECK(option->get_group() == "Soil");
+        const auto option = std::ranges::find(command.options, flag, &apps::CommandOption::name);
+        REQUIRE(option != command.options.end());
+        CHECK(option->value == takes);
+        CHECK(option->meaning == text);
+        CHECK(option->group == "Soil");
     };
-    check("--soil-stiffness", "X", "of the soil [Pa]", "2.5");
-    check("--soil-layers", "N", "layers of the soil [-]", "4");  // the present value
-    check("--is-wet", "", "it has rained", "off");
-    check("--drains", "on|off", "water leaves", "on");
-    check("--grain", "fine|coarse", "size of the grains", "coarse");
-    check("--map", "DIR", "where it lies", "nowhere");
+    check("--soil-stiffness", "X", "of the soil [Pa] (default 2.5)");
+    check("--soil-layers", "N", "layers of the soil [-] (default 4)");  // the present value
+    check("--is-wet", "", "it has rained (default off)");
+    check("--drains", "on|off", "water leaves (default on)");
+    check("--grain", "fine|coarse", "size of the grains (default coarse)");
+    check("--map", "DIR", "where it lies (default nowhere)");
 }
 
 TEST_CASE("flags of options reach their members", "[programs][options]") {
