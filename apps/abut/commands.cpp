@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "abut/base/error.hpp"
+#include "abut/base/throw_again.hpp"
 #include "abut/input/check.hpp"
 #include "abut/input/grammar.hpp"
 #include "abut/input/scene_file.hpp"
@@ -141,10 +142,24 @@ void run_file(const Program& program, const input::SceneFile& file, const TextFi
         run_scene<3>(named, file.options(), [&] { return file.scene<3>(); });
 }
 
+/// Nothing is removed for a scene that cannot be read, which may not say where its results go. The message names those of an
+/// earlier run, so that nobody takes them for results of this scene.
+input::SceneFile read_to_run(const fs::path& path, const input::Overrides& overrides) {
+    try {
+        return input::SceneFile(path, overrides);
+    } catch (const input::SceneError& error) {
+        run::RunOptions options{.out = fs::path("out") / path.stem()};
+        overrides.options(options);
+        if (options.resume || !fs::exists(options.out / "summary.json")) throw;
+        throw_again(error,
+                    fmt::format("{}\n{} still has the results of an earlier run.", error.what(), options.out.string()));
+    }
+}
+
 /// A run from the start leaves what a restart needs; one that goes on has the scene that it began with.
 void run_scene_file(const Program& program, const fs::path& path, const input::Overrides& overrides,
                     const std::vector<std::string>& arguments) {
-    const input::SceneFile file(path, overrides);
+    const input::SceneFile file = read_to_run(path, overrides);
     if (!file.options().resume) return run_file(program, file, files_for_restart({fs::absolute(path), arguments}, path));
     if (const std::string changes = changes_since(path, file.options().out); !changes.empty())
         throw BadInput(changes + " Go on with the scene as it was by abut restart " + file.options().out.string() +

@@ -276,6 +276,16 @@ TEST_CASE("a bad run leaves no results of an earlier good one, and nobody else's
     CHECK(left == mine);
 }
 
+TEST_CASE("a scene that cannot be read leaves the results of an earlier run, and the message names them", "[programs]") {
+    const auto good = run_well("abut", slip("--set values.size=0.25 --steps 4 --frames 2"), "unread");
+    const auto before = files_in(good.directory);
+    const auto bad = run_into(good.directory, "abut", slip("--set bodies.left.yuong=1"));
+    CHECK(bad.exit_code == 1);
+    CHECK_THAT(bad.error, Catch::Contains("yuong") &&
+                              Catch::EndsWith(good.directory.string() + " still has the results of an earlier run.\n"));
+    CHECK(files_in(good.directory) == before);
+}
+
 TEST_CASE("a run of few frames leaves none of an earlier run of many", "[programs]") {
     const auto many = run_well("abut", slip("--set values.size=0.25 --steps 8 --frames 5"), "frames_again");
     REQUIRE(run_into(many.directory, "abut", slip("--set values.size=0.25 --steps 8 --frames 2")).exit_code == 0);
