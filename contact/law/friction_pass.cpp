@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <array>
-#include <numeric>
+#include <cstdint>
 
 #include "abut/base/ids.hpp"
 
@@ -112,9 +112,16 @@ void FrictionPass<N>::weigh(std::span<FrictionHalf<N>> halves) {
 template <int N>
 template <class Visit>
 void FrictionPass<N>::for_each_facet(std::span<const FrictionHalf<N>> halves, const Visit& visit) {
-    order_.resize(halves.size());
-    std::iota(order_.begin(), order_.end(), std::size_t{0});
-    std::ranges::sort(order_, {}, [&](std::size_t i) { return std::pair(halves[i].facet, i); });
+    const auto key = [&](std::size_t i) {
+        return std::size_t{static_cast<std::uint32_t>(number_of(halves[i].facet))} << 32U | i;
+    };
+    // Most steps have the halves of the step before, and so their order.
+    if (order_.size() != halves.size() || !std::ranges::is_sorted(order_, {}, key)) {
+        order_.resize(halves.size());
+        for (std::size_t i = 0; i < halves.size(); ++i) order_[i] = key(i);  // plain numbers are sorted faster than halves
+        std::ranges::sort(order_);
+        for (std::size_t& i : order_) i &= 0xffffffffU;
+    }
     for (std::size_t begin = 0, end = 0; begin < order_.size(); begin = end) {
         const Facet facet = halves[order_[begin]].facet;
         while (end < order_.size() && halves[order_[end]].facet == facet) ++end;
