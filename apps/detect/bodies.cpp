@@ -15,6 +15,7 @@
 #include "abut/geometry/triangulate.hpp"
 #include "abut/mesh/io/read_surface.hpp"
 #include "abut/mesh/quality.hpp"
+#include "apps/detect/placing.hpp"
 #include "apps/detect/shapes.hpp"
 
 namespace abut::apps {
@@ -24,11 +25,16 @@ using mesh::CleanSurface;
 using mesh::SurfaceMesh;
 
 SurfaceMesh read_one(const std::string& input, const DetectOptions& options) {
-    if (!is_shape(input))
-        return mesh::read_surface(input, {.weld = {},
-                                          .displacement = options.displacement,
-                                          .connected_bodies = options.connected,
-                                          .volume = {.planarity_tolerance = options.planarity_tolerance}});
+    if (!is_shape(input)) {
+        const auto [path, keys] = placed_file(input);
+        keys.check_known(placing_keys());
+        SurfaceMesh surface = mesh::read_surface(path, {.weld = {},
+                                                        .displacement = options.displacement,
+                                                        .connected_bodies = options.connected,
+                                                        .volume = {.planarity_tolerance = options.planarity_tolerance}});
+        if (!keys.empty()) place(surface, keys);
+        return surface;
+    }
     SurfaceMesh shape = make_shape(input);
     if (options.connected) mesh::name_connected_bodies(shape);
     return shape;

@@ -64,6 +64,7 @@ public:
         report_.search = detection_.report();
         report_.seconds.search = detection_.seconds_search();
         report_.seconds.narrow = detection_.seconds_narrow();
+        report_.seconds.nearest = detection_.seconds_nearest();
         const Stopwatch watch(report_.seconds.writing);
         if (!options_.no_files) output_.finish();
     }

@@ -65,8 +65,27 @@ const StepResult& Detection::find(int step) {
 }
 
 void Detection::measure_distances() {
-    const Stopwatch watch(seconds_narrow_);
-    result_.distances = contact::face_distances<3>(start_.view(), bodies_.surface.vertices, result_.overlaps);
+    {
+        const Stopwatch watch(seconds_narrow_);
+        result_.distances = contact::face_distances<3>(start_.view(), bodies_.surface.vertices, result_.overlaps);
+    }
+    const Stopwatch watch(seconds_nearest_);
+    result_.nearest = nearest_bodies(bodies_);
+}
+
+BodyContacts contacts_of(const Bodies& bodies, const StepResult& result) {
+    BodyContacts contacts;
+    const auto& body = bodies.surface.body;
+    for (std::size_t i = 0; i < result.overlaps.size(); ++i) {
+        const contact::Overlap<3>& overlap = result.overlaps[i];
+        const double distance = result.distances[i];
+        BodyContact& contact = contacts[std::minmax(body[at(overlap.face_1)], body[at(overlap.face_2)])];
+        contact.distance_min = contact.overlaps == 0 ? distance : std::min(contact.distance_min, distance);
+        contact.gap_min = contact.overlaps == 0 ? overlap.gap : std::min(contact.gap_min, overlap.gap);
+        contact.area += overlap.area;
+        ++contact.overlaps;
+    }
+    return contacts;
 }
 
 void Detection::search() {

@@ -1,10 +1,13 @@
 #pragma once
 #include <cstdint>
+#include <map>
+#include <utility>
 #include <vector>
 
 #include "abut/contact/overlaps.hpp"
 #include "abut/contact/search/candidate_search.hpp"
 #include "apps/detect/motion.hpp"
+#include "apps/detect/nearest.hpp"
 
 namespace abut::apps {
 
@@ -30,9 +33,21 @@ struct StepResult {
     std::int64_t too_steep = 0;              ///< left out because n_1 . n_2 is not below --facing
     contact::OverlapReport narrow;
     std::vector<contact::Overlap<3>> overlaps;  ///< -depth < gap <= distance, n_1 . n_2 < --facing
-    /// Of the faces of each in space [m]: by `Detection::measure_distances` alone, empty before
+    /// Of the faces of each in space [m]: by `Detection::measure_distances` alone, empty before, as is what follows
     std::vector<double> distances;
+    std::vector<NearestBodies> nearest;
 };
+
+/// Contact of two bodies.
+struct BodyContact {
+    std::int64_t overlaps = 0;
+    double area = 0.0;          ///< [m^2]
+    double gap_min = 0.0;       ///< [m]
+    double distance_min = 0.0;  ///< of faces that overlap [m]
+};
+/// By pair of bodies, the smaller number first. The distances must have been measured.
+using BodyContacts = std::map<std::pair<std::int32_t, std::int32_t>, BodyContact>;
+[[nodiscard]] BodyContacts contacts_of(const Bodies& bodies, const StepResult& result);
 
 /// Finds candidates and overlaps step by step. Keeps a reference to the bodies, which are at the start when it is made.
 class Detection {
@@ -42,7 +57,7 @@ public:
 
     /// Where the bodies are now. The candidate list is rebuilt where it is not valid for the motion since.
     [[nodiscard]] const StepResult& find(int step);
-    /// Fills `distances` of what `find` has given last.
+    /// Fills `distances` and `nearest` of what `find` has given last.
     void measure_distances();
 
     [[nodiscard]] std::span<const geometry::IndexPair> candidates() const { return search_.candidates(); }
@@ -50,6 +65,7 @@ public:
     [[nodiscard]] const contact::CandidateReport& report() const { return search_.report(); }
     [[nodiscard]] double seconds_search() const { return seconds_search_; }
     [[nodiscard]] double seconds_narrow() const { return seconds_narrow_; }
+    [[nodiscard]] double seconds_nearest() const { return seconds_nearest_; }
 
 private:
     void search();
@@ -70,6 +86,7 @@ private:
     StepResult result_;
     double seconds_search_ = 0.0;
     double seconds_narrow_ = 0.0;
+    double seconds_nearest_ = 0.0;
 };
 
 }  // namespace abut::apps

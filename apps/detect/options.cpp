@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "abut/contact/option_table.hpp"
+#include "apps/detect/placing.hpp"
 #include "apps/detect/shapes.hpp"
 #include "apps/support/command_line.hpp"
 #include "apps/support/contact_choices.hpp"
@@ -136,7 +137,7 @@ const Program detect_program{
     .name = "abut detect",
     .purpose = "Contact detection on complex meshes: says what it found.",
     .footer =
-        shapes_help() +
+        placing_help() + shapes_help() +
         "Example, interlocked tori 0.1 apart: abut detect torus:n=4000 torus:n=4000,x=1,axis=1,tube=0.6 --distance 0.12\n"
         "Ctrl-C ends a run after its present step; its files are complete until there."};
 

@@ -142,7 +142,8 @@ std::vector<double> problems_of(const Bodies& bodies) {
 
 run::FolderLock prepare_output(const fs::path& out) {
     run::FolderLock lock(out, detect_program.name);
-    std::vector<std::string> names{"summary.json", "candidates.csv", "overlaps.csv", "steps.csv"};
+    std::vector<std::string> names{"summary.json", "candidates.csv", "overlaps.csv",
+                                   "contacts.csv", "nearest.csv",    "steps.csv"};
     for (const auto& entry : fs::directory_iterator(out))
         if (is_picture(entry.path().filename().string())) names.push_back(entry.path().filename().string());
     run::claim_results(out, names);
@@ -155,20 +156,30 @@ Output::Output(const Bodies& bodies, const fs::path& out, int every)
       every_(every),
       steps_(out / "steps.csv"),
       candidates_(out / "candidates.csv"),
-      overlaps_(out / "overlaps.csv") {}
+      overlaps_(out / "overlaps.csv"),
+      contacts_(out / "contacts.csv"),
+      nearest_(out / "nearest.csv") {
+    for (std::size_t body = 0; body < bodies.names.size(); ++body) {
+        names_.push_back(run::in_csv(bodies.names[body]));
+        numbers_.push_back({"body: " + bodies.names[body], static_cast<std::int32_t>(body)});
+    }
+}
 
 void Output::open() {
-    for (run::PartialFile* file : {&steps_, &candidates_, &overlaps_}) file->open();
-    steps_.write("step,searched,box_pairs,candidates,overlaps,area,gap_min,gap_max\n");
+    for (run::PartialFile* file : files()) file->open();
+    steps_.write("step,searched,box_pairs,candidates,overlaps,area [m^2],gap_min [m],gap_max [m]\n");
     candidates_.write("step,body_1,face_1,body_2,face_2\n");
-    overlaps_.write("step,body_1,face_1,body_2,face_2,area,gap,nx,ny,nz,x,y,z,distance\n");
+    overlaps_.write(
+        "step,body_1,face_1,body_2,face_2,area [m^2],gap [m],nx [-],ny [-],nz [-],x [m],y [m],z [m],distance [m]\n");
+    contacts_.write("step,body_1,body_2,overlaps,area [m^2],gap_min [m],distance_min [m]\n");
+    nearest_.write("step,body_1,face_1,body_2,face_2,distance [m],x_1 [m],y_1 [m],z_1 [m],x_2 [m],y_2 [m],z_2 [m]\n");
 }
 
 void Output::add(const StepResult& result, std::span<const geometry::IndexPair> candidates, bool last) {
     if (!steps_.is_open()) open();
     add_row(result);
     if (last || writes_pairs(result.step)) add_pairs(result, candidates);
-    for (run::PartialFile* file : {&steps_, &candidates_, &overlaps_}) file->flush();
+    for (run::PartialFile* file : files()) file->flush();
 }
 
 void Output::add_row(const StepResult& result) {
@@ -183,6 +194,8 @@ void Output::add_pairs(const StepResult& result, std::span<const geometry::Index
     const Patches patches = patches_of(bodies_, result.overlaps);
     add_candidates(result.step, candidates);
     add_overlaps(result, patches);
+    add_contacts(result);
+    add_nearest(result);
     write_overlaps(result, patches);
     write_surface(result);
 }
@@ -211,6 +224,23 @@ void Output::add_overlaps(const StepResult& result, const Patches& patches) {
     overlaps_.write({rows.data(), rows.size()});
 }
 
+void Output::add_contacts(const StepResult& result) {
+    for (const auto& [pair, contact] : contacts_of(bodies_, result))
+        contacts_.write(fmt::format("{},{},{},{},{:.17g},{:.17g},{:.17g}\n", result.step, names_[at(pair.first)],
+                                    names_[at(pair.second)], contact.overlaps, contact.area, contact.gap_min,
+                                    contact.distance_min));
+}
+
+void Output::add_nearest(const StepResult& result) {
+    for (const auto& [body_1, body_2, faces] : result.nearest) {
+        const auto& [x_1, x_2, distance] = faces.points;
+        nearest_.write(fmt::format("{},{},{},{},{},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g}\n", result.step,
+                                   names_[at(body_1)], bodies_.face_label[at(faces.face_1)], names_[at(body_2)],
+                                   bodies_.face_label[at(faces.face_2)], distance, x_1[0], x_1[1], x_1[2], x_2[0], x_2[1],
+                                   x_2[2]));
+    }
+}
+
 fs::path Output::path(const std::string& stem, int step) const {
     return out_ / (every_ > 0 ? fmt::format("{}_{:06}.vtp", stem, step) : stem + ".vtp");
 }
@@ -224,7 +254,7 @@ void Output::write_overlaps(const StepResult& result, const Patches& patches) co
                                                   {"body_1", fields.body_1},          {"face_1", fields.face_1},
                                                   {"body_2", fields.body_2},          {"face_2", fields.face_2}};
     mesh::write_vtp({polygons.vertices, polygons.offsets, polygons.corners}, path("overlaps", result.step),
-                    {.of_faces = of_faces});
+                    {.of_faces = of_faces, .numbers = numbers_});
 }
 
 void Output::write_surface(const StepResult& result) const {
@@ -235,11 +265,11 @@ void Output::write_surface(const StepResult& result) const {
         {"least gap [m]", fields.gap}, {"overlaps", fields.pairs}, {"problems", problems}};
     const auto& surface = bodies_.surface;
     mesh::write_vtp({surface.vertices, surface.face_offsets, surface.face_vertices}, path("surface", result.step),
-                    {.of_faces = of_faces});
+                    {.of_faces = of_faces, .numbers = numbers_});
 }
 
 void Output::finish() {
-    for (run::PartialFile* file : {&candidates_, &overlaps_, &steps_}) file->finish();
+    for (run::PartialFile* file : files()) file->finish();
 }
 
 }  // namespace abut::apps

@@ -5,11 +5,11 @@
 #include <sys/resource.h>
 
 #include <algorithm>
-#include <map>
 #include <nlohmann/json.hpp>
 
 #include "abut/base/index.hpp"
 #include "apps/support/choices.hpp"
+#include "apps/support/standard_streams.hpp"
 
 namespace abut::apps {
 namespace {
@@ -23,30 +23,6 @@ double peak_memory() {
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
     return 1024.0 * static_cast<double>(usage.ru_maxrss) / 1e6;
-}
-
-/// Contact of two bodies.
-struct BodyContact {
-    std::int64_t overlaps = 0;
-    double area = 0.0;
-    double gap_min = 0.0;
-    double distance_min = 0.0;  // of its faces
-};
-using BodyContacts = std::map<std::pair<std::int32_t, std::int32_t>, BodyContact>;
-
-BodyContacts contacts_of(const DetectReport& report) {
-    BodyContacts contacts;
-    const auto& body = report.bodies.surface.body;
-    for (std::size_t i = 0; i < report.last.overlaps.size(); ++i) {
-        const contact::Overlap<3>& overlap = report.last.overlaps[i];
-        const double distance = report.last.distances[i];
-        BodyContact& contact = contacts[std::minmax(body[at(overlap.face_1)], body[at(overlap.face_2)])];
-        contact.distance_min = contact.overlaps == 0 ? distance : std::min(contact.distance_min, distance);
-        contact.gap_min = contact.overlaps == 0 ? overlap.gap : std::min(contact.gap_min, overlap.gap);
-        contact.area += overlap.area;
-        ++contact.overlaps;
-    }
-    return contacts;
 }
 
 Json gap_or_null(const DetectReport& report, double gap) { return report.last.overlaps.empty() ? Json() : Json(gap); }
@@ -96,7 +72,7 @@ Json inputs_json(const Bodies& bodies) {
 
 Json contacts_json(const DetectReport& report) {
     Json contacts = Json::array();
-    for (const auto& [pair, contact] : contacts_of(report))
+    for (const auto& [pair, contact] : contacts_of(report.bodies, report.last))
         contacts.push_back({{"body_1", pair.first},
                             {"body_2", pair.second},
                             {"overlaps", contact.overlaps},
@@ -104,6 +80,20 @@ Json contacts_json(const DetectReport& report) {
                             {"gap_min", contact.gap_min},
                             {"distance_min", contact.distance_min}});
     return contacts;
+}
+
+Json nearest_json(const DetectReport& report) {
+    const auto point = [](const Vector<3>& x) { return Json{x[0], x[1], x[2]}; };
+    Json nearest = Json::array();
+    for (const auto& [body_1, body_2, faces] : report.last.nearest)
+        nearest.push_back({{"body_1", body_1},
+                           {"face_1", report.bodies.face_label[at(faces.face_1)]},
+                           {"point_1", point(faces.points.point_1)},
+                           {"body_2", body_2},
+                           {"face_2", report.bodies.face_label[at(faces.face_2)]},
+                           {"point_2", point(faces.points.point_2)},
+                           {"distance", faces.points.distance}});
+    return nearest;
 }
 
 Json search_json(const DetectReport& report) {
@@ -149,13 +139,10 @@ Json verification_json(const Verification& verification) {
 }
 
 Json seconds_json(const DetectTimes& seconds) {
-    return {{"reading", seconds.input.reading},
-            {"health", seconds.input.health},
-            {"setup", seconds.setup},
-            {"motion", seconds.motion},
-            {"search", seconds.search},
-            {"narrow", seconds.narrow},
-            {"verification", seconds.verification},
+    return {{"reading", seconds.input.reading}, {"health", seconds.input.health},
+            {"setup", seconds.setup},           {"motion", seconds.motion},
+            {"search", seconds.search},         {"narrow", seconds.narrow},
+            {"nearest", seconds.nearest},       {"verification", seconds.verification},
             {"writing", seconds.writing}};
 }
 
@@ -187,7 +174,7 @@ void print_last(const DetectReport& report) {
     print_line("gap, least and largest", fmt::format("{:.9g} to {:.9g} m", last.gap_min, last.gap_max));
     print_line("distance of faces in space, least", fmt::format("{:.6g} m", *std::ranges::min_element(last.distances)));
     std::size_t line = 0;
-    const BodyContacts contacts = contacts_of(report);
+    const BodyContacts contacts = contacts_of(report.bodies, report.last);
     for (const auto& [pair, contact] : contacts) {
         if (++line > most_lines) break;
         print_line(fmt::format("  {} - {}", report.bodies.names[at(pair.first)], report.bodies.names[at(pair.second)]),
@@ -196,6 +183,27 @@ void print_last(const DetectReport& report) {
     }
     if (contacts.size() > most_lines)
         print_line("", fmt::format("and {} more pairs of bodies", contacts.size() - most_lines));
+}
+
+std::string in_words(const Bodies& bodies, std::int32_t body, std::int32_t face, const Vector<3>& x) {
+    return fmt::format("'{}', face {} at ({:.6g}, {:.6g}, {:.6g})", bodies.names[at(body)], bodies.face_label[at(face)],
+                       x[0], x[1], x[2]);
+}
+
+/// Bodies and the nearest to each, the nearest of all first.
+void print_nearest(const DetectReport& report) {
+    std::vector<NearestBodies> nearest = report.last.nearest;
+    std::ranges::stable_sort(nearest, {}, [](const NearestBodies& pair) { return pair.faces.points.distance; });
+    for (std::size_t i = 0; i < std::min(nearest.size(), most_lines); ++i) {
+        const auto& [body_1, body_2, faces] = nearest[i];
+        const auto& [x_1, x_2, distance] = faces.points;
+        print_line(i == 0 ? "nearest bodies" : "",
+                   fmt::format("{:.9g} m: {}, and {}", distance, in_words(report.bodies, body_1, faces.face_1, x_1),
+                               in_words(report.bodies, body_2, faces.face_2, x_2)));
+    }
+    if (nearest.size() > most_lines) print_line("", fmt::format("and {} more pairs of bodies", nearest.size() - most_lines));
+    if (const std::size_t n = report.bodies.names.size(); n > most_nearest_bodies)
+        print_line("nearest bodies", fmt::format("not looked for: {} bodies, at most {}", n, most_nearest_bodies));
 }
 
 void print_verification(const DetectReport& report) {
@@ -214,11 +222,11 @@ void print_costs(const DetectReport& report) {
     const auto& [by_doubles, by_scalar_path, by_exact] = report.decided;
     print_line("decided by doubles, one by one, exactly", fmt::format("{}, {}, {}", by_doubles, by_scalar_path, by_exact));
     const DetectTimes& s = report.seconds;
-    print_line(
-        "time",
-        fmt::format("reading {:.2f} s, health {:.2f}, setup {:.2f}, motion {:.2f}, search {:.3f}, narrow phase "
-                    "{:.3f}, verification {:.2f}, writing {:.2f}",
-                    s.input.reading, s.input.health, s.setup, s.motion, s.search, s.narrow, s.verification, s.writing));
+    print_line("time",
+               fmt::format("reading {:.2f} s, health {:.2f}, setup {:.2f}, motion {:.2f}, search {:.3f}, narrow phase "
+                           "{:.3f}, nearest {:.2f}, verification {:.2f}, writing {:.2f}",
+                           s.input.reading, s.input.health, s.setup, s.motion, s.search, s.narrow, s.nearest, s.verification,
+                           s.writing));
     print_line("memory at most", fmt::format("{:.1f} MB", peak_memory()));
 }
 
@@ -234,6 +242,7 @@ Json summary(const DetectReport& report, const DetectOptions& options) {
     json["last_step"] = last_json(report);
     json["overlaps_max"] = report.overlaps_max;
     json["contacts"] = contacts_json(report);
+    json["nearest"] = nearest_json(report);
     json["decided"] = {{"by_doubles", report.decided.by_doubles},
                        {"by_scalar_path", report.decided.by_scalar_path},
                        {"by_exact_arithmetic", report.decided.by_exact_arithmetic}};
@@ -255,6 +264,7 @@ void print(const DetectReport& report, const DetectOptions& options) {
     print_line("gaps kept", fmt::format("above {:.6g} m, up to {:.6g} m", -report.near.depth, report.near.distance));
     print_search(report);
     print_last(report);
+    print_nearest(report);
     print_verification(report);
     print_costs(report);
     if (!options.no_files) print_line("files in", options.out.string());

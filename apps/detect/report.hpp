@@ -9,7 +9,7 @@ namespace abut::apps {
 /// Times of the parts of a run [s].
 struct DetectTimes {
     ReadingTimes input;
-    double setup = 0.0, motion = 0.0, search = 0.0, narrow = 0.0, verification = 0.0, writing = 0.0;
+    double setup = 0.0, motion = 0.0, search = 0.0, narrow = 0.0, nearest = 0.0, verification = 0.0, writing = 0.0;
 };
 
 /// Everything that a run has to say.

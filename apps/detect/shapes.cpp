@@ -6,13 +6,11 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <map>
 #include <variant>
 #include <vector>
 
-#include "abut/base/error.hpp"
 #include "abut/mesh/shapes/surface_shapes.hpp"
-#include "apps/support/command_line.hpp"
+#include "apps/detect/placing.hpp"
 
 namespace abut::apps {
 namespace {
@@ -21,71 +19,12 @@ using mesh::SurfaceMesh;
 
 constexpr double most_count = 1e8;
 
-/// "shape:key=value,key=value". What is read keeps its value where its key is not given.
-class Keys {
-public:
-    explicit Keys(std::string text) : text_(std::move(text)) {
-        const auto colon = text_.find(':');
-        if (colon == std::string::npos) return;
-        std::size_t begin = colon + 1;
-        while (begin <= text_.size()) {
-            const std::size_t end = std::min(text_.find(',', begin), text_.size());
-            add(text_.substr(begin, end - begin));
-            begin = end + 1;
-        }
-    }
-
-    void read(const std::string& key, std::string& value) const {
-        if (const auto entry = values_.find(key); entry != values_.end()) value = entry->second;
-    }
-    void read(const std::string& key, double& value) const { read(key, value, {}); }
-    void read(const std::string& key, int& value) const {
-        double number = value;
-        read(key, number, {.above = -1.0, .below = most_count});
-        if (number != std::floor(number)) refuse(fmt::format("'{}={}' is no whole number", key, values_.at(key)));
-        value = static_cast<int>(number);
-    }
-    void read(const std::string& key, bool& value) const {
-        int number = value ? 1 : 0;
-        read(key, number);
-        value = number != 0;
-    }
-    void read(const std::string& key, std::uint64_t& value) const {
-        int number = static_cast<int>(value);
-        read(key, number);
-        value = static_cast<std::uint64_t>(number);
-    }
-    /// About how many faces are asked for; 0: not said.
-    [[nodiscard]] double faces() const {
-        double n = 0.0;
-        read("n", n, {.above = 0.0, .below = most_count});
-        return n;
-    }
-    void check_known(const std::vector<std::string>& known) const {
-        for (const auto& [key, value] : values_)
-            if (std::ranges::find(known, key) == known.end())
-                refuse(fmt::format("'{}' is no key of this shape; it knows {}", key, fmt::join(known, ", ")));
-    }
-
-private:
-    [[noreturn]] void refuse(const std::string& what) const {
-        throw BadInput(fmt::format("{}: {}. (--help lists shapes and keys.)", text_, what));
-    }
-    void read(const std::string& key, double& value, const Limits& limits) const {
-        if (const auto entry = values_.find(key); entry != values_.end())
-            value = parse_number(entry->second, fmt::format("{}: {}", text_, key), limits);
-    }
-    void add(const std::string& entry) {
-        const auto equals = entry.find('=');
-        if (equals == std::string::npos || equals == 0 || equals + 1 == entry.size())
-            refuse(fmt::format("'{}' is no key=value", entry));
-        if (!values_.emplace(entry.substr(0, equals), entry.substr(equals + 1)).second)
-            refuse(fmt::format("'{}' is given twice", entry.substr(0, equals)));
-    }
-
-    std::string text_;
-    std::map<std::string, std::string> values_;
-};
+/// About how many faces are asked for; 0: not said.
+double faces_wanted(const Keys& keys) {
+    double n = 0.0;
+    keys.read("n", n, {.above = 0.0, .below = most_count});
+    return n;
+}
 
 /// A key and the argument of the library that it sets.
 template <class Options>
@@ -114,7 +53,7 @@ Shape shape(const char* name, SurfaceMesh (*make)(const Options&), void (*choose
                         std::visit([&](auto member) { keys.read(argument.key, options.*member); }, argument.member);
                 };
                 read_all();
-                if (const double n = keys.faces(); n > 0.0) {
+                if (const double n = faces_wanted(keys); n > 0.0) {
                     choose(options, n);
                     read_all();
                 }
@@ -191,16 +130,8 @@ const std::vector<Shape>& shapes() {
     return table;
 }
 
-std::vector<std::string> common_keys() { return {"n", "x", "y", "z", "flip", "name"}; }
-
 auto find_shape(const std::string& text) {
     return std::ranges::find(shapes(), text.substr(0, text.find(':')), &Shape::name);
-}
-
-void flip(SurfaceMesh& surface) {
-    for (std::int32_t face = 0; face < surface.faces.size(); ++face)
-        std::reverse(surface.faces.values.begin() + surface.faces.offsets[static_cast<std::size_t>(face)],
-                     surface.faces.values.begin() + surface.faces.offsets[static_cast<std::size_t>(face) + 1]);
 }
 
 }  // namespace
@@ -209,29 +140,20 @@ bool is_shape(const std::string& text) { return find_shape(text) != shapes().end
 
 SurfaceMesh make_shape(const std::string& text) {
     const Shape& shape = *find_shape(text);
-    const Keys keys(text);
-    std::vector<std::string> known = common_keys();
+    const Keys keys(text, text.find(':'));
+    std::vector<std::string> known = placing_keys();
+    known.emplace_back("n");
     known.insert(known.end(), shape.keys.begin(), shape.keys.end());
     keys.check_known(known);
-    Vector<3> moved = Vector<3>::Zero();
-    bool is_flipped = false;
-    std::string name = shape.name;
-    keys.read("x", moved[0]);
-    keys.read("y", moved[1]);
-    keys.read("z", moved[2]);
-    keys.read("flip", is_flipped);
-    keys.read("name", name);
     SurfaceMesh surface = shape.make(keys);
-    for (Vector<3>& x : surface.vertices) x += moved;
-    if (is_flipped) flip(surface);
-    surface.name = name;
-    surface.body_names = {name};
+    surface.name = shape.name;
+    surface.body_names = {shape.name};
+    place(surface, keys);
     return surface;
 }
 
 std::string shapes_help() {
-    std::string text = fmt::format("Shapes: all know {} (about n faces; flip=1 turns faces round); besides\n",
-                                   fmt::join(common_keys(), ", "));
+    std::string text = "Shapes: all know n, about how many faces; besides\n";
     for (const Shape& shape : shapes()) text += fmt::format("  {:<8}{}\n", shape.name, fmt::join(shape.keys, ", "));
     return text;
 }

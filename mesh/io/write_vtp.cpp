@@ -31,6 +31,7 @@ void write_vtp(const geometry::FaceSoup& faces, const std::filesystem::path& pat
     OutputGrid grid = grid_of(faces);
     add_fields<3>(grid.cell_data, fields.of_faces, grid.n_cells, "faces", "write_vtp");
     add_fields<3>(grid.point_data, fields.of_vertices, grid.n_points, "vertices", "write_vtp");
+    for (const NamedNumber& number : fields.numbers) grid.field_data += field_number(number.name, number.value);
     prepared_grid(grid, path).move_into_place();
 }
 

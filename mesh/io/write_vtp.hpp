@@ -11,6 +11,7 @@ namespace abut::mesh {
 struct SurfaceFields {
     std::span<const Field<3>> of_faces{};     ///< each with a value for every face
     std::span<const Field<3>> of_vertices{};  ///< each with a value for every vertex
+    std::span<const NamedNumber> numbers{};
 };
 
 /// Faces as polygons in one .vtp file for ParaView, binary and compressed, in the order given; vertices that no face names

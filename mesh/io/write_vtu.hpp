@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <span>
@@ -18,6 +19,12 @@ template <int Dim>
 struct Field {
     std::string name;  ///< as ParaView will show it; put the unit in, for example "contact pressure [Pa]"
     FieldValues<Dim> values;
+};
+
+/// A number that a file has as a whole, such as that of a body in an array.
+struct NamedNumber {
+    std::string name;
+    std::int32_t value;
 };
 
 /// What one moment of a run shows.

@@ -122,7 +122,8 @@ std::vector<std::string> files_in(const fs::path& directory) {
 }
 
 std::vector<double> Table::column(const std::string& name) const {
-    const auto place = std::ranges::find(columns, name) - columns.begin();
+    const auto is_it = [&](const std::string& column) { return column == name || column.starts_with(name + " ["); };
+    const auto place = std::ranges::find_if(columns, is_it) - columns.begin();
     std::vector<double> values;
     for (const auto& row : rows) values.push_back(row.at(static_cast<std::size_t>(place)));
     return values;

@@ -73,7 +73,7 @@ int check_targets(const Outcome& outcome);
 struct Table {
     std::vector<std::string> columns;
     std::vector<std::vector<double>> rows;
-    [[nodiscard]] std::vector<double> column(const std::string& name) const;
+    [[nodiscard]] std::vector<double> column(const std::string& name) const;  ///< the name without its unit
 };
 [[nodiscard]] Table read_table(const Outcome& outcome, const std::string& file);
 [[nodiscard]] Table read_energies(const Outcome& outcome);  ///< energy.csv

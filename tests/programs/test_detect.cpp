@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <fstream>
 #include <numbers>
 #include <string>
@@ -70,6 +71,44 @@ TEST_CASE("detect: two squares shifted by 0.25 share 0.75 of their area at their
         CHECK((table.column("x")[i] > 0.25 && table.column("x")[i] < 1.0));
     }
     CHECK(read_summary(outcome)["verification"]["required"] == last["overlaps"]);
+}
+
+TEST_CASE("detect: a file is scaled, turned and moved by keys behind its name, and is called as told",
+          "[programs][detect]") {
+    const Folder folder("placed");
+    write_square(folder.path() / "a:b=c.obj", 0.0, 0.0, 0.0, true);
+    std::ofstream(folder.path() / "mm.obj") << "v 0 0 0\nv 500 0 0\nv 500 500 0\nv 0 500 0\nf 1 2 3\nf 1 3 4\n";
+    const auto outcome =
+        detect(fmt::format("'{0}/a:b=c.obj' '{0}/mm.obj:unit=mm,scale=2,rx=180,x=0.25,y=1,z=0.05,name=upper' "
+                           "--distance 0.1 --verify",
+                           folder.path().string()),
+               "placed_results");
+    CHECK(read_summary(outcome)["bodies"] == std::vector<std::string>{"a:b=c", "upper"});
+    CHECK(last_step(outcome)["area"].get<double>() == Approx(0.75).epsilon(1e-14));
+    CHECK(last_step(outcome)["gap_min"].get<double>() == Approx(0.05).epsilon(1e-13));
+    const std::string contacts = read_text(outcome.directory / "contacts.csv");
+    CHECK_THAT(contacts, Contains("area [m^2],gap_min [m]") && Contains("0,a:b=c,upper,4,0.75,"));
+    CHECK_THAT(read_text(outcome.directory / "overlaps.vtp"), Contains("Name=\"body: upper\""));
+}
+
+TEST_CASE("detect: the nearest faces of two bodies are named with their points and exact distance, beyond --distance, too",
+          "[programs][detect]") {
+    const Folder folder("tilted");
+    write_square(folder.path() / "flat.obj", 0.0, 0.0, 0.0, true);
+    // the second stands on its edge from (1, 0, 0) to (1, 1, 0), turned by 45 degrees about y: 0.8 - sqrt(1/2) above the first
+    const auto outcome = detect(fmt::format("'{0}/flat.obj' '{0}/flat.obj:ry=45,x=0.2,z=0.8,name=tilted' sphere:z=9 "
+                                            "--distance 0.01",
+                                            folder.path().string()),
+                                "tilted_results");
+    const auto nearest = read_summary(outcome)["nearest"];
+    REQUIRE(nearest.size() == 2);  // the sphere's nearest is the tilted square
+    CHECK(nearest[0]["distance"].get<double>() == Approx(0.8 - std::sqrt(0.5)).epsilon(1e-14));
+    CHECK(nearest[0]["point_1"][2] == 0.0);
+    CHECK(nearest[0]["point_2"][0].get<double>() == Approx(0.2 + std::sqrt(0.5)).epsilon(1e-14));
+    CHECK((nearest[1]["body_1"] == 1 && nearest[1]["body_2"] == 2));
+    CHECK_THAT(outcome.out, Contains("nearest bodies") && Contains("0.0928932188 m: 'flat', face 0 at (0.907107, "));
+    CHECK_THAT(read_text(outcome.directory / "nearest.csv"),
+               Contains("step,body_1,face_1,body_2,face_2,distance [m],x_1 [m]") && Contains("0,flat,0,tilted,"));
 }
 
 TEST_CASE("detect: squares beyond --distance or as deep as --depth are counted, not kept", "[programs][detect]") {

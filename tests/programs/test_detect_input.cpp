@@ -149,6 +149,10 @@ TEST_CASE("detect: bad input ends with one message that names place, value, limi
         {"torus:tube=2", {"torus", "2", "radius"}},
         {"torus:colour=1", {"'colour' is no key", "tube", "--help"}},
         {"torus:n", {"'n' is no key=value"}},
+        {"torus:unit=yard", {"'yard' is no unit of length", "mm, um, in, ft"}},
+        {"torus:scale=0", {"torus:scale=0: scale", "above 0"}},
+        {"nowhere.obj:n=9", {"'n' is no key", "unit, scale, rx"}},
+        {"nowhere.obj:x=1", {"nowhere.obj: ", "no such file"}},
         {"torus:n=9,n=9", {"'n' is given twice"}},
         {two + "--translate nobody:1,0,0", {"--translate nobody:1,0,0", "no body 'nobody'", "lower, upper"}},
         {two + "--translate 1:1,0", {"--translate 1:1,0", "2 numbers", "3 are needed"}},
@@ -183,16 +187,16 @@ TEST_CASE("detect: bad input ends with one message that names place, value, limi
 
 TEST_CASE("detect: files of an earlier run are gone, others stay, and --no-files writes none", "[programs][detect]") {
     const auto outcome = detect("torus torus:x=2.6 --translate 1:-0.1,0,0 --steps 2 --write-every 1", "written_twice");
-    CHECK(files_in(outcome.directory) == std::vector<std::string>{"candidates.csv", "overlaps.csv", "overlaps_000000.vtp",
-                                                                  "overlaps_000001.vtp", "overlaps_000002.vtp", "steps.csv",
-                                                                  "summary.json", "surface_000000.vtp", "surface_000001.vtp",
-                                                                  "surface_000002.vtp"});
+    CHECK(files_in(outcome.directory) ==
+          std::vector<std::string>{"candidates.csv", "contacts.csv", "nearest.csv", "overlaps.csv", "overlaps_000000.vtp",
+                                   "overlaps_000001.vtp", "overlaps_000002.vtp", "steps.csv", "summary.json",
+                                   "surface_000000.vtp", "surface_000001.vtp", "surface_000002.vtp"});
     std::ofstream(outcome.directory / "surface_mine.vtp") << "mine\n";
     const std::string out = fmt::format("--out '{}'", outcome.directory.string());
     REQUIRE(run_program("abut", "detect torus " + out, "").exit_code == 0);
-    CHECK(files_in(outcome.directory) == std::vector<std::string>{"candidates.csv", "overlaps.csv", "overlaps.vtp",
-                                                                  "steps.csv", "summary.json", "surface.vtp",
-                                                                  "surface_mine.vtp"});
+    CHECK(files_in(outcome.directory) == std::vector<std::string>{"candidates.csv", "contacts.csv", "nearest.csv",
+                                                                  "overlaps.csv", "overlaps.vtp", "steps.csv",
+                                                                  "summary.json", "surface.vtp", "surface_mine.vtp"});
     const auto none = detect("torus --no-files", "no_files");
     CHECK(files_in(none.directory).empty());
 }

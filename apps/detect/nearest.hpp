@@ -1,0 +1,24 @@
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "abut/geometry/face_tree.hpp"
+#include "apps/detect/bodies.hpp"
+
+namespace abut::apps {
+
+/// Two bodies, and their nearest faces among all.
+struct NearestBodies {
+    std::int32_t body_1, body_2;
+    geometry::NearestFaces faces;
+};
+
+/// More bodies than this are too many to look for the nearest of each.
+inline constexpr std::size_t most_nearest_bodies = 2000;
+
+/// Every body with the one that is nearest to it, each pair once, body_1 < body_2, sorted: the least distance of all is among
+/// them. Of surfaces alone: a body inside of another one is as far away as its surface. Empty for more than
+/// `most_nearest_bodies`.
+[[nodiscard]] std::vector<NearestBodies> nearest_bodies(const Bodies& bodies);
+
+}  // namespace abut::apps
