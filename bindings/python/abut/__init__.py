@@ -6,3 +6,4 @@ from ._contact import *  # noqa: F403
 from ._contact import __version__  # noqa: F401
 from ._results import Frames, Result  # noqa: F401
 from ._scenes import memm, run  # noqa: F401
+from .detection import CollisionManager, detect  # noqa: F401

@@ -5,6 +5,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import solid as solid
+from .detection import CollisionManager as CollisionManager
+from .detection import detect as detect
 from .solid import Memm2D, Memm3D, Mesh2D, Mesh3D, State2D, State3D
 
 __version__: str

@@ -1,0 +1,261 @@
+"""Detection between surfaces in space: what is near, where, and how much area is shared.
+
+Meshes are anything with `vertices` and `faces` (trimesh has), meshes of meshio (of cells with a volume the boundary is taken), or
+a tuple (vertices, faces). Lengths are in metres, areas in square metres. A transform is a matrix (4, 4), as trimesh's: points go
+to `T[:3, :3] @ x + T[:3, 3]`; None leaves them where they are.
+
+>>> import numpy, abut
+>>> square = numpy.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], dtype=float)
+>>> lower, upper = (square, [[0, 1, 2, 3]]), (square, [[3, 2, 1, 0]])
+>>> up = numpy.eye(4)
+>>> up[:3, 3] = 0.25, 0.0, 0.05
+>>> found = abut.detect([lower, upper], [None, up], distance=0.1)
+>>> round(found.contacts[0].area, 12), round(found.contacts[0].gap, 12)
+(0.75, 0.05)
+
+Meshes in motion are objects of a manager, as in trimesh:
+
+>>> manager = abut.CollisionManager()
+>>> manager.add_object("lower", lower)
+>>> manager.add_object("upper", upper)
+>>> for z in (0.2, 0.1, 0.0):
+...     up[2, 3] = z
+...     manager.set_transform("upper", up)
+...     print(round(manager.min_distance_internal(), 12), manager.in_collision_internal())
+0.2 False
+0.1 False
+0.0 True
+"""
+import collections
+import itertools
+
+import numpy
+
+from ._contact import find_overlaps
+from ._nearest import nearest as _nearest
+
+__all__ = ["CollisionManager", "Contact", "Detected", "Nearest", "detect"]
+
+Nearest = collections.namedtuple("Nearest", "distance names faces points")
+Nearest.__doc__ = "Where two meshes are nearest: distance [m], their names, a face of each and a point [m] of each; 0: they touch."
+Contact = collections.namedtuple("Contact", "names area gap overlaps")
+Contact.__doc__ = """Two meshes that look at each other within a distance: names, area [m^2] and least gap [m] of all pairs of
+faces, and these as a structured array: face_1 and face_2 (of the meshes), area, normal (from the first into the second), gap, and
+distance in space. A face with four corners appears by halves."""
+Detected = collections.namedtuple("Detected", "distance nearest contacts")
+Detected.__doc__ = "What `detect` finds: the distance [m] within which contacts are, the two nearest meshes, and contacts."
+
+# The faces of cells with a volume, in the order of meshio, which is VTK's.
+_FACES_OF_CELLS = {
+    "tetra": [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]],
+    "hexahedron": [[0, 3, 2, 1], [4, 5, 6, 7], [0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [3, 0, 4, 7]],
+    "wedge": [[0, 1, 2], [3, 5, 4], [0, 3, 4, 1], [1, 4, 5, 2], [2, 5, 3, 0]],
+    "pyramid": [[0, 3, 2, 1], [0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4]],
+}
+
+
+def _boundary(points, blocks):
+    """The faces of cells with a volume that belong to one of them alone, counter-clockwise seen from outside."""
+    seen = {}
+    for kind, cells in blocks:
+        cells = numpy.asarray(cells)
+        middle = points[cells].mean(axis=1)
+        for corners in _FACES_OF_CELLS[kind]:
+            faces = cells[:, corners]
+            x = points[faces]
+            outward = numpy.einsum("ij,ij->i", numpy.cross(x[:, 1] - x[:, 0], x[:, 2] - x[:, 0]), x.mean(axis=1) - middle)
+            faces[outward < 0.0] = faces[outward < 0.0][:, ::-1]
+            for face in faces.tolist():
+                key = tuple(sorted(face))
+                seen[key] = None if key in seen else face
+    return [face for face in seen.values() if face is not None]
+
+
+class _Surface:
+    """Vertices (n, 3), and faces by offsets and corners."""
+
+    def __init__(self, mesh):
+        if isinstance(mesh, tuple):
+            vertices, faces = mesh
+        elif hasattr(mesh, "points") and hasattr(mesh, "cells"):
+            vertices, faces = mesh.points, self.faces_of_meshio(mesh)
+        elif hasattr(mesh, "vertices") and hasattr(mesh, "faces"):
+            vertices, faces = mesh.vertices, mesh.faces
+        else:
+            raise TypeError(f"a mesh must have vertices and faces, or points and cells (meshio), or be a tuple "
+                            f"(vertices, faces); this is a {type(mesh).__name__}")
+        self.vertices = numpy.array(vertices, dtype=float)
+        if self.vertices.ndim != 2 or self.vertices.shape[1] not in (2, 3):
+            raise ValueError(f"vertices must have the shape (n, 3); this is {self.vertices.shape}")
+        if self.vertices.shape[1] == 2:
+            self.vertices = numpy.hstack([self.vertices, numpy.zeros((len(self.vertices), 1))])
+        sizes = [len(face) for face in faces]
+        if not sizes:
+            raise ValueError("the mesh has no faces")
+        self.offsets = numpy.concatenate([[0], numpy.cumsum(sizes)]).astype(numpy.int32)
+        self.corners = numpy.fromiter(itertools.chain.from_iterable(faces), numpy.int32, self.offsets[-1])
+        outside = (self.corners < 0) | (self.corners >= len(self.vertices))
+        if outside.any():
+            raise ValueError(f"a face names vertex {self.corners[outside][0]}, but there are {len(self.vertices)}")
+
+    @staticmethod
+    def faces_of_meshio(mesh):
+        volume = [(block.type, block.data) for block in mesh.cells if block.type in _FACES_OF_CELLS]
+        if volume:
+            return _boundary(numpy.asarray(mesh.points, dtype=float), volume)
+        return [face for block in mesh.cells if block.type in ("triangle", "quad", "polygon") for face in block.data.tolist()]
+
+    def mean_face_size(self):
+        x = self.vertices[self.corners]
+        sizes = []
+        for begin, end in zip(self.offsets[:-1], self.offsets[1:]):
+            corners = x[begin:end]
+            normal = 0.5 * numpy.cross(corners[1:-1] - corners[0], corners[2:] - corners[0]).sum(axis=0)
+            sizes.append(numpy.sqrt(numpy.linalg.norm(normal)))
+        return sum(sizes) / len(sizes)
+
+
+class CollisionManager:
+    """Named meshes with transforms, as trimesh.collision.CollisionManager: distances are exact up to rounding, and contacts say
+    which faces share how much area at what gap."""
+
+    def __init__(self):
+        self._surfaces, self._placed = {}, {}
+
+    def add_object(self, name, mesh, transform=None):
+        """Adds a mesh, or replaces the one of that name."""
+        self._surfaces[name] = _Surface(mesh)
+        self.set_transform(name, transform)
+
+    def remove_object(self, name):
+        self._require(name)
+        del self._surfaces[name], self._placed[name]
+
+    def set_transform(self, name, transform):
+        """Where a mesh is from now on."""
+        self._require(name)
+        rest = self._surfaces[name].vertices
+        if transform is None:
+            self._placed[name] = rest
+            return
+        matrix = numpy.asarray(transform, dtype=float)
+        if matrix.shape != (4, 4) or not (matrix[3] == [0, 0, 0, 1]).all():
+            raise ValueError(f"the transform of '{name}' must be a matrix (4, 4) whose last row is 0 0 0 1")
+        if numpy.linalg.det(matrix[:3, :3]) <= 0.0:
+            raise ValueError(f"the transform of '{name}' turns the mesh inside out: its determinant must be above 0")
+        self._placed[name] = rest @ matrix[:3, :3].T + matrix[:3, 3]
+
+    def set_vertices(self, name, vertices):
+        """Where the vertices of a mesh that deforms are from now on (n, 3) [m]."""
+        self._require(name)
+        vertices = numpy.array(vertices, dtype=float)
+        if vertices.shape != self._surfaces[name].vertices.shape:
+            raise ValueError(f"'{name}' has vertices of the shape {self._surfaces[name].vertices.shape}, not {vertices.shape}")
+        self._placed[name] = vertices
+
+    @property
+    def names(self):
+        return list(self._surfaces)
+
+    def nearest(self):
+        """The two meshes that are nearest to each other, a `Nearest`; None with fewer than two."""
+        best = None
+        for bound, pair in self._pairs():
+            if best is not None and bound >= best.distance:
+                break
+            found = self._nearest_of(pair)
+            if best is None or found.distance < best.distance:
+                best = found
+        return best
+
+    def all_nearest(self):
+        """A `Nearest` for every pair of meshes, sorted by distance."""
+        return sorted((self._nearest_of(pair) for _, pair in self._pairs()), key=lambda one: one.distance)
+
+    def min_distance_internal(self, return_names=False, return_data=False):
+        """The least distance of two meshes [m]; as trimesh does, with a tuple of their names and the `Nearest` where asked for.
+        A mesh inside of another one is as far away as the surface around it."""
+        best = self.nearest()
+        if best is None:
+            raise ValueError("a distance needs two objects; add_object adds them")
+        extra = ([best.names] if return_names else []) + ([best] if return_data else [])
+        return (best.distance, *extra) if extra else best.distance
+
+    def in_collision_internal(self, return_names=False, return_data=False):
+        """Whether surfaces of two meshes touch or cross; as trimesh does, with the set of pairs of names and a list of `Nearest`
+        where asked for. A mesh inside of another one whose surfaces are apart does not collide."""
+        touching = [found for found in (self._nearest_of(pair) for bound, pair in self._pairs() if bound == 0.0)
+                    if found.distance == 0.0]
+        extra = ([{found.names for found in touching}] if return_names else []) + ([touching] if return_data else [])
+        return (bool(touching), *extra) if extra else bool(touching)
+
+    def contacts(self, distance=None):
+        """Every two meshes with faces that look at each other, share an area and have a gap of at most `distance` [m], apart
+        or pressed in; by default half the mean size of a face, sqrt(area). A list of `Contact`."""
+        names = self.names
+        if not names:
+            return []
+        if distance is None:
+            distance = self._default_distance()
+        surfaces = [self._surfaces[name] for name in names]
+        first_face = numpy.concatenate([[0], numpy.cumsum([len(one.offsets) - 1 for one in surfaces])])
+        first_node = numpy.concatenate([[0], numpy.cumsum([len(one.vertices) for one in surfaces])])
+        first_corner = numpy.concatenate([[0], numpy.cumsum([len(one.corners) for one in surfaces])])
+        corners = numpy.concatenate([one.corners + first for one, first in zip(surfaces, first_node)])
+        offsets = numpy.concatenate([one.offsets[:-1] + first for one, first in zip(surfaces, first_corner)] + [first_corner[-1:]])
+        body = numpy.repeat(numpy.arange(len(names)), numpy.diff(first_face))
+        overlaps = find_overlaps(numpy.concatenate([self._placed[name] for name in names]), corners, body, distance, offsets=offsets)
+        bodies = numpy.stack([body[overlaps["face_1"]], body[overlaps["face_2"]]], axis=1)
+        contacts = []
+        for i, k in numpy.unique(numpy.sort(bodies, axis=1), axis=0):
+            ours = overlaps[(bodies == (i, k)).all(axis=1) | (bodies == (k, i)).all(axis=1)]
+            turned = body[ours["face_1"]] != i  # the first face is that of the first mesh
+            ours["face_1"][turned], ours["face_2"][turned] = ours["face_2"][turned], ours["face_1"][turned]
+            ours["normal"][turned] *= -1.0
+            ours["face_1"] -= first_face[i]
+            ours["face_2"] -= first_face[k]
+            contacts.append(Contact((names[i], names[k]), float(ours["area"].sum()), float(ours["gap"].min()), ours))
+        return contacts
+
+    def _default_distance(self):
+        return 0.5 * sum(one.mean_face_size() for one in self._surfaces.values()) / len(self._surfaces)
+
+    def _require(self, name):
+        if name not in self._surfaces:
+            raise KeyError(f"there is no object '{name}'; there are {', '.join(map(repr, self._surfaces)) or 'none'}")
+
+    def _pairs(self):
+        """Distances of the boxes of all pairs, and their names, the least first."""
+        boxes = {name: (x.min(axis=0), x.max(axis=0)) for name, x in self._placed.items()}
+        pairs = []
+        for one, two in itertools.combinations(boxes, 2):
+            apart = numpy.maximum(boxes[one][0] - boxes[two][1], boxes[two][0] - boxes[one][1])
+            pairs.append((float(numpy.linalg.norm(numpy.maximum(apart, 0.0))), (one, two)))
+        return sorted(pairs, key=lambda pair: pair[0])
+
+    def _nearest_of(self, pair):
+        one, two = (self._surfaces[name] for name in pair)
+        distance, face_1, face_2, point_1, point_2 = _nearest(self._placed[pair[0]], one.offsets, one.corners,
+                                                              self._placed[pair[1]], two.offsets, two.corners)
+        return Nearest(distance, pair, (face_1, face_2), (point_1, point_2))
+
+
+def detect(meshes, transforms=None, distance=None):
+    """What is near between meshes, each a body: a list, or a dict with their names. transforms: one for each, a list or a dict,
+    None: where they are. distance [m]: gaps up to here are contacts, by default half the mean size of a face. Returns a
+    `Detected`."""
+    named = dict(meshes) if isinstance(meshes, dict) else {f"mesh_{i}": mesh for i, mesh in enumerate(meshes)}
+    if transforms is None:
+        transforms = {}
+    elif not isinstance(transforms, dict):
+        if len(transforms) != len(named):
+            raise ValueError(f"{len(transforms)} transforms for {len(named)} meshes: give one each, None where there is none")
+        transforms = dict(zip(named, transforms))
+    manager = CollisionManager()
+    for name, mesh in named.items():
+        manager.add_object(name, mesh, transforms.get(name))
+    for name in transforms:
+        manager._require(name)
+    if distance is None:
+        distance = manager._default_distance()
+    return Detected(distance, manager.nearest(), manager.contacts(distance))
