@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "abut/run/column_units.hpp"
 #include "abut/run/scene.hpp"
 
 namespace abut::run {
@@ -17,7 +18,7 @@ EnergyFile<Dim>::EnergyFile(std::filesystem::path path) : file_(std::move(path))
 template <int Dim>
 void EnergyFile<Dim>::begin(const Scene<Dim>&, const RunResult<Dim>&) {
     file_.open();
-    file_.write(fmt::format("{}\n", fmt::join(dynamics::ledger_columns<Dim>(), ",")));
+    file_.write(fmt::format("{}\n", fmt::join(with_units<Dim>(dynamics::ledger_columns<Dim>()), ",")));
 }
 
 template <int Dim>

@@ -47,7 +47,7 @@ void write_table(const std::filesystem::path& path, const mesh::Mesh<Dim>& mesh,
     for (std::size_t c = 0; c < order.size(); ++c) order[c] = c;
     const auto rank = [&](std::size_t c) { return std::isnan(speed[c]) ? HUGE_VAL : speed[c]; };
     std::ranges::stable_sort(order, {}, rank);
-    std::string text = Dim == 2 ? "body,cell,x,y,speed\n" : "body,cell,x,y,z,speed\n";
+    std::string text = Dim == 2 ? "body,cell,x [m],y [m],speed [m/s]\n" : "body,cell,x [m],y [m],z [m],speed [m/s]\n";
     for (const std::size_t c : order) {
         text +=
             fmt::format("{},{}", in_csv(mesh.body_names[static_cast<std::size_t>(mesh.cell_body[c])]), mesh.cell_label[c]);

@@ -1,10 +1,14 @@
 #include "abut/run/force_file.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "abut/run/body_names.hpp"
+#include "abut/run/column_units.hpp"
 #include "abut/run/files.hpp"
 
 namespace abut::run {
@@ -24,9 +28,10 @@ template <int Dim>
 void ForceFile<Dim>::begin(const Scene<Dim>& scene, const RunResult<Dim>& result) {
     look_up(scene, result);
     file_.open();
-    std::string columns = "step,time,body_1,body_2";
-    for (int i = 0; i < Dim; ++i) columns += fmt::format(",force_{}", "xyz"[i]);
-    file_.write(columns + ",normal_force\n");
+    std::vector<std::string> columns{"step", "time", "body_1", "body_2"};
+    for (int i = 0; i < Dim; ++i) columns.push_back(fmt::format("force_{}", "xyz"[i]));
+    columns.emplace_back("normal_force");
+    file_.write(fmt::format("{}\n", fmt::join(with_units<Dim>(columns), ",")));
 }
 
 template <int Dim>

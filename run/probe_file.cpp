@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "abut/run/column_units.hpp"
 #include "abut/run/files.hpp"
 #include "abut/run/scene.hpp"
 
@@ -21,7 +22,7 @@ void ProbeFile<Dim>::begin(const Scene<Dim>& scene, const RunResult<Dim>& result
     for (const Probe<Dim>& probe : scene.outputs.probes)
         for (const std::string& column : Probes<Dim>::columns()) columns.push_back(in_csv(probe.name) + "." + column);
     file_.open();
-    file_.write(fmt::format("{}\n", fmt::join(columns, ",")));
+    file_.write(fmt::format("{}\n", fmt::join(with_units<Dim>(columns), ",")));
 }
 
 template <int Dim>

@@ -122,8 +122,7 @@ std::vector<std::string> files_in(const fs::path& directory) {
 }
 
 std::vector<double> Table::column(const std::string& name) const {
-    const auto is_it = [&](const std::string& column) { return column == name || column.starts_with(name + " ["); };
-    const auto place = std::ranges::find_if(columns, is_it) - columns.begin();
+    const auto place = std::ranges::find(columns, name) - columns.begin();
     std::vector<double> values;
     for (const auto& row : rows) values.push_back(row.at(static_cast<std::size_t>(place)));
     return values;
@@ -136,7 +135,7 @@ Table read_table(const Outcome& outcome, const std::string& file) {
     Table table;
     std::string line;
     std::getline(text, line);
-    table.columns = split(line);
+    for (const std::string& column : split(line)) table.columns.push_back(column.substr(0, column.find(" [")));
     while (std::getline(text, line)) {
         table.rows.emplace_back();
         for (const std::string& value : split(line)) table.rows.back().push_back(std::stod(value));

@@ -69,11 +69,11 @@ int check_targets(const Outcome& outcome);
 /// Names of all files in a folder, in order, except the one that makes it a folder of results.
 [[nodiscard]] std::vector<std::string> files_in(const std::filesystem::path& directory);
 
-/// A file of results: names of the columns and all rows.
+/// A file of results: names of the columns, without their units, and all rows.
 struct Table {
     std::vector<std::string> columns;
     std::vector<std::vector<double>> rows;
-    [[nodiscard]] std::vector<double> column(const std::string& name) const;  ///< the name without its unit
+    [[nodiscard]] std::vector<double> column(const std::string& name) const;
 };
 [[nodiscard]] Table read_table(const Outcome& outcome, const std::string& file);
 [[nodiscard]] Table read_energies(const Outcome& outcome);  ///< energy.csv

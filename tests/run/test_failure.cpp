@@ -136,7 +136,7 @@ TEST_CASE("files of a failure can be read back, and go with the next run in that
     }
     const auto table = lines_of(read_text(folder.path() / "failed.csv"));
     REQUIRE(table.size() == 1 + static_cast<std::size_t>(scene.mesh.n_cells()));
-    CHECK(table.front() == "body,cell,x,y,speed");
+    CHECK(table.front() == "body,cell,x [m],y [m],speed [m/s]");
     CHECK(table.back().starts_with("fine,"));  // the fastest one
     CHECK(fs::exists(folder.path() / "blocks_failed.pvd"));
     CHECK(abut::mesh::read_vtu<2>(folder.path() / "blocks_failed_000000.vtu").n_cells() == scene.mesh.n_cells());

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <set>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -25,7 +26,8 @@ struct Csv {
         std::istringstream lines(text);
         std::string line;
         std::getline(lines, line);
-        names = cells(line);
+        head = line;
+        for (const std::string& name : cells(line)) names.push_back(name.substr(0, name.find(" [")));
         while (std::getline(lines, line)) rows.push_back(cells(line));
     }
     static std::vector<std::string> cells(const std::string& line) {
@@ -41,7 +43,8 @@ struct Csv {
     }
     [[nodiscard]] double number(std::size_t row, const std::string& name) const { return std::stod(text(row, name)); }
 
-    std::vector<std::string> names;
+    std::string head;
+    std::vector<std::string> names;  // without units
     std::vector<std::vector<std::string>> rows;
 };
 
@@ -215,6 +218,26 @@ TEST_CASE("a probe sees an affine displacement and its stress exactly", "[run][o
         std::sqrt(0.5 * ((xx - yy) * (xx - yy) + (yy - zz) * (yy - zz) + (zz - xx) * (zz - xx)) + 3 * xy * xy);
     CHECK(probes.number(0, "inside.von_mises") == Approx(mises).epsilon(1e-12));
     CHECK(probes.number(0, "all.displacement_x") == Approx(0.03 * 2.5).epsilon(1e-13));  // at the middle
+}
+
+TEST_CASE("heads of tables give the unit of every column that is no name, number of a step or count", "[run][outputs]") {
+    run::Scene<2> scene = test::block_on_plane(0.05);
+    scene.outputs = {.probes = {{.name = "all"}}, .forces = true, .obstacles = {"floor"}};
+    CHECK(Csv(file_of<2>(scene, {.frames = 0}, "forces.csv")).head ==
+          "step,time [s],body_1,body_2,force_x [N/m],force_y [N/m],normal_force [N/m]");
+    CHECK(Csv(file_of<2>(scene, {.frames = 0}, "probes.csv")).head ==
+          "step,time [s],all.displacement_x [m],all.displacement_y [m],all.velocity_x [m/s],all.velocity_y [m/s],"
+          "all.stress_xx [Pa],all.stress_yy [Pa],all.stress_zz [Pa],all.stress_xy [Pa],all.von_mises [Pa]");
+    const Csv energies(file_of<2>(scene, {.frames = 0}, "energy.csv"));
+    CHECK_THAT(energies.head, Catch::StartsWith("step,time [s],pseudo_energy [J/m],energy [J/m],kinetic [J/m]") &&
+                                  Catch::Contains("linear_momentum_y [kg/s],angular_momentum [kg m/s],parasitic [m/s]"));
+    const std::set<std::string> counts{"step",           "active_pairs",       "events",
+                                       "restarts",       "restarts_shortened", "restarts_skipped",
+                                       "sticking_faces", "sliding_faces"};
+    for (const std::string& column : Csv::cells(energies.head)) {
+        CAPTURE(column);
+        CHECK(column.ends_with("]") != counts.contains(column));
+    }
 }
 
 TEST_CASE("a probe on a body that spins goes round with it", "[run][outputs]") {

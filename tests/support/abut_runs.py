@@ -36,7 +36,7 @@ class Run:
 
 def rows_of(file):
     with open(file, newline="") as lines:
-        return [{key: float(value) for key, value in row.items()} for row in csv.DictReader(lines)]
+        return [{key.split(" [")[0]: float(value) for key, value in row.items()} for row in csv.DictReader(lines)]
 
 
 def require(condition, otherwise):
