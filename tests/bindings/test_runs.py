@@ -19,8 +19,10 @@ STONE = {"young": 100.0, "density": 1.0}
 
 
 def rows_of(path):
+    """Heads without units, and lines of numbers."""
     with open(path, newline="", encoding="utf-8") as file:
-        return list(csv.reader(line for line in file if not line.startswith("#")))
+        head, *rows = csv.reader(line for line in file if not line.startswith("#"))
+    return [[name.partition(" [")[0] for name in head], *rows]
 
 
 def column_of(path, name):

@@ -89,7 +89,7 @@ def _table(columns):
 def _rows_of_file(path):
     with open(path, newline="", encoding="utf-8") as file:
         rows = list(csv.reader(line for line in file if not line.startswith("#")))
-    columns = {name: [row[i] for row in rows[1:]] for i, name in enumerate(rows[0])}
+    columns = {name.partition(" [")[0]: [row[i] for row in rows[1:]] for i, name in enumerate(rows[0])}  # without its unit
     return _table({name: np.array(values, object).astype(_type_of(name)) for name, values in columns.items()})
 
 
