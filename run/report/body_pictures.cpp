@@ -31,7 +31,6 @@ constexpr double points_per_unit = 2.0;
 constexpr double margin_of_bodies = 0.06;          // around the bodies, of their size
 constexpr double strip_thickness = 8.0;            // of an obstacle in 2D [points]
 constexpr double rim_line = 1.2, cell_line = 0.5, marked_line = 3.0;  // half the thickness of lines [points]
-constexpr double shade_of_line = 0.55;
 constexpr double few_cells = 14.0;                 // size of cells from which their edges are drawn [points]
 constexpr Raster::Colour grey{150, 150, 146, 255}, obstacle_grey{128, 128, 124, 200}, faint_grey{128, 128, 124, 70},
     held_orange{217, 89, 31, 255}, loaded_pink{219, 38, 128, 255};
@@ -269,7 +268,7 @@ public:
     explicit EdgeLines(double of_inner) : of_inner_(of_inner) {}
 
     void begin(std::span<const Edge> edges, const Raster::Colour& of_polygon) {
-        const Raster::Colour dark = lit(of_polygon, shade_of_line);
+        const Raster::Colour dark = lit(of_polygon, Raster::shade_of_line);
         width_.clear();
         colour_.clear();
         for (const Edge edge : edges) {

@@ -15,7 +15,6 @@ namespace {
 
 using Corner = Raster::Corner;
 
-constexpr double shade_of_line = 0.55;
 constexpr int compression_level = 6;
 
 /// Twice the area of a triangle, > 0 where c is on the right of the line from a to b as it is seen.
@@ -35,7 +34,7 @@ Span points_between(double low, double high, std::size_t n) {
 }
 
 Raster::Colour darkened(Raster::Colour colour) {
-    for (std::size_t i = 0; i < 3; ++i) colour[i] = static_cast<std::uint8_t>(shade_of_line * colour[i]);
+    for (std::size_t i = 0; i < 3; ++i) colour[i] = static_cast<std::uint8_t>(Raster::shade_of_line * colour[i]);
     return colour;
 }
 

@@ -15,6 +15,9 @@ public:
     using Corner = std::array<double, 3>;        ///< x to the right, y downwards [points]; the greater the third, the nearer
     using Colour = std::array<std::uint8_t, 4>;  ///< red, green, blue, opacity
 
+    /// Light of a line that has no colour of its own, over that of its polygon.
+    static constexpr double shade_of_line = 0.55;
+
     /// Transparent as long as nothing is drawn. Both are > 0.
     Raster(int width, int height);
 
