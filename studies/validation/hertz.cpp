@@ -157,11 +157,17 @@ Study solve(const Options& options) {
 
 run::NamedValues named_values(const Options& options) {
     const HertzOptions& hertz = options.hertz;
-    run::NamedValues values{{"dim", options.dim},     {"support", apps::name_of(supports, hertz.support)},
-                            {"load", hertz.load},     {"radius", hertz.radius},
-                            {"young", hertz.young},   {"poisson", hertz.poisson},
-                            {"faces", options.faces}, {"ratio", hertz.ratio},
-                            {"coarse", hertz.coarse}, {"tolerance", hertz.statics.tolerance}};
+    const auto of_bodies = [](const apps::BodyValues& values) { return std::vector(values.begin(), values.end()); };
+    run::NamedValues values{{"dim", options.dim},
+                            {"support", apps::name_of(supports, hertz.support)},
+                            {"load", hertz.load},
+                            {"radius", hertz.radius},
+                            {"young", of_bodies(hertz.young)},
+                            {"poisson", of_bodies(hertz.poisson)},
+                            {"faces", options.faces},
+                            {"ratio", hertz.ratio},
+                            {"coarse", hertz.coarse},
+                            {"tolerance", hertz.statics.tolerance}};
     apps::append(values, run::model_values(options.run));
     return values;
 }

@@ -13,8 +13,8 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-const std::vector<Vector<3>> cube = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},      {0, 0, 1},
-                                     {1, 0, 1}, {1, 1, 1}, {0, 1, 1}, {0.5, 0.5, 0.5}};
+const std::vector<Vector<3>> unit_cube = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},      {0, 0, 1},
+                                          {1, 0, 1}, {1, 1, 1}, {0, 1, 1}, {0.5, 0.5, 0.5}};
 
 struct Case {
     const char* name;
@@ -38,7 +38,7 @@ contact::CellSurface<3> surface_of(const std::vector<std::vector<std::int32_t>>&
         nodes.insert(nodes.end(), cell.begin(), cell.end());
         offsets.push_back(static_cast<std::int32_t>(nodes.size()));
     }
-    return contact::surface_of<3>(cube, {.nodes = nodes, .offsets = offsets, .body = body});
+    return contact::surface_of<3>(unit_cube, {.nodes = nodes, .offsets = offsets, .body = body});
 }
 
 Vector<3> area_of(const contact::CellSurface<3>& surface, std::size_t face) {
@@ -47,8 +47,8 @@ Vector<3> area_of(const contact::CellSurface<3>& surface, std::size_t face) {
                end = static_cast<std::size_t>(surface.offsets[face + 1]);
     for (std::size_t i = begin; i < end; ++i) {
         const auto next = i + 1 < end ? i + 1 : begin;
-        const Vector<3>& a = cube[static_cast<std::size_t>(surface.nodes[i])];
-        const Vector<3>& b = cube[static_cast<std::size_t>(surface.nodes[next])];
+        const Vector<3>& a = unit_cube[static_cast<std::size_t>(surface.nodes[i])];
+        const Vector<3>& b = unit_cube[static_cast<std::size_t>(surface.nodes[next])];
         twice += Vector<3>(a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]);
     }
     return 0.5 * twice;
@@ -56,7 +56,7 @@ Vector<3> area_of(const contact::CellSurface<3>& surface, std::size_t face) {
 
 }  // namespace
 
-TEST_CASE("the surface of a cube has area 6, closes, and encloses 1, whatever its cells and their sense",
+TEST_CASE("the surface of a unit cube has area 6, closes, and encloses 1, whatever its cells and their sense",
           "[contact][cells]") {
     const Case& given = cubes[static_cast<std::size_t>(GENERATE(0, 1, 2, 3))];
     const bool is_mirrored = GENERATE(false, true);
@@ -77,9 +77,9 @@ TEST_CASE("the surface of a cube has area 6, closes, and encloses 1, whatever it
         const Vector<3> of_face = area_of(surface, face);
         area += of_face.norm();
         sum += of_face;
-        volume +=
-            of_face.dot(cube[static_cast<std::size_t>(surface.nodes[static_cast<std::size_t>(surface.offsets[face])])]) /
-            3.0;
+        volume += of_face.dot(
+                      unit_cube[static_cast<std::size_t>(surface.nodes[static_cast<std::size_t>(surface.offsets[face])])]) /
+                  3.0;
     }
     CHECK(area == Approx(6.0).epsilon(1e-14));
     CHECK(sum.norm() < 1e-14);

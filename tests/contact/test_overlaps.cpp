@@ -333,6 +333,7 @@ TEMPLATE_TEST_CASE_SIG(
     u[0][0] = bad;  // no pair names it
     const auto after = find<Dim>(surface, u, {{1, n}}, method);
     REQUIRE(after.found.size() == before.found.size());
-    CHECK(std::equal(after.found.begin(), after.found.end(), before.found.begin(), same_bits<Dim>));
+    CHECK(std::equal(after.found.begin(), after.found.end(), before.found.begin(),
+                     [](const auto& a, const auto& b) { return same_bits<Dim>(a, b); }));
     CHECK(contact::overlap_polygon<Dim>(surface.view(), u, {1, n}).empty() == before.found.empty());
 }

@@ -1,4 +1,5 @@
 #include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
 
 #include "abut/run/options.hpp"
 #include "studies/table/columns.hpp"
@@ -34,8 +35,8 @@ TEST_CASE("a column has the same place in heads and lines, as wide as it is aske
 TEST_CASE("what is not known is a dash for people, an empty field and null", "[programs][table]") {
     CHECK(line(columns, bodies[1]) == "c            -        -");
     CHECK(csv_text(columns, bodies) == "name,mass,cells,rigid\n\"a,\"\"b\"\"\",0.10000000000000001,7,1\n\"c\",,0,0\n");
-    CHECK(to_json(columns, bodies[0]).dump() == R"({"name":"a,\"b\"","mass":0.1,"cells":7,"rigid":true})");
-    CHECK(to_json(columns, bodies[1])["mass"].is_null());
+    CHECK(to_json(members(columns, bodies[0])).dump() == R"({"name":"a,\"b\"","mass":0.1,"cells":7,"rigid":true})");
+    CHECK(to_json(members(columns, bodies[1]))["mass"].is_null());
 }
 
 TEST_CASE("a quantity is met within what is allowed of its reference, or of 1 where that is 0", "[programs][table]") {
