@@ -20,6 +20,9 @@ void remove_earlier_results(const std::filesystem::path& directory, const std::s
 /// The series of pairs in contact beside that of cells.
 [[nodiscard]] inline std::string pairs_series(const std::string& series) { return series + "_pairs"; }
 
+/// The series of obstacles beside that of cells.
+[[nodiscard]] inline std::string obstacles_series(const std::string& series) { return series + "_obstacles"; }
+
 /// Removes what a run that failed has left of its failure (write_failure). Throws BadInput naming the file.
 void remove_failure(const std::filesystem::path& directory, const std::string& series);
 

@@ -9,6 +9,7 @@
 #include "abut/run/cell_velocity.hpp"
 #include "abut/run/files.hpp"
 #include "abut/run/frame_piece.hpp"
+#include "abut/run/obstacle_frames.hpp"
 #include "abut/run/scene.hpp"
 #include "abut/solid/boundary_face.hpp"
 
@@ -175,6 +176,9 @@ Frames<Dim>::Frames(std::filesystem::path directory, std::string series, int n_f
     : directory_(std::move(directory)), name_(std::move(series)), n_frames_(n_frames), in_pieces_(in_pieces) {}
 
 template <int Dim>
+Frames<Dim>::~Frames() = default;
+
+template <int Dim>
 void Frames<Dim>::begin(const Scene<Dim>& scene, const RunResult<Dim>& result) {
     if (in_pieces_)
         pieces_.emplace(directory_, name_);
@@ -182,6 +186,10 @@ void Frames<Dim>::begin(const Scene<Dim>& scene, const RunResult<Dim>& result) {
         series_.emplace(directory_, name_, scene.mesh);
     fields_ = scene.outputs.fields;
     if (fields_.pairs && scene.contact) pairs_.emplace(directory_, pairs_series(name_));
+    for (std::int32_t body = 0; body < scene.mesh.n_bodies(); ++body)
+        bodies_.push_back({"body: " + scene.mesh.body_names[static_cast<std::size_t>(body)], body});
+    if (!scene.solid.obstacles.empty())
+        obstacles_ = std::make_unique<ObstacleFrames<Dim>>(directory_, obstacles_series(name_), scene);
     n_spread_ = n_steps_ = result.steps;
 }
 
@@ -225,6 +233,7 @@ void Frames<Dim>::resume(const Scene<Dim>& scene, const RunResult<Dim>& result, 
     else
         series_->go_on_after(times);
     if (pairs_) pairs_->go_on_after(times);
+    if (obstacles_) obstacles_->go_on_after(times);
 }
 
 template <int Dim>
@@ -242,6 +251,7 @@ void Frames<Dim>::write(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& so
         frame.cell_fields = cell_fields<Dim>(fields_, velocity, stresses);
         frame.boundary_fields = boundary_fields<Dim>(fields_, gap, contact);
         if (pairs_) write_pairs(run, solid, displacement, of_vertices);
+        if (obstacles_) obstacles_->write(run.time);
         series_->write(frame);
     } else {
         write_pairs(run, solid, displacement, of_vertices);
@@ -251,8 +261,10 @@ void Frames<Dim>::write(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& so
 template <int Dim>
 void Frames<Dim>::write_pairs(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid,
                               std::span<const Vector<Dim>> displacement, std::span<const Vector<Dim>> of_vertices) {
-    pairs_->write(PairPoints<Dim>(solid.acting_pairs(run.q), solid, displacement, of_vertices)
-                      .frame(run.time, fields_.friction && solid.options().has_friction()));
+    const PairPoints<Dim> points(solid.acting_pairs(run.q), solid, displacement, of_vertices);
+    mesh::PointFrame<Dim> frame = points.frame(run.time, fields_.friction && solid.options().has_friction());
+    frame.numbers = bodies_;
+    pairs_->write(frame);
 }
 
 template <int Dim>
@@ -264,6 +276,7 @@ template <int Dim>
 void Frames<Dim>::all_pieces(const FramePiece<Dim>& piece) {
     if (!in_pieces_) return;
     const Stresses<Dim> stresses(piece);
+    if (obstacles_) obstacles_->write(piece.time);
     pieces_->publish(piece.n_pieces, *piece.mesh, shown<Dim>(fields_, piece, stresses));
 }
 

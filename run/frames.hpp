@@ -1,10 +1,12 @@
 #pragma once
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "abut/mesh/io/point_series.hpp"
 #include "abut/mesh/io/write_pieces.hpp"
@@ -14,10 +16,14 @@
 
 namespace abut::run {
 
+template <int Dim>
+class ObstacleFrames;
+
 /// A run as a series for ParaView: displacement [m], velocity [m/s], stress and von Mises stress [Pa] on cells, contact
 /// pressure [Pa] and gap [m] on boundary faces (NaN on faces that are not in contact); and, as points of a series of
 /// their own, SERIES_pairs, pairs of faces that push each other, in the middle between their centres: bodies (-1: an
-/// obstacle), normal and force on the second body [N], normal force [N], gap [m] and area [m^(Dim-1)]. `n_frames` equally
+/// obstacle), normal and force on the second body [N], normal force [N], gap [m] and area [m^(Dim-1)]; and, where there are
+/// obstacles, SERIES_obstacles with their faces where they are. `n_frames` equally
 /// far apart, first and last step included (a run that goes on beyond the end of another one writes more, as far apart);
 /// Outputs::fields may leave fields out. `series` is what the files are called by, see mesh::VtuSeries, which also says what they
 /// throw if they cannot be written.
@@ -29,6 +35,9 @@ class Frames : public Observer<Dim> {
 public:
     /// Nothing is written before the run begins; `n_frames` > 0.
     Frames(std::filesystem::path directory, std::string series, int n_frames, bool in_pieces = false);
+    ~Frames() override;
+    Frames(const Frames&) = delete;
+    Frames& operator=(const Frames&) = delete;
 
     void begin(const Scene<Dim>& scene, const RunResult<Dim>& result) override;
     /// Writes a frame if one is due at this step.
@@ -38,7 +47,8 @@ public:
     void piece(const FramePiece<Dim>& piece) override;
     void all_pieces(const FramePiece<Dim>& piece) override;
     void save(StateWriter& state) override;
-    [[nodiscard]] bool has_pairs() const { return pairs_.has_value(); }  ///< whether SERIES_pairs is written
+    [[nodiscard]] bool has_pairs() const { return pairs_.has_value(); }         ///< whether SERIES_pairs is written
+    [[nodiscard]] bool has_obstacles() const { return obstacles_ != nullptr; }  ///< whether SERIES_obstacles is written
     /// Throws BadInput if frames that were written are gone.
     void resume(const Scene<Dim>& scene, const RunResult<Dim>& result, StateReader& state) override;
 
@@ -58,6 +68,8 @@ private:
     std::optional<mesh::VtuSeries<Dim>> series_;  // of the whole, or
     std::optional<mesh::PieceSeries> pieces_;     // in pieces
     std::optional<mesh::PointSeries<Dim>> pairs_;
+    std::vector<mesh::NamedNumber> bodies_;  // of pairs
+    std::unique_ptr<ObstacleFrames<Dim>> obstacles_;
 };
 
 /// Files of frames in pieces that a rank other than 0 writes.

@@ -10,7 +10,7 @@ namespace {
 constexpr const char* script = R"py("""Opens the results beside this file in ParaView: paraview --script=view_in_paraview.py
 
 Left the von Mises stress of the cells, right the contact pressure on the boundary, both on bodies as they have moved; there
-also the pairs of faces that push each other, as points with the force between them.
+also the pairs of faces that push each other, as points with the force between them. Obstacles are grey.
 """
 import os
 
@@ -41,6 +41,13 @@ def show_pairs(view, file_name):
     simple.ColorBy(display, ("POINTS", "normal force [N]"))
 
 
+def show_obstacles(view, file_name):
+    """Shows obstacles where they are, if the run has any."""
+    path = os.path.join(FOLDER, file_name)
+    if os.path.exists(path):
+        simple.Show(simple.PVDReader(FileName=path), view).DiffuseColor = [0.6, 0.6, 0.6]
+
+
 layout = simple.CreateLayout("Abut")
 stress = simple.CreateView("RenderView")
 pressure = simple.CreateView("RenderView")
@@ -51,7 +58,8 @@ show(stress, SERIES + ".pvd", "von Mises [Pa]")
 show(pressure, SERIES + "_surface.pvd", "contact pressure [Pa]")
 show_pairs(pressure, SERIES + "_pairs.pvd")
 for view in (stress, pressure):
-    simple.ResetCamera(view)
+    simple.ResetCamera(view)  # on the bodies
+    show_obstacles(view, SERIES + "_obstacles.pvd")
 simple.AddCameraLink(stress, pressure, "both")
 simple.GetAnimationScene().UpdateAnimationUsingDataTimeSteps()
 simple.RenderAllViews()

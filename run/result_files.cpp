@@ -217,6 +217,8 @@ std::vector<ReportFile> ResultFiles<Dim>::files_of_report() const {
         files.push_back({name_ + "_surface.pvd", "boundary faces over time, for ParaView"});
         if (frames_->has_pairs())
             files.push_back({pairs_series(name_) + ".pvd", "pairs of faces in contact over time, for ParaView"});
+        if (frames_->has_obstacles())
+            files.push_back({obstacles_series(name_) + ".pvd", "obstacles over time, for ParaView"});
         files.push_back({paraview_script_name, "opens them: paraview --script=" + std::string(paraview_script_name)});
     }
     return files;
@@ -232,6 +234,7 @@ std::string ResultFiles<Dim>::table() const {
     if (animation_) text += table_line("animation", path(animation_name));
     if (frames_) text += table_line("for ParaView", path(name_ + ".pvd") + ", " + path(name_ + "_surface.pvd"));
     if (frames_ && frames_->has_pairs()) text += table_line("", path(pairs_series(name_) + ".pvd"));
+    if (frames_ && frames_->has_obstacles()) text += table_line("", path(obstacles_series(name_) + ".pvd"));
     return text + table_line("picture", path("energy.svg"));
 }
 

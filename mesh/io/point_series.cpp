@@ -12,6 +12,19 @@ namespace {
 
 constexpr const char* extension = ".vtp";
 
+template <int Dim>
+OutputGrid grid_of(const PointFrame<Dim>& frame) {
+    if (frame.faces.size() == 0) {
+        std::vector<std::int64_t> points(frame.position.size()), ends(frame.position.size());
+        std::iota(points.begin(), points.end(), 0);
+        std::iota(ends.begin(), ends.end(), 1);
+        return output_grid("PolyData", "Verts", frame.position, points, ends);
+    }
+    const std::vector<std::int64_t> corners(frame.faces.values.begin(), frame.faces.values.end());
+    const std::vector<std::int64_t> ends(frame.faces.offsets.begin() + 1, frame.faces.offsets.end());
+    return output_grid("PolyData", Dim == 2 ? "Lines" : "Polys", frame.position, corners, ends);
+}
+
 }  // namespace
 
 template <int Dim>
@@ -22,11 +35,9 @@ PointSeries<Dim>::PointSeries(std::filesystem::path directory, std::string basen
 
 template <int Dim>
 void PointSeries<Dim>::write(const PointFrame<Dim>& frame) {
-    std::vector<std::int64_t> points(frame.position.size()), ends(frame.position.size());
-    std::iota(points.begin(), points.end(), 0);
-    std::iota(ends.begin(), ends.end(), 1);
-    auto grid = output_grid("PolyData", "Verts", frame.position, points, ends);
+    auto grid = grid_of(frame);
     grid.field_data = field_time(frame.time);
+    for (const NamedNumber& number : frame.numbers) grid.field_data += field_number(number.name, number.value);
     add_fields<Dim>(grid.point_data, frame.fields, frame.position.size(), "points", "PointSeries");
     auto times = times_;
     times.push_back(frame.time);

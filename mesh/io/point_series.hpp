@@ -14,9 +14,11 @@ struct PointFrame {
     double time = 0.0;                        ///< [s]
     std::span<const Vector<Dim>> position{};  ///< [m]
     std::vector<Field<Dim>> fields{};         ///< each with a value for every point
+    Rows faces{};                             ///< segments (2D) or polygons (3D) between points; none: points are shown
+    std::vector<NamedNumber> numbers{};
 };
 
-/// Points that come and go, as files for ParaView: BASENAME_000000.vtp, ... and BASENAME.pvd that lists them with their times.
+/// Points, or faces between them, that come and go, as files for ParaView: BASENAME_000000.vtp, ... and BASENAME.pvd that lists them with their times.
 /// Written as by VtuSeries: 2D vectors get a third component 0, a run that breaks off leaves a readable series.
 template <int Dim>
 class PointSeries {

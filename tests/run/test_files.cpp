@@ -1,11 +1,14 @@
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
+#include <utility>
 
 #include "abut/base/error.hpp"
+#include "abut/mesh/io/read_surface.hpp"
 #include "abut/run/frames.hpp"
 #include "abut/run/result_files.hpp"
 #include "abut/run/simulation.hpp"
@@ -77,6 +80,42 @@ TEST_CASE("a program of a few lines leaves the files of a run, and a summary of 
     CHECK(table.find("velocity of 'block'") != std::string::npos);
     CHECK(table.find("a number [m]") != std::string::npos);
     CHECK(files.table().find((options.out / "block.pvd").string()) != std::string::npos);
+}
+
+TEST_CASE(
+    "obstacles are a series beside the bodies: named, where they are at each frame, and no larger than can be looked at",
+    "[run][files]") {
+    const Folder folder;
+    run::Scene<3> scene;
+    scene.mesh = mesh::structured_box<3>({0, 0, 1e-3}, {1, 1, 1 + 1e-3}, {2, 2, 2}, mesh::CellShape::hexahedron, "block");
+    scene.solid.materials = {{.young = 1.0, .poisson = 0.0, .density = 1.0}};
+    const auto down = [](double time) { return Vector<3>(0, 0, -0.5 * time); };
+    const Vector<3> middle(0.5, 0.5, 0.5);
+    scene.solid.obstacles = {contact::endless_plane_obstacle<3>({0, 0, 0}, Vector<3>::UnitZ(), middle, 5000.0, down),
+                             contact::plane_obstacle<3>({-0.1, 0.5, 0.5}, Vector<3>::UnitX(), 2.0)};
+    scene.outputs.obstacles = {"floor", "wall"};
+    scene.velocity = {Vector<3>(0, 0, -0.01)};
+    scene.time = 1.0;
+    const run::RunOptions options{.out = folder.path() / "out", .frames = 3};
+    run::ResultFiles<3> files(options, "mine", "block");
+    run::RunResult<3> result = run::simulate<3>(scene, options, files);
+    files.finish(scene, result);
+    const std::string text = read_text(options.out / "block_obstacles_000002.vtp");
+    CHECK_THAT(text, Catch::Contains("Name=\"obstacle: floor\" NumberOfTuples=\"1\" format=\"ascii\">0<") &&
+                         Catch::Contains("Name=\"obstacle: wall\" NumberOfTuples=\"1\" format=\"ascii\">1<"));
+    for (const auto& [frame, depth] : {std::pair{"000000", 0.0}, {"000002", 0.5 * result.dt * static_cast<double>(result.steps)}}) {
+        const auto shown = mesh::read_surface(options.out / (std::string("block_obstacles_") + frame + ".vtp"));
+        REQUIRE(shown.faces.size() == 2);
+        for (const std::int32_t v : shown.faces[0]) {  // around the block, and not 5 km away
+            CHECK(shown.vertices[static_cast<std::size_t>(v)][2] == Approx(-depth).margin(1e-15));
+            const double away = (shown.vertices[static_cast<std::size_t>(v)] - middle).norm();
+            CHECK((away > 2.0 && away < 10.0));
+        }
+        for (const std::int32_t v : shown.faces[1])  // as it is given
+            CHECK((shown.vertices[static_cast<std::size_t>(v)] - Vector<3>(-0.1, 0.5, 0.5)).norm() ==
+                  Approx(2.0 * std::sqrt(2.0)));
+    }
+    CHECK(files.table().find("block_obstacles.pvd") != std::string::npos);
 }
 
 TEST_CASE("a run that breaks off leaves its records under another name, and an earlier result is gone", "[run][files]") {
