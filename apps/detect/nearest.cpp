@@ -8,7 +8,7 @@
 
 #include "abut/base/index.hpp"
 #include "abut/geometry/box.hpp"
-#include "abut/geometry/nearest_faces.hpp"
+#include "abut/geometry/nearest/nearest_faces.hpp"
 
 namespace abut::apps {
 namespace {

@@ -5,7 +5,7 @@
 #include <span>
 #include <string>
 
-#include "abut/geometry/nearest_faces.hpp"
+#include "abut/geometry/nearest/nearest_faces.hpp"
 #include "arrays.hpp"
 
 namespace {

@@ -1,4 +1,4 @@
-#include "abut/geometry/nearest_faces.hpp"
+#include "abut/geometry/nearest/nearest_faces.hpp"
 
 #include <algorithm>
 #include <limits>
