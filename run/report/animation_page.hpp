@@ -5,7 +5,7 @@
 namespace abut::run {
 
 /// From the style sheet to the first frame of an animation: a page that asks for nothing, and draws with WebGL 2. Below it stand
-/// <script id="common"> and, for each frame, <script class="frame">, as Animation writes them. A page without its end is drawn,
+/// a script element of id "common" and one of class "frame" for each frame, as Animation writes them. A page without its end is drawn,
 /// too, as far as its frames are whole.
 inline constexpr std::string_view animation_page = R"html(
 <meta charset="utf-8">

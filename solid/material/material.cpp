@@ -29,11 +29,14 @@ void check(const Material& material, int body) {
             "finite and > 0 kg/m^3. Steel has 7800.");
     require(std::isfinite(material.eta) && material.eta >= 0.0, body, "eta", material.eta,
             "finite and >= 0 Pa (0: take E).");
+    require(material.second_share == 0.0 || material.law == ElasticLaw::mooney_rivlin, body, "second_share",
+            material.second_share, "0, as its law is not that of Mooney and Rivlin.");
+    if (material.law == ElasticLaw::st_venant_kirchhoff) return;
+    require(material.poisson >= 0.0, body, "poisson (nu)", material.poisson,
+            ">= 0 with a law of rubber, whose energy has no least value below. Take st_venant_kirchhoff.");
     const double most_share = std::min(1.0, 0.5 * material.lambda() / material.mu());
     require(material.second_share >= 0.0 && material.second_share <= most_share, body, "second_share", material.second_share,
             ("between 0 and " + number(most_share) + ", the lesser of 1 and lambda/(2 mu).").c_str());
-    require(material.second_share == 0.0 || material.law == ElasticLaw::mooney_rivlin, body, "second_share",
-            material.second_share, "0, as its law is not that of Mooney and Rivlin.");
 }
 
 template <int Dim>

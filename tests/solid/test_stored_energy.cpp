@@ -293,6 +293,9 @@ TEST_CASE("a law of large strains is refused where nothing knows it, by the name
     options = alone<2>(neo_hookean);
     options.finite.mean_force = solid::MeanForce::discrete_gradient;
     CHECK_THROWS_WITH(solid::Solid<2>(mesh, options), Catch::Contains("no MeanForce::discrete_gradient"));
+    options = alone<2>(neo_hookean);
+    options.materials[0].poisson = -0.1;  // lambda < 0: W falls without end as J does
+    CHECK_THROWS_WITH(solid::Solid<2>(mesh, options), Catch::Contains("poisson") && Catch::Contains("rubber"));
     options = alone<2>(mooney_rivlin);
     options.materials[0].second_share = 3.0;
     CHECK_THROWS_WITH(solid::Solid<2>(mesh, options), Catch::Contains("second_share") && Catch::Contains("lambda/(2 mu)"));

@@ -11,11 +11,14 @@ _Integers = NDArray[np.int32]
 _Field = Optional[Callable[[_Doubles], ArrayLike]]
 
 class Material:
-    def __init__(self, young: float = ..., poisson: float = ..., density: float = ..., eta: float = ...) -> None: ...
+    def __init__(self, young: float = ..., poisson: float = ..., density: float = ..., eta: float = ..., law: str = ...,
+                 second_share: float = ...) -> None: ...
     young: float
     poisson: float
     density: float
     eta: float
+    law: str
+    second_share: float
 
 class _Mesh:
     @property
