@@ -7,8 +7,6 @@
 
 #include "abut/base/parallel.hpp"
 #include "abut/base/sort_unique.hpp"
-#include "abut/solid/contact_faces.hpp"
-#include "abut/solid/contact_patches.hpp"
 
 namespace abut::solid {
 
@@ -21,14 +19,11 @@ CornerSurface<Dim>::CornerSurface(const Bodies<Dim>& bodies, Ccg<Dim>& ccg, cons
       frames_(frames),
       obstacles_(obstacles),
       part_(part),
-      ranks_(part.is_whole() ? nullptr : std::make_unique<RankFaces<Dim>>(part, mesh_, ccg)),
+      shared_(shared_faces(part, mesh_, ccg)),
       places_(bodies.rigid().size()),
       u_(static_cast<std::size_t>(bodies.n_cells())) {
     faces_.stiffness.assign(static_cast<std::size_t>(mesh_.n_bodies()) + bodies.rigid().size(), 0.0);
-    if (ranks_)
-        append_deformable_of_ranks();
-    else
-        append_deformable();
+    append_deformable();
     append_rigid();
     for (double& of_body : faces_.stiffness)
         if (of_body == 0.0) of_body = 1.0;  // all faces are held
@@ -83,28 +78,16 @@ std::vector<BoundaryFace> CornerSurface<Dim>::deformable_in_mesh() const {
 template <int Dim>
 void CornerSurface<Dim>::append_deformable() {
     const std::vector<BoundaryFace> in_mesh = deformable_in_mesh();
-    for (const BoundaryFace b : ccg_.boundary_faces()) {
-        amplification_.push_back(amplification_of(b));
-        append_face(mesh_, mesh_face(mesh_, b), contact_depth(mesh_, ccg_, b), mesh_.cell_body[cell_of(mesh_, b)],
-                    ccg_.normal_stiffness(b));
-        boundary_.push_back(b);
-        mesh_boundary_.push_back(in_mesh[static_cast<std::size_t>(b)]);
-    }
-}
-
-template <int Dim>
-void CornerSurface<Dim>::append_deformable_of_ranks() {
-    const std::vector<BoundaryFace> in_mesh = deformable_in_mesh();
     std::vector<double> own;
-    for (std::size_t i = 0; i < ranks_->faces().size(); ++i) {
-        const auto& face = ranks_->faces()[i];
-        add_face(face.corners, face.cell_depth, face.body, face.stiffness);
-        const BoundaryFace here = ranks_->here()[i];
+    for (std::size_t i = 0; i < shared_->size(); ++i) {
+        const auto face = shared_->rest(i);
+        add_face(face.corners, face.depth, face.body, face.stiffness);
+        const BoundaryFace here = shared_->here()[i];
         boundary_.push_back(here);
         mesh_boundary_.push_back(here == no_face ? no_face : in_mesh[static_cast<std::size_t>(here)]);
-        if (ranks_->is_own(i)) own.push_back(amplification_of(boundary_.back()));
+        if (shared_->is_own(i)) own.push_back(amplification_of(here));
     }
-    amplification_ = ranks_->gather_numbers(own);
+    amplification_ = shared_->numbers_of_all(own);
 }
 
 template <int Dim>
@@ -167,20 +150,17 @@ std::span<const std::int32_t> CornerSurface<Dim>::points_of(contact::Face face) 
     const auto i = static_cast<std::size_t>(face);
     if (is_obstacle(i) || std::isinf(stiffness_[i])) return {};
     if (!is_deformable(i)) return rigid_points_[rigid_of(i)];
-    if (ranks_) return ranks_->faces()[i].cells;
-    return ccg_.cells_of(boundary_[i]);
+    return shared_->cells_of(i);
 }
 
 template <int Dim>
 std::vector<dynamics::Hold<Dim>> CornerSurface<Dim>::holds_of(std::int32_t point) const {
-    if (ranks_) return ranks_->holds_of(point);
-    return point < ccg_.n_cells() ? holds_of_cell(ccg_, point) : std::vector<dynamics::Hold<Dim>>{};
+    return shared_->holds_of(point);
 }
 
 template <int Dim>
 Vector<Dim> CornerSurface<Dim>::rest_centroid(contact::Face face) const {
-    const auto i = static_cast<std::size_t>(face);
-    return ranks_ ? ranks_->faces()[i].centroid : ccg_.centroid(boundary_[i]);
+    return shared_->centroid(static_cast<std::size_t>(face));
 }
 
 template <int Dim>
@@ -218,16 +198,14 @@ typename CornerSurface<Dim>::Listed CornerSurface<Dim>::list(std::span<const std
         if (b == no_face) continue;
         listed.here.push_back(face);
         listed.boundary.push_back(b);
-        if (ranks_ && !ranks_->is_own(static_cast<std::size_t>(face))) continue;
+        if (!shared_->is_own(static_cast<std::size_t>(face))) continue;
         listed.own.push_back(face);
         own.push_back(b);
     }
-    if (ranks_) {
-        const std::vector<std::size_t> faces(listed.faces.begin(), listed.faces.end());
-        for (const std::size_t i : ranks_->by_owner(faces))
-            for (std::int32_t n = corner_offsets_[faces[i]]; n < corner_offsets_[faces[i] + 1]; ++n)
-                listed.gathered.push_back(n);
-    }
+    const std::vector<std::size_t> faces(listed.faces.begin(), listed.faces.end());
+    for (const std::size_t i : shared_->as_brought(faces))
+        for (std::int32_t n = corner_offsets_[faces[i]]; n < corner_offsets_[faces[i] + 1]; ++n)
+            listed.gathered.push_back(n);
     listed.nodes.insert(listed.nodes.end(), listed.rigid.begin(), listed.rigid.end());
     listed.nodes.insert(listed.nodes.end(), listed.obstacles.begin(), listed.obstacles.end());
     listed.region = ccg_.region_of_tilted_faces(own);
@@ -258,7 +236,7 @@ void CornerSurface<Dim>::place(const Listed& listed, std::span<const Vector<Dim>
                 x[n] = frames[body](rest_[n] + arm + free_part(boundary_[face], tilt_[i] * (rest_[n] - centroid)));
         },
         256);
-    if (ranks_) gather_nodes(listed, x);
+    gather_nodes(listed, x);
     place_rigid(q);
     for (const std::int32_t n : listed.rigid) {
         const std::size_t body = rigid_of(face_of(n));
@@ -278,7 +256,7 @@ void CornerSurface<Dim>::place(const Listed& listed, std::span<const Vector<Dim>
 /// Brings the nodes of all listed faces from where they are placed.
 template <int Dim>
 void CornerSurface<Dim>::gather_nodes(const Listed& listed, Points& x) {
-    if (listed.faces.empty()) return;
+    if (listed.gathered.empty()) return;
     own_nodes_.clear();
     for (const std::int32_t face : listed.own)
         for (std::int32_t n = corner_offsets_[face]; n < corner_offsets_[face + 1]; ++n)

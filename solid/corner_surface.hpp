@@ -97,7 +97,6 @@ public:
 private:
     [[nodiscard]] std::vector<BoundaryFace> deformable_in_mesh() const;
     void append_deformable();
-    void append_deformable_of_ranks();
     void add_face(std::span<const Vector<Dim>> corners, double depth, std::int32_t body, double stiffness);
     [[nodiscard]] double amplification_of(BoundaryFace face) const;
     void gather_nodes(const Listed& listed, Points& x);
@@ -111,7 +110,7 @@ private:
     const BodyFrames<Dim>& frames_;
     const Obstacles<Dim>& obstacles_;
     const RankPart<Dim>& part_;
-    std::unique_ptr<RankFaces<Dim>> ranks_;  // null on one rank
+    std::unique_ptr<SharedFaces<Dim>> shared_;  // those of bodies that deform
     contact::NodalFaceArrays<Dim> faces_;
     std::vector<double> stiffness_;  // of each face
     Points rest_;

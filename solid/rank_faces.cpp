@@ -7,6 +7,7 @@
 #include "abut/base/sort_unique.hpp"
 #include "abut/solid/contact_faces.hpp"
 #include "abut/solid/contact_patches.hpp"
+#include "abut/solid/rank_sharing.hpp"
 
 namespace abut::solid {
 namespace {
@@ -41,10 +42,117 @@ void append(std::vector<double>& values, const Array& array) {
     for (const double value : array.reshaped()) values.push_back(value);
 }
 
-}  // namespace
+template <int Dim>
+std::vector<Vector<Dim>> corners_of(const mesh::Mesh<Dim>& mesh, std::int32_t face) {
+    std::vector<Vector<Dim>> corners;
+    for (const std::int32_t v : mesh.face_vertices[face]) corners.push_back(mesh.vertices[v]);
+    return corners;
+}
+
+/// On one rank.
+template <int Dim>
+class WholeFaces final : public SharedFaces<Dim> {
+public:
+    using Rest = typename SharedFaces<Dim>::Rest;
+
+    WholeFaces(const mesh::Mesh<Dim>& mesh, const Ccg<Dim>& ccg) : mesh_(mesh), ccg_(ccg) {
+        for (const BoundaryFace b : ccg.boundary_faces()) here_.push_back(b);
+    }
+
+    [[nodiscard]] Rest rest(std::size_t face) const override {
+        const BoundaryFace b = here_[face];
+        return {mesh_.cell_body[cell_of(mesh_, b)], contact_depth(mesh_, ccg_, b), ccg_.normal_stiffness(b),
+                corners_of(mesh_, mesh_face(mesh_, b))};
+    }
+    [[nodiscard]] Vector<Dim> centroid(std::size_t face) const override { return ccg_.centroid(here_[face]); }
+    [[nodiscard]] std::span<const std::int32_t> cells_of(std::size_t face) const override {
+        return ccg_.cells_of(here_[face]);
+    }
+    [[nodiscard]] std::vector<dynamics::Hold<Dim>> holds_of(std::int32_t point) const override {
+        return point < ccg_.n_cells() ? holds_of_cell(ccg_, point) : std::vector<dynamics::Hold<Dim>>{};
+    }
+    [[nodiscard]] bool is_own(std::size_t) const override { return true; }
+    [[nodiscard]] contact::Sharing* sharing() override { return nullptr; }
+    [[nodiscard]] std::vector<double> numbers_of_all(std::span<const double> of_own) const override {
+        return {of_own.begin(), of_own.end()};
+    }
+    [[nodiscard]] std::vector<std::size_t> as_brought(std::span<const std::size_t>) const override { return {}; }
+    void bring_displacement(std::span<const Vector<Dim>> of_boundary, std::span<Vector<Dim>> of_surface) const override {
+        for (std::size_t i = 0; i < here_.size(); ++i) of_surface[i] = of_boundary[static_cast<std::size_t>(here_[i])];
+    }
+    void set_listed(std::span<const contact::Face> listed) override {
+        own_listed_.clear();
+        for (const contact::Face face : listed) own_listed_.push_back(here_[static_cast<std::size_t>(face)]);
+    }
+    void evaluate_listed(Ccg<Dim>& ccg, const Region<Dim>& region, std::span<const Vector<Dim>> q,
+                         const BoundaryLoad<Dim>& load, std::span<Vector<Dim>> displacement,
+                         std::span<Vector<Dim>> gradient) override {
+        ccg.evaluate_faces(region, q, load, displacement, gradient);
+    }
+    [[nodiscard]] contact::FaceCoupling<Dim> coupling_of_all(contact::FaceCoupling<Dim> here) const override { return here; }
+
+private:
+    using SharedFaces<Dim>::here_;
+    using SharedFaces<Dim>::own_listed_;
+
+    const mesh::Mesh<Dim>& mesh_;
+    const Ccg<Dim>& ccg_;
+};
+
+/// On several ranks. The constructor is a call of all of them.
+template <int Dim>
+class RankFaces final : public SharedFaces<Dim> {
+public:
+    using Rest = typename SharedFaces<Dim>::Rest;
+
+    RankFaces(const RankPart<Dim>& part, const mesh::Mesh<Dim>& mesh, const Ccg<Dim>& ccg);
+
+    [[nodiscard]] Rest rest(std::size_t face) const override { return faces_[face].rest; }
+    [[nodiscard]] Vector<Dim> centroid(std::size_t face) const override { return faces_[face].centroid; }
+    [[nodiscard]] std::span<const std::int32_t> cells_of(std::size_t face) const override { return faces_[face].cells; }
+    [[nodiscard]] std::vector<dynamics::Hold<Dim>> holds_of(std::int32_t point) const override;
+    [[nodiscard]] bool is_own(std::size_t face) const override { return faces_[face].owner == part_.ranks().rank(); }
+    [[nodiscard]] contact::Sharing* sharing() override { return &sharing_; }
+    [[nodiscard]] std::vector<double> numbers_of_all(std::span<const double> of_own) const override;
+    [[nodiscard]] std::vector<std::size_t> as_brought(std::span<const std::size_t> faces) const override;
+    void bring_displacement(std::span<const Vector<Dim>> of_boundary, std::span<Vector<Dim>> of_surface) const override;
+    void set_listed(std::span<const contact::Face> listed) override;
+    void evaluate_listed(Ccg<Dim>& ccg, const Region<Dim>& region, std::span<const Vector<Dim>> q,
+                         const BoundaryLoad<Dim>& load, std::span<Vector<Dim>> displacement,
+                         std::span<Vector<Dim>> gradient) override;
+    [[nodiscard]] contact::FaceCoupling<Dim> coupling_of_all(contact::FaceCoupling<Dim> here) const override;
+
+private:
+    using SharedFaces<Dim>::here_;
+    using SharedFaces<Dim>::own_listed_;
+
+    struct Face {
+        std::int64_t key;
+        int owner;
+        Rest rest;
+        Vector<Dim> centroid;             // at rest
+        std::vector<std::int32_t> cells;  // that move it, by their numbers in the whole mesh
+    };
+
+    void append_own(const mesh::Mesh<Dim>& mesh, const Ccg<Dim>& ccg, BoundaryFace face, std::int64_t key,
+                    std::vector<double>& values) const;
+    void take_all(std::span<const double> values);
+    void gather_holds(const mesh::Mesh<Dim>& mesh, const Ccg<Dim>& ccg);
+    void find_here(const mesh::Mesh<Dim>& mesh);
+
+    const RankPart<Dim>& part_;
+    RankSharing sharing_;
+    std::vector<Face> faces_;                                          // in the order of the whole mesh
+    std::vector<std::pair<std::int32_t, dynamics::Hold<Dim>>> holds_;  // of cells, by their numbers in the whole mesh
+    std::vector<std::size_t> all_as_brought_;                          // faces as `gather` brings them: rank after rank
+    std::vector<std::size_t> listed_;                                  // in the surface
+    std::vector<std::size_t> listed_as_brought_;                       // in the list
+    std::vector<Vector<Dim>> own_displacement_, own_gradient_;         // work arrays of `evaluate_listed`
+};
 
 template <int Dim>
-RankFaces<Dim>::RankFaces(const RankPart<Dim>& part, const mesh::Mesh<Dim>& mesh, const Ccg<Dim>& ccg) : part_(part) {
+RankFaces<Dim>::RankFaces(const RankPart<Dim>& part, const mesh::Mesh<Dim>& mesh, const Ccg<Dim>& ccg)
+    : part_(part), sharing_(part.ranks()) {
     std::vector<double> mine{static_cast<double>(part.own_faces().size())};  // then the faces
     for (std::size_t i = 0; i < part.own_faces().size(); ++i)
         append_own(mesh, ccg, part.own_faces()[i], part.face_keys()[i], mine);
@@ -74,19 +182,19 @@ void RankFaces<Dim>::take_all(std::span<const double> values) {
             Face& face = faces_.emplace_back();
             face.key = reader.next_as<std::int64_t>();
             face.owner = rank;
-            face.body = reader.next_as<std::int32_t>();
-            face.cell_depth = reader.next();
-            face.stiffness = reader.next();
-            face.corners.resize(reader.next_as<std::size_t>());
+            face.rest.body = reader.next_as<std::int32_t>();
+            face.rest.depth = reader.next();
+            face.rest.stiffness = reader.next();
+            face.rest.corners.resize(reader.next_as<std::size_t>());
             face.cells.resize(reader.next_as<std::size_t>());
             face.centroid = reader.next_array<Vector<Dim>>();
-            for (Vector<Dim>& corner : face.corners) corner = reader.next_array<Vector<Dim>>();
+            for (Vector<Dim>& corner : face.rest.corners) corner = reader.next_array<Vector<Dim>>();
             for (std::int32_t& cell : face.cells) cell = reader.next_as<std::int32_t>();
         }
     std::ranges::sort(faces_, {}, &Face::key);
     std::vector<std::size_t> all(faces_.size());
     std::iota(all.begin(), all.end(), std::size_t{0});
-    all_by_owner_ = by_owner(all);
+    all_as_brought_ = as_brought(all);
 }
 
 template <int Dim>
@@ -112,9 +220,9 @@ void RankFaces<Dim>::gather_holds(const mesh::Mesh<Dim>& mesh, const Ccg<Dim>& c
 }
 
 template <int Dim>
-std::vector<dynamics::Hold<Dim>> RankFaces<Dim>::holds_of(std::int32_t cell) const {
+std::vector<dynamics::Hold<Dim>> RankFaces<Dim>::holds_of(std::int32_t point) const {
     std::vector<dynamics::Hold<Dim>> holds;
-    for (const auto& entry : std::ranges::equal_range(holds_, cell, {}, [](const auto& of) { return of.first; }))
+    for (const auto& entry : std::ranges::equal_range(holds_, point, {}, [](const auto& of) { return of.first; }))
         holds.push_back(entry.second);
     return holds;
 }
@@ -131,7 +239,7 @@ void RankFaces<Dim>::find_here(const mesh::Mesh<Dim>& mesh) {
 }
 
 template <int Dim>
-std::vector<std::size_t> RankFaces<Dim>::by_owner(std::span<const std::size_t> faces) const {
+std::vector<std::size_t> RankFaces<Dim>::as_brought(std::span<const std::size_t> faces) const {
     std::vector<std::size_t> order(faces.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::ranges::stable_sort(order, {}, [&](std::size_t i) { return faces_[faces[i]].owner; });
@@ -139,27 +247,21 @@ std::vector<std::size_t> RankFaces<Dim>::by_owner(std::span<const std::size_t> f
 }
 
 template <int Dim>
-std::vector<double> RankFaces<Dim>::gather_numbers(std::span<const double> of_own) const {
+std::vector<double> RankFaces<Dim>::numbers_of_all(std::span<const double> of_own) const {
     const std::vector<double> all = part_.ranks().gather(of_own);
     std::vector<double> of_faces(faces_.size());
-    for (std::size_t i = 0; i < all.size(); ++i) of_faces[all_by_owner_[i]] = all[i];
+    for (std::size_t i = 0; i < all.size(); ++i) of_faces[all_as_brought_[i]] = all[i];
     return of_faces;
 }
 
 template <int Dim>
-void RankFaces<Dim>::append_to(contact::Surface<Dim>& surface, std::vector<BoundaryFace>& boundary) const {
-    for (const Face& face : faces_) surface.append(face.corners, face.cell_depth, face.stiffness, face.body);
-    boundary.insert(boundary.end(), here_.begin(), here_.end());
-}
-
-template <int Dim>
-void RankFaces<Dim>::gather_displacement(std::span<const Vector<Dim>> of_boundary, std::span<Vector<Dim>> of_surface) const {
+void RankFaces<Dim>::bring_displacement(std::span<const Vector<Dim>> of_boundary, std::span<Vector<Dim>> of_surface) const {
     std::vector<double> mine;
     for (std::size_t i = 0; i < faces_.size(); ++i)
         if (is_own(i)) append(mine, of_boundary[static_cast<std::size_t>(here_[i])]);
     const std::vector<double> all = part_.ranks().gather(mine);
     Reader reader(all);
-    for (const std::size_t i : all_by_owner_) of_surface[i] = reader.next_array<Vector<Dim>>();
+    for (const std::size_t i : all_as_brought_) of_surface[i] = reader.next_array<Vector<Dim>>();
 }
 
 template <int Dim>
@@ -171,28 +273,31 @@ void RankFaces<Dim>::set_listed(std::span<const contact::Face> listed) {
         listed_.push_back(i);
         if (is_own(i)) own_listed_.push_back(here_[i]);
     }
-    listed_by_owner_ = by_owner(listed_);
+    listed_as_brought_ = as_brought(listed_);
 }
 
 template <int Dim>
-void RankFaces<Dim>::gather_listed(std::span<const Vector<Dim>> own_displacement, std::span<const Vector<Dim>> own_gradient,
-                                   std::span<Vector<Dim>> displacement, std::span<Vector<Dim>> gradient) const {
+void RankFaces<Dim>::evaluate_listed(Ccg<Dim>& ccg, const Region<Dim>& region, std::span<const Vector<Dim>> q,
+                                     const BoundaryLoad<Dim>& load, std::span<Vector<Dim>> displacement,
+                                     std::span<Vector<Dim>> gradient) {
+    for (auto* array : {&own_displacement_, &own_gradient_}) array->resize(region.faces.size());
+    ccg.evaluate_faces(region, q, load, own_displacement_, own_gradient_);
     if (listed_.empty()) return;
     std::vector<double> mine;
-    for (std::size_t i = 0; i < own_displacement.size(); ++i) {
-        append(mine, own_displacement[i]);
-        append(mine, own_gradient[i]);
+    for (std::size_t i = 0; i < own_displacement_.size(); ++i) {
+        append(mine, own_displacement_[i]);
+        append(mine, own_gradient_[i]);
     }
     const std::vector<double> all = part_.ranks().gather(mine);
     Reader reader(all);
-    for (const std::size_t i : listed_by_owner_) {
+    for (const std::size_t i : listed_as_brought_) {
         displacement[i] = reader.next_array<Vector<Dim>>();
         gradient[i] = reader.next_array<Vector<Dim>>();
     }
 }
 
 template <int Dim>
-contact::FaceCoupling<Dim> RankFaces<Dim>::gather_coupling(const contact::FaceCoupling<Dim>& here) const {
+contact::FaceCoupling<Dim> RankFaces<Dim>::coupling_of_all(contact::FaceCoupling<Dim> here) const {
     std::vector<std::size_t> in_list;  // of the rows here
     for (std::size_t i = 0; i < listed_.size(); ++i)
         if (here_[listed_[i]] != no_face) in_list.push_back(i);
@@ -213,7 +318,7 @@ contact::FaceCoupling<Dim> RankFaces<Dim>::gather_coupling(const contact::FaceCo
     std::vector<Row> rows(listed_.size());
     const std::vector<double> all = part_.ranks().gather(mine);
     Reader reader(all);
-    for (const std::size_t i : listed_by_owner_)
+    for (const std::size_t i : listed_as_brought_)
         for (auto left = reader.next_as<std::int32_t>(); left > 0; --left) {
             rows[i].columns.push_back(reader.next_as<std::int32_t>());
             rows[i].blocks.push_back(reader.next_array<Matrix<Dim>>());
@@ -227,7 +332,15 @@ contact::FaceCoupling<Dim> RankFaces<Dim>::gather_coupling(const contact::FaceCo
     return coupling;
 }
 
-template class RankFaces<2>;
-template class RankFaces<3>;
+}  // namespace
+
+template <int Dim>
+std::unique_ptr<SharedFaces<Dim>> shared_faces(const RankPart<Dim>& part, const mesh::Mesh<Dim>& mesh, const Ccg<Dim>& ccg) {
+    if (part.is_whole()) return std::make_unique<WholeFaces<Dim>>(mesh, ccg);
+    return std::make_unique<RankFaces<Dim>>(part, mesh, ccg);
+}
+
+template std::unique_ptr<SharedFaces<2>> shared_faces(const RankPart<2>&, const mesh::Mesh<2>&, const Ccg<2>&);
+template std::unique_ptr<SharedFaces<3>> shared_faces(const RankPart<3>&, const mesh::Mesh<3>&, const Ccg<3>&);
 
 }  // namespace abut::solid

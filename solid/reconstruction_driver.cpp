@@ -10,7 +10,6 @@
 #include "abut/base/stopwatch.hpp"
 #include "abut/contact/blind_corners.hpp"
 #include "abut/contact/sharp_edges.hpp"
-#include "abut/solid/contact_faces.hpp"
 #include "abut/solid/contact_patches.hpp"
 #include "abut/solid/friction.hpp"
 
@@ -38,9 +37,8 @@ ReconstructionDriver<Dim>::ReconstructionDriver(const mesh::Mesh<Dim>& mesh, con
       loads_(loads),
       times_(times),
       obstacles_(options.obstacles),
-      ranks_(part.is_whole() ? nullptr : std::make_unique<RankFaces<Dim>>(part, mesh, ccg)),
+      faces_(shared_faces(part, mesh, ccg)),
       watch_(ccg, part.ranks()) {
-    if (ranks_) sharing_.emplace(part.ranks());
     build_surface(options);
     options_.friction = friction_between(options, surface_.body);
     make_contact();
@@ -48,29 +46,17 @@ ReconstructionDriver<Dim>::ReconstructionDriver(const mesh::Mesh<Dim>& mesh, con
 
 template <int Dim>
 void ReconstructionDriver<Dim>::build_surface(const SolidOptions<Dim>& options) {
-    if (ranks_) {
-        ranks_->append_to(surface_, boundary_of_surface_);
-    } else {
-        append_faces();
+    for (std::size_t i = 0; i < faces_->size(); ++i) {
+        const auto face = faces_->rest(i);
+        surface_.append(face.corners, face.depth, face.stiffness, face.body);
     }
+    boundary_of_surface_.assign(faces_->here().begin(), faces_->here().end());
     if (options.has_friction())
         for (std::int32_t face = 0; face < surface_.size(); ++face)
             surface_.shear_stiffness.push_back(options.materials[static_cast<std::size_t>(surface_.body[face])].shear_ratio() *
                                                surface_.stiffness[face]);
     obstacles_.append_to(surface_, mesh_.n_bodies());
     surface_.steps_to_sharp_edge = contact::steps_to_sharp_edge(surface_.view());
-}
-
-template <int Dim>
-void ReconstructionDriver<Dim>::append_faces() {
-    for (const BoundaryFace b : ccg_.boundary_faces()) {
-        const std::int32_t face = mesh_face(mesh_, b);
-        std::vector<Vector<Dim>> corners;
-        for (const std::int32_t v : mesh_.face_vertices[face]) corners.push_back(mesh_.vertices[v]);
-        surface_.append(corners, contact_depth(mesh_, ccg_, b), ccg_.normal_stiffness(b),
-                        mesh_.cell_body[cell_of(mesh_, b)]);
-        boundary_of_surface_.push_back(b);
-    }
 }
 
 // The path of the listed faces ---------------------------------------------------------------------------------------
@@ -126,10 +112,9 @@ contact::FaceCoupling<Dim> ReconstructionDriver<Dim>::list_faces(std::span<const
             boundary_of_listed_.push_back(b);
             listed_here_.push_back(i);
         }
-    if (ranks_) ranks_->set_listed(faces.first(n_listed_deformable_));
-    region_ = ccg_.region_of_faces(ranks_ ? ranks_->own_listed() : boundary_of_listed_);
-    contact::FaceCoupling<Dim> coupling = ccg_.coupling(boundary_of_listed_);
-    if (ranks_) coupling = ranks_->gather_coupling(coupling);
+    faces_->set_listed(faces.first(n_listed_deformable_));
+    region_ = ccg_.region_of_faces(faces_->own_listed());
+    contact::FaceCoupling<Dim> coupling = faces_->coupling_of_all(ccg_.coupling(boundary_of_listed_));
     coupling.offsets.resize(faces.size() + 1, coupling.offsets.back());
     return coupling;
 }
@@ -141,10 +126,7 @@ std::vector<Vector<Dim>> ReconstructionDriver<Dim>::surface_displacement(std::sp
     IdVector<BoundaryFace, Vector<Dim>> boundary(static_cast<std::size_t>(ccg_.n_boundary()));
     ccg_.boundary_displacement(q, load, boundary.values());
     std::vector<Vector<Dim>> displacement(static_cast<std::size_t>(surface_.size()));
-    if (ranks_)
-        ranks_->gather_displacement(boundary.values(), displacement);
-    else
-        for (std::size_t i = 0; i < boundary_of_surface_.size(); ++i) displacement[i] = boundary[boundary_of_surface_[i]];
+    faces_->bring_displacement(boundary.values(), displacement);
     obstacles_.displace(time, std::span(displacement).subspan(boundary_of_surface_.size()));
     return displacement;
 }
@@ -167,13 +149,7 @@ void ReconstructionDriver<Dim>::evaluate_faces(std::span<const Vector<Dim>> q, c
     const auto faces = contact_->faces();
     displacement.resize(faces.size());
     gradient.resize(faces.size());
-    if (ranks_) {
-        for (auto* array : {&own_displacement_, &own_gradient_}) array->resize(region_.faces.size());
-        ccg_.evaluate_faces(region_, q, load, own_displacement_, own_gradient_);
-        ranks_->gather_listed(own_displacement_, own_gradient_, displacement, gradient);
-    } else {
-        ccg_.evaluate_faces(region_, q, load, displacement, gradient);
-    }
+    faces_->evaluate_listed(ccg_, region_, q, load, displacement, gradient);
     for (std::size_t i = n_listed_deformable_; i < faces.size(); ++i) {
         displacement[i] = obstacles_.displacement(obstacle_of(faces[i]), time);
         gradient[i].setZero();
@@ -225,16 +201,12 @@ template <int Dim>
 void ReconstructionDriver<Dim>::keep_touching_faces(const contact::ContactStep<Dim>& step) {
     touching_.clear();
     const auto points = [&](contact::Face face) {
-        if (is_rigid(face)) return std::span<const std::int32_t>{};
-        if (ranks_) return std::span<const std::int32_t>(ranks_->faces()[static_cast<std::size_t>(face)].cells);
-        return ccg_.cells_of(mesh_boundary(face));
+        return is_rigid(face) ? std::span<const std::int32_t>{} : faces_->cells_of(static_cast<std::size_t>(face));
     };
     for (const contact::PairStep<Dim>& pair : step.pairs) {
         const contact::Face of_body = is_rigid(pair.face_1) ? pair.face_2 : pair.face_1;
         touching_.push_back(
-            {points(pair.face_1), points(pair.face_2),
-             ranks_ ? ranks_->faces()[static_cast<std::size_t>(of_body)].centroid : ccg_.centroid(mesh_boundary(of_body)),
-             pair.normal});
+            {points(pair.face_1), points(pair.face_2), faces_->centroid(static_cast<std::size_t>(of_body)), pair.normal});
     }
 }
 
@@ -281,7 +253,7 @@ FaceCorrections<Dim> ReconstructionDriver<Dim>::corrections() const {
 template <int Dim>
 std::span<const Vector<Dim>> ReconstructionDriver<Dim>::values_here(std::span<const Vector<Dim>> of_listed,
                                                                     std::vector<Vector<Dim>>& work) const {
-    if (!ranks_) return of_listed.first(n_listed_deformable_);
+    if (listed_here_.size() == n_listed_deformable_) return of_listed.first(n_listed_deformable_);
     work.clear();
     for (const std::size_t i : listed_here_) work.push_back(of_listed[i]);
     return work;
@@ -344,8 +316,7 @@ std::vector<TouchingPair<Dim>> ReconstructionDriver<Dim>::touching_pairs(double 
 
 template <int Dim>
 std::vector<dynamics::ContactPatch<Dim>> ReconstructionDriver<Dim>::patches() const {
-    return contact_patches<Dim>(
-        touching_, [&](std::int32_t cell) { return ranks_ ? ranks_->holds_of(cell) : holds_of_cell(ccg_, cell); });
+    return contact_patches<Dim>(touching_, [&](std::int32_t cell) { return faces_->holds_of(cell); });
 }
 
 template <int Dim>

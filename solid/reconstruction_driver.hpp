@@ -16,7 +16,6 @@
 #include "abut/solid/loads.hpp"
 #include "abut/solid/options.hpp"
 #include "abut/solid/rank_faces.hpp"
-#include "abut/solid/rank_sharing.hpp"
 
 namespace abut::solid {
 
@@ -85,8 +84,7 @@ private:
     void set_start(std::span<const Vector<Dim>> q_0, double time);
     void set_end(std::span<const Vector<Dim>> q_1, double time);
     void build_surface(const SolidOptions<Dim>& options);
-    void make_contact() { contact_.emplace(surface_.view(), options_, sharing_ ? &*sharing_ : nullptr); }
-    void append_faces();
+    void make_contact() { contact_.emplace(surface_.view(), options_, faces_->sharing()); }
     [[nodiscard]] contact::FaceCoupling<Dim> list_faces(std::span<const contact::Face> faces);
     [[nodiscard]] bool is_of_obstacle(contact::Face face) const {
         return static_cast<std::size_t>(face) >= boundary_of_surface_.size();
@@ -116,8 +114,7 @@ private:
     Obstacles<Dim> obstacles_;
     contact::Surface<Dim> surface_;                  // deformable faces, then those of the obstacles
     std::vector<BoundaryFace> boundary_of_surface_;  // of each deformable surface face; `no_face`: it is on other ranks
-    std::unique_ptr<RankFaces<Dim>> ranks_;          // null on one rank
-    std::optional<RankSharing> sharing_;             // likewise
+    std::unique_ptr<SharedFaces<Dim>> faces_;        // the deformable ones
     std::optional<contact::Contact<Dim>> contact_;
     ListWatch<Dim> watch_;
     bool has_stepped_ = false;                      // the start of the path is known: it is where the last step ended
@@ -126,7 +123,6 @@ private:
     std::vector<BoundaryFace> boundary_of_listed_;  // of those that are here: all on one rank
     std::vector<std::size_t> listed_here_;          // their indices in the list
     mutable std::vector<Vector<Dim>> correction_here_, gradient_here_;  // work arrays of `corrections`
-    std::vector<Vector<Dim>> own_displacement_, own_gradient_;          // and of `evaluate_faces`
     std::vector<Vector<Dim>> u_0_, u_1_, y_0_,
         y_1_;                                    // path of the listed faces; between steps _0 is where the last one ended
     std::vector<TouchingPoints<Dim>> touching_;  // faces of the pairs that were active in the last step
