@@ -17,6 +17,7 @@
 #include "abut/dynamics/with_scheme.hpp"
 #include "abut/run/divergence.hpp"
 #include "abut/run/frame_piece.hpp"
+#include "abut/run/last_sound.hpp"
 #include "abut/run/obstacle_watch.hpp"
 #include "abut/run/of_all_ranks.hpp"
 #include "abut/run/rank_balance.hpp"
@@ -26,6 +27,7 @@
 #include "abut/run/step_figures.hpp"
 #include "abut/run/surface_watch.hpp"
 #include "abut/run/wanted.hpp"
+#include "abut/run/whole_run.hpp"
 
 namespace abut::run {
 namespace {
@@ -51,9 +53,10 @@ public:
           observer_(observer),
           solid_(*start.solid),
           result_(start.result),
+          whole_(start),
           filter_(solid_),
           obstacle_watch_(scene_),
-          self_watch_(scene_, seen()),
+          self_watch_(scene_, whole_.seen()),
           make_(std::move(make)),
           integrator_(make_(start)),
           times_of_setup_(solid_.times()),
@@ -64,9 +67,8 @@ public:
     }
 
     void run(const Checkpoint* from) {
-        show([&](const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) {
-            result_.start = solid::body_motions<Dim>(run, solid);
-        });
+        whole_.show(*integrator_,
+                    [&](const auto& run, auto& solid) { result_.start = solid::body_motions<Dim>(run, solid); });
         if (from)
             resume(*from);
         else
@@ -82,9 +84,9 @@ public:
             if (balance_.is_due(integrator_->steps()) && integrator_->steps() < result_.steps) rebalance();
         }
         const contact::ContactReport contact = solid_.contact_report();
-        show([&](const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) {
+        whole_.show(*integrator_, [&](const auto& run, auto& solid) {
             result_.end = solid::body_motions<Dim>(run, solid);
-            evaluate_whole(run, solid);
+            whole_.evaluate(run, solid);
             watch_.end(run, solid, result_.accounts.speed, contact.active_pairs > 0, contact.active_pairs_max > 0);
             observer_.end(run, solid);
         });
@@ -97,7 +99,7 @@ public:
         result_.times = added(times_before_, solid_.times(), times_of_setup_);
         if (balance_.is_on()) balance_.end(solid_.ranks(), own_seconds());
         result_.rebalancing = balance_.report();
-        on_first([&] {
+        whole_.on_first([&] {
             if (scene_.findings) result_.findings = scene_.findings(result_);
         });
     }
@@ -113,36 +115,6 @@ private:
             throw std::runtime_error(at_this_step(error.what()));
         }
         if (scene_.after_step) scene_.after_step(solid_, result_.dt);
-    }
-
-    // Observers are those of rank 0: the others take part where the whole is brought together.
-
-    template <class Body>
-    void on_first(const Body& body) {
-        run::on_first(solid_.ranks(), body);
-    }
-    [[nodiscard]] dynamics::IntegratorState whole_of(dynamics::IntegratorState state) const {
-        return collected<Dim>(solid_.ranks(), std::move(state));
-    }
-    /// Of all cells, for observers.
-    [[nodiscard]] solid::Solid<Dim>& seen() { return start_.whole ? *start_.whole : solid_; }
-
-    /// Calls see(run, solid) with the present state of the whole, on rank 0.
-    template <class See>
-    void show(const See& see) {
-        if (solid_.ranks().is_one()) return see(dynamics::RunView<Dim>(*integrator_), solid_);
-        const dynamics::IntegratorState state = whole_of(integrator_->state());
-        const std::vector<std::byte> memory = solid_.state();
-        on_first([&] {
-            start_.whole->restore(memory, state.q);
-            see(dynamics::RunView<Dim>(state), *start_.whole);
-        });
-    }
-
-    /// Faces stand where contact has moved them in the last evaluation. On one rank that was at the record before; the whole that
-    /// rank 0 sees was only restored.
-    void evaluate_whole(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) {
-        if (!solid_.ranks().is_one()) static_cast<void>(solid.potential(run.q));
     }
 
     /// What rank 0 wants now, in one message; progress is told of with it.
@@ -162,22 +134,21 @@ private:
     void look(const Wanted& wanted) {
         if (wanted.piece >= 0) make_piece(wanted.piece);
         if (wanted.measure)
-            show([&](const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) {
+            whole_.show(*integrator_, [&](const auto& run, auto& solid) {
                 const Stopwatch watch(result_.seconds.looks);
-                evaluate_whole(run, solid);
+                whole_.evaluate(run, solid);
                 watch_.look(run, solid, result_.accounts.speed, result_.contact.active_pairs > 0);
             });
-        if (wanted.look)
-            show([&](const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) { observer_.look(run, solid); });
+        if (wanted.look) whole_.show(*integrator_, [&](const auto& run, auto& solid) { observer_.look(run, solid); });
     }
     void make_piece(std::int64_t frame) {
         const FramePiece<Dim> piece = frame_piece<Dim>(frame, scene_.mesh, *integrator_, solid_);
         dynamics::agreed(solid_.ranks(), [&] { observer_.piece(piece); });
-        on_first([&] { observer_.all_pieces(piece); });
+        whole_.on_first([&] { observer_.all_pieces(piece); });
     }
     void keep() {
         const Checkpoint kept = checkpoint();
-        on_first([&] { observer_.keep(kept); });
+        whole_.on_first([&] { observer_.keep(kept); });
     }
 
     // Several ranks share the cells out again
@@ -197,7 +168,7 @@ private:
         {
             const Stopwatch watch(seconds);
             const dynamics::IntegratorState motion = gathered<Dim>(ranks, integrator_->state());
-            const dynamics::IntegratorState sound = gathered<Dim>(ranks, sound_);
+            const dynamics::IntegratorState sound = gathered<Dim>(ranks, sound_.state());
             const std::vector<std::byte> memory = solid_.state();
             times_before_ = added(times_before_, solid_.times(), times_of_setup_);
             start_.take_part(start_.first_share.again(weights));
@@ -207,7 +178,7 @@ private:
             if (restart_)
                 make_restart(
                     {.period = options_.restart, .steps_before = integrator_->steps(), .report_before = restart_->report()});
-            sound_ = own_of<Dim>(solid_.ranks(), sound);
+            sound_.replace(own_of<Dim>(solid_.ranks(), sound));
             times_of_setup_ = solid_.times();
             own_seconds_before_ = times_of_setup_.own_cells;
         }
@@ -221,7 +192,7 @@ private:
     }
 
     void begin() {
-        on_first([&] { observer_.begin(scene_, result_); });
+        whole_.on_first([&] { observer_.begin(scene_, result_); });
         record();
         const Wanted wanted = ask(true);
         look(wanted);
@@ -237,7 +208,7 @@ private:
 
     [[nodiscard]] Checkpoint checkpoint() {
         Checkpoint checkpoint{.run = identity(scene_, result_),
-                              .motion = whole_of(integrator_->state()),
+                              .motion = whole_.of(integrator_->state()),
                               .solid = solid_.state(),
                               .ledger = {},
                               .restarts = restart_ ? restart_->report() : dynamics::RestartReport{},
@@ -248,7 +219,7 @@ private:
             const std::vector<double> values = dynamics::ledger_values(entry);
             checkpoint.ledger.insert(checkpoint.ledger.end(), values.begin(), values.end());
         }
-        on_first([&] {
+        whole_.on_first([&] {
             StateWriter looks(looks_kind, looks_version);
             result_.accounts.save(looks);
             watch_.save(looks);
@@ -282,8 +253,8 @@ private:
         result_.scale = known_scale<Dim>(scene_.energy_scale, result_);
         result_.inadmissible_overlaps_max = from.inadmissible_overlaps_max;
         result_.resumed_after = integrator_->steps();
-        keep_sound();
-        on_first([&] {
+        sound_.keep(*integrator_, result_.dt);
+        whole_.on_first([&] {
             StateReader state(from.observers, observers_kind, observers_version);
             observer_.resume(scene_, result_, state);
             state.finish();
@@ -308,30 +279,20 @@ private:
 
     /// Where a step has no end.
     void fail_at(const Error& error) {
-        const dynamics::IntegratorState sound = whole_of(sound_);
-        tell({.sound = sound, .lost = nullptr, .cells = named_cells(error, solid_.ranks(), seen(), scene_.mesh.n_cells())});
+        const dynamics::IntegratorState sound = whole_.of(sound_.state());
+        tell({.sound = sound,
+              .lost = nullptr,
+              .cells = named_cells(error, solid_.ranks(), whole_.seen(), scene_.mesh.n_cells())});
     }
 
     /// The error of the run counts, not one of those who are told of it.
     void tell(const Failure& failure) {
-        on_first([&] {
+        whole_.on_first([&] {
             try {
-                observer_.fail(failure, seen());
+                observer_.fail(failure, whole_.seen());
             } catch (...) {
             }
         });
-    }
-
-    /// What `fail` needs, without allocation from one record to the next.
-    void keep_sound() {
-        const auto copy = [](std::span<const double> from, std::vector<double>& to) { to.assign(from.begin(), from.end()); };
-        copy(integrator_->q(), sound_.q);
-        copy(integrator_->p_before(), sound_.p_before);
-        copy(integrator_->p_after(), sound_.p_after);
-        was_sound_ = true;
-        sound_.dt = result_.dt;
-        sound_.time = integrator_->time();
-        sound_.steps = integrator_->steps();
     }
 
     [[nodiscard]] std::string at_this_step(const char* what) const {
@@ -356,19 +317,20 @@ private:
             const Stopwatch watch(result_.seconds.looks);
             obstacle_watch_.look(solid_, integrator_->q(), integrator_->time(), result_.sightings.past_rims);
             if (self_watch_.is_on())
-                show([&](const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) {
-                    evaluate_whole(run, solid);
+                whole_.show(*integrator_, [&](const auto& run, auto& solid) {
+                    whole_.evaluate(run, solid);
                     self_watch_.look(solid, run.q, run.time, run.steps, result_.sightings);
                 });
         }
         const auto& entries = result_.ledger.entries();
         result_.scale = known_scale<Dim>(scene_.energy_scale, result_);
         if (entries.size() == 1 && scene_.contact && !options_.settle) check_contact(entries.front());
-        on_first([&] { observer_.record(entries.back(), result_); });
+        whole_.on_first([&] { observer_.record(entries.back(), result_); });
         const double scale = std::max(result_.accounts.energy_in_play, result_.scale.value);
         check_alive(entries.back(), scale, excess_before);
         const dynamics::LedgerEntry<Dim>& last = entries.back();
-        if (entries.size() == 1 || last.energy - last.pseudo_energy <= sound_share * scale) keep_sound();
+        if (entries.size() == 1 || last.energy - last.pseudo_energy <= sound_share * scale)
+            sound_.keep(*integrator_, result_.dt);
     }
 
     /// At the end, and at evenly spaced records before it: a look costs about as much as a tenth of a step.
@@ -380,21 +342,20 @@ private:
 
     void check_contact(const dynamics::LedgerEntry<Dim>& at_start) {
         const double scale = std::max(at_start.kinetic, scene_.energy_scale.value);
-        show([&](const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) {
-            check_start_contact<Dim>(scene_, solid, run.q, scale);
-        });
+        whole_.show(*integrator_,
+                    [&](const auto& run, auto& solid) { check_start_contact<Dim>(scene_, solid, run.q, scale); });
     }
 
     /// The record before the last one tells of H - H~, and at the end of the run the last one, too.
     void check_alive(const dynamics::LedgerEntry<Dim>& entry, double scale, double excess_before) {
         const bool at_end = result_.ledger.entries().size() > 1 && entry.step == result_.steps;
         if (is_alive(entry, scale, at_end ? result_.ledger.energy_excess() : excess_before)) return;
-        if (!was_sound_) sound_ = integrator_->state();
-        const dynamics::IntegratorState sound = whole_of(sound_), lost = whole_of(integrator_->state());
+        if (!sound_.is_kept()) sound_.replace(integrator_->state());
+        const dynamics::IntegratorState sound = whole_.of(sound_.state()), lost = whole_.of(integrator_->state());
         WorstCell worst;
-        on_first([&] { worst = worst_cell<Dim>(lost, seen()); });
+        whole_.on_first([&] { worst = worst_cell<Dim>(lost, whole_.seen()); });
         tell({.sound = sound, .lost = &lost, .cells = {worst.cell}});
-        on_first([&] { refuse_diverged(scene_, result_, scale, worst); });
+        whole_.on_first([&] { refuse_diverged(scene_, result_, scale, worst); });
     }
 
     Start<Dim>& start_;
@@ -403,14 +364,14 @@ private:
     Observer<Dim>& observer_;
     solid::Solid<Dim>& solid_;  // Start::solid, which may change its part
     RunResult<Dim>& result_;
+    WholeRun<Dim> whole_;
     dynamics::NeutralFilter<solid::Solid<Dim>> filter_;
     std::optional<dynamics::NeutralRestart<solid::Solid<Dim>>> restart_;
     ObstacleWatch<Dim> obstacle_watch_;
     SelfWatch<Dim> self_watch_;
     std::function<Integrator(Start<Dim>&)> make_;
     std::optional<Integrator> integrator_;  // always there
-    dynamics::IntegratorState sound_;       // Failure::sound, except what only the scheme knows
-    bool was_sound_ = false;                // once at least
+    LastSound sound_;
     solid::SolidTimes times_of_setup_;      // the start-up of the scheme, in the seconds of set-up already
     solid::SolidTimes times_before_;        // of steps with other parts
     RankBalance balance_;
