@@ -2,9 +2,11 @@
 // Private to the sources of this layer.
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "abut/contact/blind_corners.hpp"
@@ -124,9 +126,10 @@ public:
     /// Of a face as errors of contact number it; `no_face` of an obstacle, and where there is none of that number.
     [[nodiscard]] virtual BoundaryFace mesh_boundary(contact::Face face) const = 0;
 
-    /// Contact itself, of the law that has it; null under the other one.
-    [[nodiscard]] virtual const contact::Contact<Dim>* by_faces() const { return nullptr; }
-    [[nodiscard]] virtual const contact::NodalContact<Dim>* by_nodes() const { return nullptr; }
+    /// Contact itself, as its law has it: on faces or on nodes.
+    using ByLaw = std::variant<std::reference_wrapper<const contact::Contact<Dim>>,
+                               std::reference_wrapper<const contact::NodalContact<Dim>>>;
+    [[nodiscard]] virtual ByLaw contact() const = 0;
     [[nodiscard]] virtual contact::ContactReport report() const = 0;
     virtual void clear_report() = 0;
     [[nodiscard]] virtual double skin() const = 0;  ///< of the candidate list [m]

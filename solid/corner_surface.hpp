@@ -45,6 +45,8 @@ public:
                   const RankPart<Dim>& part);
 
     [[nodiscard]] contact::NodalSurface<Dim> for_contact() const;
+    /// Who shares the work of contact; null: nobody does.
+    [[nodiscard]] contact::Sharing* sharing() { return shared_->sharing(); }
     /// Body of each face, by its number in the mesh; obstacles count behind.
     [[nodiscard]] std::vector<std::int32_t> bodies_of_faces() const;
     /// How far a corner of these faces moves in its frame at most when no cell does by more than 1.

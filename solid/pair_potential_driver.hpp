@@ -12,7 +12,6 @@
 #include "abut/solid/contact_patches.hpp"
 #include "abut/solid/corner_surface.hpp"
 #include "abut/solid/loads.hpp"
-#include "abut/solid/rank_sharing.hpp"
 
 namespace abut::solid {
 
@@ -55,7 +54,7 @@ public:
     [[nodiscard]] std::span<const contact::PairStep<Dim>> pairs() const override { return contact_.last().pairs; }
     [[nodiscard]] std::vector<dynamics::ContactPatch<Dim>> patches() const override;
 
-    [[nodiscard]] const contact::NodalContact<Dim>* by_nodes() const override { return &contact_; }
+    [[nodiscard]] typename ContactDriver<Dim>::ByLaw contact() const override { return std::cref(contact_); }
     [[nodiscard]] contact::ContactReport report() const override { return contact_.report(); }
     void clear_report() override { contact_.clear_report(); }
     [[nodiscard]] double skin() const override { return contact_.skin(); }
@@ -103,7 +102,6 @@ private:
     const BodyFrames<Dim>& frames_;
     SolidTimes& times_;
     const dynamics::Ranks& ranks_;
-    std::optional<RankSharing> sharing_;  // likewise
     Obstacles<Dim> obstacles_;
     CornerSurface<Dim> corners_;
     contact::NodalContact<Dim> contact_;

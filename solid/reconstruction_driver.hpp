@@ -2,6 +2,7 @@
 // Private to the sources of this layer.
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -65,7 +66,7 @@ public:
     [[nodiscard]] std::span<const contact::PairStep<Dim>> pairs() const override { return contact_->last().pairs; }
     [[nodiscard]] std::vector<dynamics::ContactPatch<Dim>> patches() const override;
 
-    [[nodiscard]] const contact::Contact<Dim>* by_faces() const override { return &*contact_; }
+    [[nodiscard]] typename ContactDriver<Dim>::ByLaw contact() const override { return std::cref(*contact_); }
     [[nodiscard]] contact::ContactReport report() const override;
     void clear_report() override { contact_->clear_report(); }
     [[nodiscard]] BoundaryFace mesh_boundary(contact::Face face) const override {

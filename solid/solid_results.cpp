@@ -1,7 +1,9 @@
 // What a solid tells of itself: contact, bodies, and the way between its points and the cells of the mesh.
 #include <algorithm>
+#include <functional>
 #include <limits>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "abut/base/error.hpp"
@@ -29,6 +31,14 @@ std::vector<double> as_numbers(const std::vector<Vector<Dim>>& vectors) {
     std::vector<double> numbers;
     for (const Vector<Dim>& vector : vectors) numbers.insert(numbers.end(), vector.begin(), vector.end());
     return numbers;
+}
+
+/// Contact of a law; null where contact is by another one.
+template <class OfLaw, int Dim>
+const OfLaw* by_law(const ContactDriver<Dim>& driver) {
+    const auto contact = driver.contact();
+    const auto* found = std::get_if<std::reference_wrapper<const OfLaw>>(&contact);
+    return found ? &found->get() : nullptr;
 }
 
 }  // namespace
@@ -117,12 +127,12 @@ std::span<const BodyImpulse<Dim>> Solid<Dim>::contact_impulses() const {
 
 template <int Dim>
 const contact::Contact<Dim>* Solid<Dim>::contact() const {
-    return contact_ ? contact_->by_faces() : nullptr;
+    return contact_ ? by_law<contact::Contact<Dim>>(*contact_) : nullptr;
 }
 
 template <int Dim>
 const contact::NodalContact<Dim>* Solid<Dim>::nodal_contact() const {
-    return contact_ ? contact_->by_nodes() : nullptr;
+    return contact_ ? by_law<contact::NodalContact<Dim>>(*contact_) : nullptr;
 }
 
 template <int Dim>
