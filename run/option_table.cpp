@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "abut/contact/option_table.hpp"
+#include "abut/dynamics/step_options.hpp"
 #include "abut/solid/option_words.hpp"
 
 namespace abut::run {
@@ -23,6 +24,7 @@ List in(const char* table, const char* group, List options) {
 
 List of_time() {
     const Limits a_time{.unit = "s", .above = 0.0};
+    const auto of_step = [](const char* name) -> OptionTraits { return named(dynamics::step_options(), name); };
     const std::vector<std::string> memm{"memm"}, memm_async{"memm_async"}, bilbao{"bilbao"};
     const std::vector<std::string> single_step{"memm", "leapfrog"};
     return {
@@ -34,17 +36,8 @@ List of_time() {
             {.help = "bring the bodies to rest under the loads of t = 0 before the run begins, with their friction; their "
                      "velocities come after that",
              .named = Named::changed}),
-        option("cfl", &Of::cfl,
-               {.help = "time step over the stable step, at most 1 (the margin for contact is in the stable step)",
-                .limits = {.above = 0.0,
-                           .below = 1.0,
-                           .closed = true,
-                           .remedy = "Give a time step above the stable one with --dt and --allow-unstable."},
-                .named = Named::never}),
-        option("dt", &Of::dt,
-               {.help = "time step, refused above the stable step; by default cfl decides",
-                .limits = a_time,
-                .named = Named::never}),
+        option("cfl", &Of::cfl, of_step("cfl")),
+        option("dt", &Of::dt, of_step("dt")),
         option("allow_unstable", &Of::allow_unstable, {.help = "take dt even above the stable step", .named = Named::never}),
         choice("integrator", &Of::integrator, integrator_words, {.help = "scheme in time (docs/integrators.md)"}),
         option("levels", &Of::levels,
@@ -77,10 +70,7 @@ List of_time() {
                 .free_on_resume = true}),
         choice("filter", &Of::filter, filter_words,
                {.help = "energy-neutral filter of the parasitic mode, after each step in contact", .schemes = memm}),
-        option("restart", &Of::restart,
-               {.help = "of memm: steps between neutral restarts, which clear the parasitic mode of whole bodies; 0: none",
-                .by_default = "10 and the filter with friction, 50 where a body is finite, else 0",
-                .schemes = memm}),
+        option("restart", &Of::restart, of_step("restart")),
         choice(
             "kinematics", &Of::kinematics, kinematics_words,
             {.help = "of all bodies: small for those that do not turn, floating frames, finite (they bend), rigid, as the "

@@ -51,7 +51,7 @@ ABUT_API int abut_solid_load(abut_solid* solid, const char* group, const double*
 typedef struct abut_solid_options {
     size_t struct_size;
     double dt;      /* 0: cfl times the stable step */
-    double cfl;     /* 0: 0.9 */
+    double cfl;     /* of the stable step, at most 1; 0: 0.9 */
     int32_t contact; /* 0: bodies pass through each other */
     int32_t restart; /* steps from one neutral restart to the next; 0: none, with friction 10. Where tractions answer to the motion
                         of a step: 20 */

@@ -18,6 +18,7 @@
 #include "abut/dynamics/memm.hpp"
 #include "abut/dynamics/neutral_restart.hpp"
 #include "abut/dynamics/stable_step.hpp"
+#include "abut/dynamics/step_options.hpp"
 #include "abut/mesh/interpenetration.hpp"
 #include "abut/mesh/io/read_mesh.hpp"
 #include "abut/mesh/shapes/shapes.hpp"
@@ -84,9 +85,11 @@ private:
 template <int Dim>
 void SolidRun<Dim>::begin(const abut_solid_options& given) {
     if (meshes_.empty()) throw Misuse("abut_solid_begin: there is no body. Add one by abut_solid_add_box or _add_file.");
-    if (!(given.dt >= 0.0) || !(given.cfl >= 0.0) || given.restart < 0)
-        throw BadInput("abut_solid_options: dt, cfl and restart must be 0 or more.", {.allowed = 0.0});
-    check_value("abut_solid_options: ", named(contact::friction_options(), "friction"), given.friction, 0.0);
+    const std::string whose = "abut_solid_options: ";
+    check_value(whose, named(dynamics::step_options(), "dt"), given.dt, 0.0);
+    check_value(whose, named(dynamics::step_options(), "cfl"), given.cfl, 0.0);
+    check_value(whose, named(dynamics::step_options(), "restart"), std::int64_t{given.restart}, std::int64_t{0});
+    check_value(whose, named(contact::friction_options(), "friction"), given.friction, 0.0);
     memm_.reset();
     mesh_ = mesh::combine<Dim>(std::span<const mesh::Mesh<Dim>>(meshes_));
     solid::SolidOptions<Dim> options = options_;
@@ -97,7 +100,7 @@ void SolidRun<Dim>::begin(const abut_solid_options& given) {
     }
     solid_.emplace(mesh_, std::move(options));
     stable_dt_ = dynamics::stable_step(*solid_).dt;
-    const double dt = given.dt > 0.0 ? given.dt : (given.cfl > 0.0 ? given.cfl : 0.9) * stable_dt_;
+    const double dt = given.dt > 0.0 ? given.dt : (given.cfl > 0.0 ? given.cfl : dynamics::StepOptions{}.cfl) * stable_dt_;
     memm_.emplace(*solid_, std::vector<double>(solid_->size(), 0.0), solid::uniform_momentum<Dim>(*solid_, velocity_), dt);
     const bool rubs = given.contact != 0 && given.friction > 0.0;
     if (rubs) {

@@ -86,6 +86,25 @@ static void a_pressed_bar_gives_way_and_gets_the_work(void) {
     abut_solid_destroy(solid);
 }
 
+/* They are those of abut run --dt, --cfl and --restart; 0 stands for the default. */
+static void numbers_outside_the_limits_of_runs_are_refused(void) {
+    abut_error error = ABUT_ERROR_INIT;
+    abut_solid* solid = two_bars();
+    abut_solid_options options = ABUT_SOLID_OPTIONS_INIT;
+    options.dt = -1.0;
+    CHECK(abut_solid_begin(solid, &options, &error) == ABUT_BAD_INPUT && strstr(error.message, "dt is -1 s; above 0 s"));
+    options.dt = NAN;
+    CHECK(abut_solid_begin(solid, &options, &error) == ABUT_BAD_INPUT && strstr(error.message, "dt is nan"));
+    options.dt = 0.0, options.cfl = 1.5;
+    CHECK(abut_solid_begin(solid, &options, &error) == ABUT_BAD_INPUT &&
+          strstr(error.message, "cfl is 1.5; above 0, at most 1"));
+    options.cfl = 1.0, options.restart = -1;
+    CHECK(abut_solid_begin(solid, &options, &error) == ABUT_BAD_INPUT && strstr(error.message, "restart is -1; 0 or more"));
+    options.restart = 0;
+    CHECK(abut_solid_begin(solid, &options, &error) == ABUT_OK);
+    abut_solid_destroy(solid);
+}
+
 /* A block that comes down aslant on a clamped one, and rubs. */
 static void friction_takes_what_the_balance_says(void) {
     for (int rubs = 0; rubs < 2; ++rubs) {
@@ -197,6 +216,7 @@ static void a_file_brings_bodies_and_groups(const char* folder) {
 
 int main(int argc, char** argv) {
     a_pressed_bar_gives_way_and_gets_the_work();
+    numbers_outside_the_limits_of_runs_are_refused();
     friction_takes_what_the_balance_says();
     what_cannot_be_is_refused();
     a_file_brings_bodies_and_groups(argc > 1 ? argv[1] : ".");

@@ -1,0 +1,17 @@
+#pragma once
+#include <limits>
+
+#include "abut/base/option.hpp"
+
+namespace abut::dynamics {
+
+/// How long a step is, and what clears the parasitic mode, wherever a run may be made: programs, scenes, Python, C.
+struct StepOptions {
+    double cfl = 0.9;                                      ///< time step over the stable step [-]
+    double dt = std::numeric_limits<double>::quiet_NaN();  ///< time step [s], instead of `cfl`
+    int restart = 0;                                       ///< steps between neutral restarts; 0: none
+};
+
+[[nodiscard]] const OptionList<StepOptions>& step_options();
+
+}  // namespace abut::dynamics
