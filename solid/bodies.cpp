@@ -10,6 +10,7 @@
 #include "abut/mesh/extract.hpp"
 #include "abut/solid/body_cells.hpp"
 #include "abut/solid/law_options.hpp"
+#include "abut/solid/material/require_stored_energy.hpp"
 #include "abut/solid/obstacles.hpp"
 #include "abut/solid/rank_part.hpp"
 
@@ -274,6 +275,7 @@ void Bodies<Dim>::set_stored_energies() {
             throw BadInput(who +
                            "has a law of large strains, for which there is no MeanForce::discrete_gradient. Take "
                            "MeanForce::closed_trapezoid (--mean-force closed_trapezoid).");
+        require_stored_energy(*of_bodies[i], part_options_.materials[i], who);
     }
 }
 

@@ -285,6 +285,34 @@ TEMPLATE_TEST_CASE_SIG(
     CHECK(drift <= 1e-12);
 }
 
+TEST_CASE("a stored energy that contradicts itself or its material is refused: no energy of a run would show it",
+          "[solid][material]") {
+    class WrongStress final : public solid::StoredEnergy<2> {
+        [[nodiscard]] solid::Response<2> at(const Matrix<2>& g) const override {
+            const solid::Response<2> right = law_.at(g);
+            return {.energy = right.energy, .stress = 1.01 * right.stress};
+        }
+        GreenLinear<2> law_{neo_hookean.lambda(), neo_hookean.mu()};
+    };
+    class Turned final : public solid::StoredEnergy<2> {  // linear in G: it grows as it turns
+        [[nodiscard]] solid::Response<2> at(const Matrix<2>& g) const override {
+            const Matrix<2> strain = 0.5 * (g + g.transpose());
+            const Matrix<2> stress =
+                2.0 * neo_hookean.mu() * strain + neo_hookean.lambda() * g.trace() * Matrix<2>::Identity();
+            return {.energy = 0.5 * stress.cwiseProduct(strain).sum(), .stress = stress};
+        }
+    };
+    const auto mesh = boxes<2>()[0].mesh;
+    auto options = alone<2>({.young = 1.0, .poisson = 0.3, .density = 1.0});
+    const auto refused = [&](std::shared_ptr<const solid::StoredEnergy<2>> law, const char* why) {
+        options.finite.stored_energy = {std::move(law)};
+        CHECK_THROWS_WITH(solid::Solid<2>(mesh, options), Catch::Contains(why) && Catch::Contains("body '"));
+    };
+    refused(std::make_shared<WrongStress>(), "not the slope of its energy");
+    refused(std::make_shared<Turned>(), "knows how it is turned");
+    refused(std::make_shared<GreenLinear<2>>(2.0 * neo_hookean.lambda(), neo_hookean.mu()), "other moduli at small strains");
+}
+
 TEST_CASE("a law of large strains is refused where nothing knows it, by the name of the body", "[solid][material]") {
     const auto mesh = boxes<2>()[0].mesh;
     auto options = alone<2>(neo_hookean);
