@@ -34,7 +34,7 @@ void for_each_value(Entry& entry, const Visit& visit) {
     visit_vector(entry.rest_angular_momentum);
     visit_all(entry.restarts.restarts, entry.restarts.shortened, entry.restarts.skipped, entry.restarts.paid);
     visit_vector(entry.pseudo_angular_momentum);
-    visit_all(entry.dissipated, entry.friction_energy, entry.sticking_faces, entry.sliding_faces);
+    visit_all(entry.dissipated, entry.friction_energy, entry.sticking_faces, entry.sliding_faces, entry.material_dissipated);
 }
 
 /// Sum of term(i) over all points of a run.
@@ -55,7 +55,7 @@ std::vector<std::string> ledger_columns() {
     append_names<Dim>(names, "rest_angular_momentum", n_rotations<Dim>);
     names.insert(names.end(), {"restarts", "restarts_shortened", "restarts_skipped", "restart_paid"});
     append_names<Dim>(names, "pseudo_angular_momentum", n_rotations<Dim>);
-    names.insert(names.end(), {"dissipated", "friction_energy", "sticking_faces", "sliding_faces"});
+    names.insert(names.end(), {"dissipated", "friction_energy", "sticking_faces", "sliding_faces", "material_dissipated"});
     return names;
 }
 

@@ -51,12 +51,13 @@ struct LedgerEntry {
     RestartReport restarts;                      ///< so far
     /// J~, which MEMM conserves where bodies may turn [kg m^2/s]: see `pseudo_angular_momentum`
     AngularMomentum<Dim> pseudo_angular_momentum;
-    double dissipated;            ///< by friction so far [J]
+    double dissipated;            ///< by friction and materials so far [J]
     double friction_energy;       ///< part of `potential` that friction holds [J]
     std::int64_t sticking_faces;  ///< in the last step
     std::int64_t sliding_faces;   ///< the same
+    double material_dissipated;   ///< part of `dissipated` that materials have taken: plastic flow [J]
 
-    /// Energy that H~ has received since the start: work and jumps of restarts, less dissipation by friction [J].
+    /// Energy that H~ has received since the start: work and jumps of restarts, less dissipation by friction and materials [J].
     [[nodiscard]] double received() const { return work + restart_jumps - dissipated; }
 };
 
@@ -145,6 +146,10 @@ template <class Scheme, PointSystem S>
         entry.friction_energy = counts.friction_energy;
         entry.sticking_faces = counts.sticking_faces;
         entry.sliding_faces = counts.sliding_faces;
+    }
+    if constexpr (requires { system.dissipated(); }) {
+        entry.material_dissipated = system.dissipated().total();
+        entry.dissipated += entry.material_dissipated;
     }
     if constexpr (requires { system.rotations(integrator.q()); })
         entry.rotation = detail::largest_angle(system.rotations(integrator.q()));

@@ -62,8 +62,8 @@ Key<Body> counts() {
     return required(key_of<Body>("counts", "whole numbers", "bricks along each direction", &Body::counts, read));
 }
 
-std::vector<Word<solid::ElasticLaw>> elastic_laws() {
-    return {solid::elastic_law_words.begin(), solid::elastic_law_words.end()};
+std::vector<Word<solid::MaterialLaw>> material_laws() {
+    return {solid::material_law_words.begin(), solid::material_law_words.end()};
 }
 
 /// Of a material by itself, and of a body that has one of its own.
@@ -80,13 +80,20 @@ Keys<Section> material_values() {
         From::number("eta", value(&solid::Material::eta), {.unit = "Pa", .above = 0.0, .zero = true},
                      "stabilisation of jumps between cells; 0: Young's modulus"),
         From::word(
-            "law", [](Section& section) -> solid::ElasticLaw& { return section.material.law; }, elastic_laws(),
+            "law", [](Section& section) -> solid::MaterialLaw& { return section.material.law; }, material_laws(),
             "at large strains, of finite bodies: st_venant_kirchhoff up to strains of 0.1, neo_hookean and mooney_rivlin "
-            "(rubber) "
-            "beyond"),
+            "(rubber) beyond, j2: metal that yields"),
         From::number("second_share", value(&solid::Material::second_share),
                      {.above = 0.0, .below = 1.0, .closed = true, .zero = true},
-                     "of mooney_rivlin: shear modulus of the second invariant over all of it, at most lambda/(2 mu)")};
+                     "of mooney_rivlin: shear modulus of the second invariant over all of it, at most lambda/(2 mu)"),
+        From::number("yield_stress", value(&solid::Material::yield_stress), {.unit = "Pa", .above = 0.0, .zero = true},
+                     "of j2, which needs it: stress at which it begins to flow in tension"),
+        From::number("hardening", value(&solid::Material::hardening), {.unit = "Pa", .above = 0.0, .zero = true},
+                     "of j2: rise of that stress per equivalent plastic strain"),
+        From::number("saturation", value(&solid::Material::saturation), {.unit = "Pa", .above = 0.0, .zero = true},
+                     "of j2: Voce's rise of that stress in the end, beside `hardening`"),
+        From::number("saturation_rate", value(&solid::Material::saturation_rate), {.above = 0.0, .zero = true},
+                     "of j2: how fast it comes, per equivalent plastic strain")};
 }
 
 }  // namespace

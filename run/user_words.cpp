@@ -28,7 +28,7 @@ constexpr std::array names_of_cpp = std::to_array<Name>({
     {"Contact::faces", "the faces of contact"},
     {"ContactLaw::automatic", "\"automatic\""},
     {"ContactLaw::pair_potential", "contact.law = \"pair_potential\""},
-    {"ElasticLaw::st_venant_kirchhoff", "law = \"st_venant_kirchhoff\""},
+    {"MaterialLaw::st_venant_kirchhoff", "law = \"st_venant_kirchhoff\""},
     {"HostStep::coupling_of", "coupling_of"},
     {"HostStep::gradients_of", "gradients_of"},
     {"Kinematics::small and ::finite", "kinematics \"small\" and \"finite\""},

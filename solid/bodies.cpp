@@ -53,7 +53,7 @@ Bodies<Dim>::Bodies(const mesh::Mesh<Dim>& mesh, const SolidOptions<Dim>& option
     part_options_.materials = chosen(options.materials, deformable_bodies_);
     part_options_.kinematics = chosen(options.kinematics, deformable_bodies_);
     part_options_.acceleration = chosen(options.acceleration, deformable_bodies_);
-    set_stored_energies();
+    set_laws();
     part_options_.boundary.traction.clear();
     for (std::size_t i = 0; i < options.boundary.traction.size(); ++i)
         if (traction_holds_[i] != TractionHold::points)
@@ -257,25 +257,38 @@ Kinematics Bodies<Dim>::kinematics(std::int32_t body) const {
 }
 
 template <int Dim>
-void Bodies<Dim>::set_stored_energies() {
-    auto& of_bodies = part_options_.finite.stored_energy;
-    of_bodies = chosen(options_.finite.stored_energy, deformable_bodies_);
-    of_bodies.resize(deformable_bodies_.size());
-    for (std::size_t i = 0; i < of_bodies.size(); ++i) {
-        if (!of_bodies[i]) of_bodies[i] = stored_energy<Dim>(part_options_.materials[i]);
-        if (!of_bodies[i]) continue;
+void Bodies<Dim>::set_laws() {
+    auto& stored = part_options_.finite.stored_energy;
+    auto& inelastic = part_options_.finite.inelastic;
+    stored = chosen(options_.finite.stored_energy, deformable_bodies_);
+    inelastic = chosen(options_.finite.inelastic, deformable_bodies_);
+    stored.resize(deformable_bodies_.size());
+    inelastic.resize(deformable_bodies_.size());
+    for (std::size_t i = 0; i < stored.size(); ++i) {
+        const Material& material = part_options_.materials[i];
+        if (!stored[i] && !inelastic[i]) {
+            stored[i] = stored_energy<Dim>(material);
+            inelastic[i] = inelastic_law<Dim>(material);
+        }
+        if (!stored[i] && !inelastic[i]) continue;
         const std::int32_t body = deformable_bodies_[i];
         const std::string who = mesh_.name + ": body '" + mesh_.body_names[static_cast<std::size_t>(body)] + "' ";
         if (!is_finite(body))
             throw BadInput(
                 who +
                 "has a law of large strains, which bodies of Kinematics::finite alone know. Take that (--kinematics "
-                "finite), or ElasticLaw::st_venant_kirchhoff.");
+                "finite), or MaterialLaw::st_venant_kirchhoff.");
         if (options_.finite.mean_force == MeanForce::discrete_gradient)
             throw BadInput(who +
                            "has a law of large strains, for which there is no MeanForce::discrete_gradient. Take "
                            "MeanForce::closed_trapezoid (--mean-force closed_trapezoid).");
-        require_stored_energy(*of_bodies[i], part_options_.materials[i], who);
+        if (stored[i] && inelastic[i]) throw BadInput(who + "is given an elastic law and an inelastic one. Leave one out.");
+        if (stored[i]) {
+            require_stored_energy(*stored[i], material, who);
+        } else {
+            const std::vector<double> memory = inelastic[i]->initial_memory();
+            require_stored_energy<Dim>(FrozenLaw<Dim>(*inelastic[i], memory), material, who);
+        }
     }
 }
 

@@ -112,7 +112,7 @@ public:
 private:
     void check() const;
     void keep_groups();
-    void set_stored_energies();
+    void set_laws();
     void refuse_on_turning_bodies(const DirichletCondition<Dim>& condition) const;
     void refuse_following(const TractionCondition<Dim>& condition) const;
     void check_outside(const TractionCondition<Dim>& condition) const;

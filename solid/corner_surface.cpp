@@ -221,11 +221,11 @@ typename CornerSurface<Dim>::Listed CornerSurface<Dim>::list_all() const {
 
 template <int Dim>
 void CornerSurface<Dim>::place(const Listed& listed, std::span<const Vector<Dim>> q, std::span<const BodyFrame<Dim>> frames,
-                               const BoundaryLoad<Dim>& load, double time, Points& x) {
+                               const BoundaryLoad<Dim>& load, double time, Points& x, StepState state) {
     displacement_.resize(listed.own.size());
     tilt_.resize(listed.own.size());
     frames_.displacement(listed.region.input_cells, q, frames, u_);
-    ccg_.evaluate_tilted_faces(listed.region, u_, load, displacement_, tilt_);
+    ccg_.evaluate_tilted_faces(listed.region, u_, load, displacement_, tilt_, state);
     parallel_each(
         std::ssize(listed.own),
         [&](std::ptrdiff_t i) {

@@ -91,7 +91,7 @@ public:
     [[nodiscard]] Listed list_all() const;
     /// Sets x of the nodes listed, in q; the others stay. The frames are those of q.
     void place(const Listed& listed, std::span<const Vector<Dim>> q, std::span<const BodyFrame<Dim>> frames,
-               const BoundaryLoad<Dim>& load, double time, Points& x);
+               const BoundaryLoad<Dim>& load, double time, Points& x, StepState state = StepState::given);
     /// Of the rigid bodies alone; `place` sets them, too.
     void place_rigid(std::span<const Vector<Dim>> q);
     [[nodiscard]] const std::vector<RigidPlace<Dim>>& rigid_places() const { return places_; }

@@ -84,14 +84,14 @@ void PairPotentialDriver<Dim>::follow(std::span<const Vector<Dim>> q_0, std::spa
         }
     }
     const Stopwatch watch(times_.contact);
-    corners_.place(listed_, q_1, frames_.end(), loads_.end(), time + dt, x_1_);
+    corners_.place(listed_, q_1, frames_.end(), loads_.end(), time + dt, x_1_, StepState::end);
 }
 
 template <int Dim>
 void PairPotentialDriver<Dim>::search(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1, double time,
                                       double dt) {
     corners_.place(all_, q_0, frames_.start(), loads_.start(), time, x_0_);
-    corners_.place(all_, q_1, frames_.end(), loads_.end(), time + dt, x_1_);
+    corners_.place(all_, q_1, frames_.end(), loads_.end(), time + dt, x_1_, StepState::end);
     contact_.search(x_0_, x_1_);
     searched_at_ = x_0_;
     far_reach_ = far_skins * contact_.skin();

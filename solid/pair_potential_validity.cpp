@@ -76,7 +76,7 @@ bool PairPotentialDriver<Dim>::is_valid_at_near_nodes(std::span<const Vector<Dim
     if (!has_stepped_ || !contact_.is_valid_for(0.0)) return false;
     if (!faces_leave_cells() && !(motion_since(far_watch_, far_watch_.travelled, time) <= far_reach_)) return false;
     const Listed& looked_at = faces_leave_cells() ? all_ : near_;
-    corners_.place(looked_at, q_1, frames_.end(), loads_.end(), time, x_1_);
+    corners_.place(looked_at, q_1, frames_.end(), loads_.end(), time, x_1_, StepState::end);
     near_watch_ = watch_from(looked_at, q_1, x_1_, time);
     return contact_.is_valid_for(near_watch_.moved);
 }

@@ -15,6 +15,11 @@
 #include "abut/solid/options.hpp"
 #include "abut/solid/outside_work.hpp"
 
+namespace abut {
+class StateReader;
+class StateWriter;
+}  // namespace abut
+
 namespace abut::contact {
 template <int Dim>
 struct BlindCorner;
@@ -121,7 +126,7 @@ public:
     void constrain_at(std::span<const double> q, double dt, std::span<double> p);
     /// RateSystem: what dashpots and brakes act on next is the mean of the rates of p in q and of those of the next step.
     void set_rates(std::span<const double> q, std::span<const double> p);
-    /// Whether V depends on q alone: no condition has a history and no obstacle a path.
+    /// Whether V depends on q alone: no condition has a history, no obstacle a path, and no material remembers.
     [[nodiscard]] bool is_autonomous() const;
     /// Local time steps: each cell on the level of its degrees of freedom, with their force evaluated as often as the finest
     /// level among the cells that it depends on. Throws BadInput if a boundary condition has a history or the
@@ -138,6 +143,8 @@ public:
     [[nodiscard]] double potential(std::span<const double> q);
     /// Work of prescribed displacements, of changing tractions and of moving obstacles so far [J].
     [[nodiscard]] double work() const { return work_; }
+    /// What materials have dissipated so far, friction not counted [J].
+    [[nodiscard]] StepLoss dissipated() const { return dissipated_; }
     /// The linear part alone, without loads and contact: K q [N]; for the stable step.
     void stiffness_product(std::span<const double> q, std::span<double> product);
 
@@ -229,6 +236,10 @@ public:
     /// Of all steps so far: how much cells of bodies of Kinematics::finite were deformed at most. H~ does not show where they
     /// collapse: a step in which det F of one falls to 0.1 throws Diverged.
     [[nodiscard]] const FiniteExtremes& finite_extremes() const { return finite_extremes_; }
+    /// Equivalent plastic strain of a cell of the mesh [-]; 0 where its material has none.
+    [[nodiscard]] double plastic_strain(std::int32_t cell) const;
+    /// Whether a material remembers and dissipates: only schemes that call `mean_force` may run it.
+    [[nodiscard]] bool any_inelastic() const { return ccg_.any_inelastic(); }
     /// sigma of a cell of the mesh in space [Pa], of the state that was evaluated last; 0 in rigid bodies.
     [[nodiscard]] Matrix<Dim> stress(std::int32_t cell) const;
 
@@ -284,6 +295,10 @@ private:
     void finish_step(const Ends& ends, double time, double dt, contact::TakenForce take, std::span<Vector<Dim>> gradient,
                      std::span<double> force);
     void end_step(double time);
+    void book_losses();
+    void save_memory(StateWriter& state) const;
+    void restore_memory(StateReader& state);
+    void refuse_inelastic(const char* why) const;
     void add_contact_impulse(const dynamics::FreeFlight& flight, double time, double dt, std::span<Vector<Dim>> impulse);
     [[nodiscard]] FaceCorrections<Dim> corrections() const;
 
@@ -298,6 +313,7 @@ private:
     SolidTimes times_;
     std::int64_t evaluations_ = 0;
     double work_ = 0.0;
+    StepLoss dissipated_;
     FiniteExtremes finite_extremes_;  // the cell in the mesh
     double time_ = 0.0;               // of the state that the last step ended in
     std::unique_ptr<Loads<Dim>> loads_;

@@ -160,6 +160,12 @@ dynamics::ContactCounts Solid<Dim>::contact_counts() const {
 }
 
 template <int Dim>
+double Solid<Dim>::plastic_strain(std::int32_t cell) const {
+    const std::int32_t deformable = bodies_->deformable_cell(cell).first;
+    return deformable < 0 ? 0.0 : ccg_.plastic_strain(deformable);
+}
+
+template <int Dim>
 std::int32_t Solid<Dim>::cell_of_contact_face(std::int64_t face) const {
     if (!contact_ || face < 0 || face > std::numeric_limits<std::int32_t>::max()) return -1;
     const BoundaryFace boundary = contact_->mesh_boundary(contact::Face{static_cast<std::int32_t>(face)});
@@ -349,6 +355,7 @@ double Solid<Dim>::step_margin() const {
     template contact::ContactReport Solid<Dim>::contact_report() const;                                               \
     template void Solid<Dim>::require_depth() const;                                                                  \
     template dynamics::ContactCounts Solid<Dim>::contact_counts() const;                                              \
+    template double Solid<Dim>::plastic_strain(std::int32_t) const;                                                   \
     template std::int32_t Solid<Dim>::cell_of_contact_face(std::int64_t) const;                                       \
     template std::vector<contact::BlindCorner<Dim>> Solid<Dim>::blind_corners() const;                                \
     template std::optional<contact::EdgePair<Dim>> Solid<Dim>::unseen_edges() const;                                  \

@@ -17,7 +17,7 @@
 namespace abut::solid {
 namespace {
 
-constexpr std::uint32_t version = 2;
+constexpr std::uint32_t version = 3;
 
 template <int Dim>
 std::string kind() {
@@ -60,6 +60,7 @@ std::vector<std::byte> Solid<Dim>::state() const {
     point_loads_->save(state);
     outside_->save(state);
     bodies_->rigid().save(state, *part_);
+    save_memory(state);
     state.put(static_cast<std::uint8_t>(contact_ != nullptr));
     if (!contact_) return std::move(state).finish();
     state.put_all(std::span<const std::byte>(contact_->state()));
@@ -90,6 +91,7 @@ void Solid<Dim>::restore(std::span<const std::byte> bytes, std::span<const doubl
     point_loads_->restore(state);
     outside_->restore(state);
     bodies_->rigid().restore(state);
+    restore_memory(state);
     if ((state.get<std::uint8_t>() != 0) != (contact_ != nullptr))
         throw BadInput(mesh_.name + ": the saved state is of a solid " + (contact_ ? "without" : "with") +
                        " contact, and this one is not.");
@@ -112,12 +114,82 @@ void Solid<Dim>::restore(std::span<const std::byte> bytes, std::span<const doubl
 template <int Dim>
 void Solid<Dim>::begin_run() {
     time_ = work_ = 0.0;
+    dissipated_ = {};
     evaluations_ = 0;
     finite_extremes_ = {};
     outside_->clear_work();
     if (!contact_) return;
     contact_->clear_report();
     contact_->restore_impulses({});
+}
+
+/// What inelastic cells remember: how many numbers each cell has, and all of them, in the order of the cells of all ranks.
+template <int Dim>
+void Solid<Dim>::save_memory(StateWriter& state) const {
+    state.put(dissipated_.in_cells);
+    state.put(dissipated_.on_faces);
+    const auto n_cells = static_cast<std::size_t>(part_->n_all_cells());
+    if (!any_inelastic()) {
+        state.put_all(std::span<const std::int32_t>());
+        state.put_all(std::span<const double>());
+        return;
+    }
+    const std::vector<std::int32_t> sizes = ccg_.memory_sizes();
+    const std::span<const double> memory = ccg_.memory();
+    if (part_->is_whole()) {
+        state.put_all(std::span<const std::int32_t>(sizes));
+        state.put_all(memory);
+        return;
+    }
+    std::vector<double> rows;  // of own cells: number, size, values
+    std::size_t at = 0, own = 0;
+    for (std::size_t c = 0; c < sizes.size(); ++c) {
+        const auto size = static_cast<std::size_t>(sizes[c]);
+        if (own < part_->own_cells().size() && static_cast<std::size_t>(part_->own_cells()[own]) == c) {
+            ++own;
+            rows.push_back(part_->cell_numbers()[c]);
+            rows.push_back(sizes[c]);
+            rows.insert(rows.end(), memory.begin() + at, memory.begin() + at + size);
+        }
+        at += size;
+    }
+    const std::vector<double> all = ranks().gather(rows);
+    std::vector<std::int32_t> all_sizes(n_cells);
+    std::vector<std::size_t> row_of(n_cells);
+    for (std::size_t row = 0; row < all.size(); row += 2 + static_cast<std::size_t>(all[row + 1])) {
+        all_sizes[static_cast<std::size_t>(all[row])] = static_cast<std::int32_t>(all[row + 1]);
+        row_of[static_cast<std::size_t>(all[row])] = row;
+    }
+    std::vector<double> values;
+    for (std::size_t c = 0; c < n_cells; ++c)
+        values.insert(values.end(), all.begin() + row_of[c] + 2, all.begin() + row_of[c] + 2 + all_sizes[c]);
+    state.put_all(std::span<const std::int32_t>(all_sizes));
+    state.put_all(std::span<const double>(values));
+}
+
+template <int Dim>
+void Solid<Dim>::restore_memory(StateReader& state) {
+    dissipated_.in_cells = state.get<double>();
+    dissipated_.on_faces = state.get<double>();
+    const auto sizes = state.get_all<std::int32_t>();
+    const auto values = state.get_all<double>();
+    const std::vector<std::int32_t> here = any_inelastic() ? ccg_.memory_sizes() : std::vector<std::int32_t>();
+    const auto number = [&](std::size_t c) {
+        return part_->is_whole() ? c : static_cast<std::size_t>(part_->cell_numbers()[c]);
+    };
+    bool fits = sizes.empty() == here.empty();
+    for (std::size_t c = 0; fits && c < here.size(); ++c) fits = number(c) < sizes.size() && sizes[number(c)] == here[c];
+    if (!fits)
+        throw BadInput(mesh_.name +
+                       ": the saved state is of materials that remember other things. Restore it where laws of materials "
+                       "are the same.");
+    if (here.empty()) return;
+    std::vector<std::size_t> begin(sizes.size() + 1, 0);
+    for (std::size_t c = 0; c < sizes.size(); ++c) begin[c + 1] = begin[c] + static_cast<std::size_t>(sizes[c]);
+    std::vector<double> memory;
+    for (std::size_t c = 0; c < here.size(); ++c)
+        memory.insert(memory.end(), values.begin() + begin[number(c)], values.begin() + begin[number(c)] + here[c]);
+    ccg_.set_memory(memory);
 }
 
 // Parts --------------------------------------------------------------------------------------------------------------
@@ -237,6 +309,8 @@ void PairPotentialDriver<Dim>::restore(std::span<const std::byte> state, std::sp
 #define ABUT_INSTANTIATE(Dim)                                                                                           \
     template std::vector<std::byte> Solid<Dim>::state() const;                                                          \
     template void Solid<Dim>::restore(std::span<const std::byte>, std::span<const double>);                             \
+    template void Solid<Dim>::save_memory(StateWriter&) const;                                                          \
+    template void Solid<Dim>::restore_memory(StateReader&);                                                             \
     template void Solid<Dim>::begin_run();                                                                              \
     template void Loads<Dim>::save(StateWriter&) const;                                                                 \
     template void Loads<Dim>::restore(StateReader&);                                                                    \

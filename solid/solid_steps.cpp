@@ -55,6 +55,8 @@ void Solid<Dim>::mean_force(std::span<const double> q_0, std::span<const double>
     require_start(time, dt);
     const auto [u_0, u_1] = ends_here(q_0, q_1);
     follow_loads(u_0, time, dt);
+    const BoundaryLoad<Dim>& start_load = loads_->vary() ? loads_->start() : loads_->end();
+    ccg_.begin_step(of_cells(u_0), start_load);
     bodies_->rigid().follow(u_0, u_1);
     const double motion = follow_frames(of_cells(u_0), of_cells(u_1));
     if (contact_) {
@@ -64,7 +66,6 @@ void Solid<Dim>::mean_force(std::span<const double> q_0, std::span<const double>
 
     const Stopwatch watch(times_.bulk);
     const auto gradient = result_here(force);
-    const BoundaryLoad<Dim>& start_load = loads_->vary() ? loads_->start() : loads_->end();
     const StepEnds<Dim> ends{of_cells(u_0), of_cells(u_1), &start_load, &loads_->end()};
     const auto take_gradient = [&](const BoundaryLoad<Dim>& load) {
         const ProcessorStopwatch of_cells(times_.own_cells);
@@ -83,6 +84,7 @@ void Solid<Dim>::mean_force(std::span<const double> q_0, std::span<const double>
 template <int Dim>
 void Solid<Dim>::end_force(std::span<const double> q_0, std::span<const double> q_1, double time, double dt,
                            std::span<double> force) {
+    refuse_inelastic("with a scheme that takes forces at the ends of steps");
     require_start(time, dt);
     const auto [u_0, u_1] = ends_here(q_0, q_1);
     const auto gradient = result_here(force);
@@ -122,12 +124,13 @@ void Solid<Dim>::finish_step(const Ends& ends, double time, double dt, contact::
     outside_->add_step(ends.start, ends.end, [this](std::int32_t body) { return mean_turn(body); });
     take_result(force);
     evaluations_ += part_->n_all_cells();
+    book_losses();
     end_step(time + dt);
 }
 
 template <int Dim>
 bool Solid<Dim>::is_autonomous() const {
-    return !loads_->vary() && !point_loads_->do_work() && !frame_loads_->any() &&
+    return !any_inelastic() && !loads_->vary() && !point_loads_->do_work() && !frame_loads_->any() &&
            !(contact_ && contact_->obstacles().move());
 }
 
@@ -183,10 +186,25 @@ void Solid<Dim>::add_work(double share) {
     if (contact_) contact_->take_obstacle_forces(share, work_);
 }
 
+template <int Dim>
+void Solid<Dim>::book_losses() {
+    if (!any_inelastic()) return;
+    dissipated_.in_cells += part_->sum_of_cells([&](std::int32_t c) { return ccg_.step_loss(c).in_cells; });
+    dissipated_.on_faces += part_->sum_of_cells([&](std::int32_t c) { return ccg_.step_loss(c).on_faces; });
+}
+
+template <int Dim>
+void Solid<Dim>::refuse_inelastic(const char* why) const {
+    if (any_inelastic())
+        throw BadInput(mesh_.name + ": a material remembers what happens to it (MaterialLaw::j2), which is not made " + why +
+                       ". Take the scheme memm.");
+}
+
 /// The next step begins where this one ends.
 template <int Dim>
 void Solid<Dim>::end_step(double time) {
     time_ = time;
+    ccg_.end_step();
     loads_->end_step();
     frames_->end_step();
     if (contact_) contact_->end_step();
@@ -197,6 +215,7 @@ void Solid<Dim>::end_step(double time) {
 template <int Dim>
 void Solid<Dim>::set_levels(std::int32_t n_levels, std::span<const std::int32_t> level) {
     dynamics::refuse_ranks(ranks(), {{"local steps"}});
+    refuse_inelastic("with local steps");
     require_local_steps(mesh_.name, options_, !contact_ || contact_->makes_parts());
     if (options_.precision == Precision::single_precision)
         throw BadInput(mesh_.name +

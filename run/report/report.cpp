@@ -111,8 +111,8 @@ Markup bodies_part(const Figures& figures, const Scene<Dim>& scene, const RunRes
 
 /// Figures of a material, and its law where large strains are known.
 std::vector<std::string> said_of(const solid::Material& material, bool is_finite) {
-    std::string law = is_finite ? word_of(solid::elastic_law_words, material.law) : "";
-    if (is_finite && material.law == solid::ElasticLaw::mooney_rivlin)
+    std::string law = is_finite ? word_of(solid::material_law_words, material.law) : "";
+    if (is_finite && material.law == solid::MaterialLaw::mooney_rivlin)
         law += fmt::format(", share {:g}", material.second_share);
     return {fmt::format("{:g}", material.young), fmt::format("{:g}", material.poisson),
             fmt::format("{:g}", material.density),

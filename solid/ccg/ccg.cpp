@@ -265,6 +265,53 @@ StepDefect<Dim> Ccg<Dim>::step_defect(std::int32_t cell, const Vector<Dim>& arm)
 }
 
 template <int Dim>
+bool Ccg<Dim>::any_inelastic() const {
+    return impl_->finite.any_inelastic();
+}
+
+template <int Dim>
+void Ccg<Dim>::begin_step(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load) {
+    if (any_inelastic()) impl_->sweeps.begin_step(u, load);
+}
+
+template <int Dim>
+void Ccg<Dim>::end_step() {
+    impl_->sweeps.end_step();
+}
+
+template <int Dim>
+StepLoss Ccg<Dim>::step_loss(std::int32_t cell) const {
+    return impl_->sweeps.step_loss(cell);
+}
+
+template <int Dim>
+double Ccg<Dim>::plastic_strain(std::int32_t cell) const {
+    const std::int32_t inelastic = impl_->finite.inelastic(cell);
+    if (inelastic < 0) return 0.0;
+    return impl_->finite.inelastic_cell(inelastic).law->plastic_strain(impl_->sweeps.memory_of(inelastic));
+}
+
+template <int Dim>
+std::vector<std::int32_t> Ccg<Dim>::memory_sizes() const {
+    std::vector<std::int32_t> sizes(static_cast<std::size_t>(n_cells()), 0);
+    for (std::int32_t i = 0; i < static_cast<std::int32_t>(impl_->finite.n_inelastic()); ++i) {
+        const auto& cell = impl_->finite.inelastic_cell(i);
+        sizes[static_cast<std::size_t>(cell.cell)] = static_cast<std::int32_t>(cell.end - cell.begin);
+    }
+    return sizes;
+}
+
+template <int Dim>
+std::span<const double> Ccg<Dim>::memory() const {
+    return impl_->sweeps.memory();
+}
+
+template <int Dim>
+void Ccg<Dim>::set_memory(std::span<const double> values) {
+    impl_->sweeps.set_memory(values);
+}
+
+template <int Dim>
 Vector<Dim> Ccg<Dim>::boundary_gradient(BoundaryFace face) const {
     return impl_->steps_were_last ? impl_->steps->face_gradient(face) : impl_->sweeps.face_gradient(face);
 }
@@ -319,8 +366,8 @@ Region<Dim> Ccg<Dim>::region_of_tilted_faces(std::span<const BoundaryFace> faces
 template <int Dim>
 void Ccg<Dim>::evaluate_tilted_faces(const Region<Dim>& region, std::span<const Vector<Dim>> u,
                                      const BoundaryLoad<Dim>& load, std::span<Vector<Dim>> displacement,
-                                     std::span<Matrix<Dim>> displacement_gradient) {
-    impl_->sweeps.evaluate_tilted_faces(region, u, load, displacement, displacement_gradient);
+                                     std::span<Matrix<Dim>> displacement_gradient, StepState state) {
+    impl_->sweeps.evaluate_tilted_faces(region, u, load, displacement, displacement_gradient, state);
 }
 
 template <int Dim>

@@ -51,6 +51,20 @@ struct StepDefect {
     AxialVector<Dim> moment;  ///< of dV/du about the mean position [N m]
 };
 
+/// Energy that a cell of an inelastic material has dissipated in a step [J].
+struct StepLoss {
+    double in_cells = 0.0;  ///< >= 0
+    double on_faces = 0.0;  ///< what its free faces take out of jumps and contact as they flow along: small, without a sign
+
+    [[nodiscard]] double total() const { return in_cells + on_faces; }
+};
+
+/// Which state of a step operators look at. Inelastic materials remember at the end what the step makes of them.
+enum class StepState {
+    given,  ///< any state, with what materials remember now
+    end,    ///< the end of the step that has begun
+};
+
 /// How much the cells of bodies of Kinematics::finite are deformed at most.
 struct FiniteExtremes {
     double determinant = 1.0;  ///< least det F [-]; 0 where a free face has no stretch across left
@@ -141,6 +155,24 @@ public:
     /// Of a cell of Kinematics::finite in the last step of `mean_gradient` or `gradient_of_packed`, where MeanForce is of both
     /// ends; `arm` is its mean position, from any point [m]. The sum over the cells of a body is what counts.
     [[nodiscard]] StepDefect<Dim> step_defect(std::int32_t cell, const Vector<Dim>& arm) const;
+
+    // Cells of inelastic materials, which remember (FiniteOptions::inelastic). A step is `begin_step`, any calls, `mean_gradient` or
+    // `gradient_of_packed` of both ends, and `end_step`; one that is not ended leaves no trace.
+
+    [[nodiscard]] bool any_inelastic() const;
+    void begin_step(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load);
+    void end_step();
+    /// What a cell has dissipated in the last step; nothing where its material is elastic.
+    [[nodiscard]] StepLoss step_loss(std::int32_t cell) const;
+    /// Equivalent plastic strain of a cell [-]; 0 where its material has none.
+    [[nodiscard]] double plastic_strain(std::int32_t cell) const;
+    /// How many numbers a cell remembers, 0 where its material is elastic (n_cells).
+    [[nodiscard]] std::vector<std::int32_t> memory_sizes() const;
+    /// All that cells remember, one cell after the other.
+    [[nodiscard]] std::span<const double> memory() const;
+    /// The other way round; states are looked at anew.
+    void set_memory(std::span<const double> values);
+
     /// dV/dû_f of a boundary face [N], tractions and pairs included, after the last call of `gradient` or its like;
     /// `evaluate_cells` since then has set those of its region, in double precision.
     [[nodiscard]] Vector<Dim> boundary_gradient(BoundaryFace face) const;
@@ -166,7 +198,8 @@ public:
     [[nodiscard]] Region<Dim> region_of_tilted_faces(std::span<const BoundaryFace> faces) const;
     /// û [m] of the region's faces (region.faces), and the displacement gradient G_c of the cells behind them [-].
     void evaluate_tilted_faces(const Region<Dim>& region, std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load,
-                               std::span<Vector<Dim>> displacement, std::span<Matrix<Dim>> displacement_gradient);
+                               std::span<Vector<Dim>> displacement, std::span<Matrix<Dim>> displacement_gradient,
+                               StepState state = StepState::given);
     /// dV/du_c of the region's cells, as `gradient` gives it (region.cells) [N].
     void evaluate_cells(const Region<Dim>& region, std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load,
                         const FaceCorrections<Dim>& corrections, std::span<Vector<Dim>> result);

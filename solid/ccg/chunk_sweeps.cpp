@@ -55,12 +55,12 @@ double CcgSweeps<Dim, Real>::energy(std::ptrdiff_t c) const {
     const auto relative = [&](std::int32_t f) { return load_packed<Dim>(of_face_, f); };
     const LaneTensor<Dim, Real> g = simplices ? element_.gradient_of(u_.data(), c, relative) : load_tensor<Dim>(g_, c);
     const bool finite = finite_.contains(c);
-    const StoredEnergy<Dim>* law = finite_.law(c);
+    const bool has_law = finite_.has_law(c);
     const LaneTensor<Dim, Real> strain = finite ? green_strain(g) : g;
     const LaneTensor<Dim, Real> sigma = finite ? finite_stress(c, strain) : elastic_stress(cell, g);
     double density = 0.0;
     for (int j = 0; j < Dim; ++j) density += dot(sigma.col[j], strain.col[j]);
-    if (law) density = 2.0 * law_response(static_cast<std::int32_t>(c), unload(g)).energy;
+    if (has_law) density = 2.0 * law_response(static_cast<std::int32_t>(c), unload(g)).energy;
     double twice = density / cell.inverse_measure;
     for (std::int32_t i = arrays_.half_face_offsets[c]; i < arrays_.half_face_offsets[c + 1]; ++i) {
         const HalfFace& half_face = arrays_.half_faces[i];

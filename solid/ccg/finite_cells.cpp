@@ -55,6 +55,35 @@ FiniteCells<Dim>::FiniteCells(const mesh::Mesh<Dim>& mesh, const FaceConditions<
         free_.push_back(free_cell<Dim>(c, normals[c]));
         free_.back().measure_over = mesh.cell_measure[c] / area[c];
     }
+    if (std::ranges::any_of(options.inelastic, [](const auto& law) { return law != nullptr; })) set_inelastic(mesh, options);
+}
+
+template <int Dim>
+void FiniteCells<Dim>::set_inelastic(const mesh::Mesh<Dim>& mesh, const FiniteOptions<Dim>& options) {
+    inelastic_laws_ = options.inelastic;
+    inelastic_index_.assign(position_.size(), -1);
+    std::ptrdiff_t begin = 0;
+    for (std::int32_t c = 0; c < mesh.n_cells(); ++c) {
+        const InelasticLaw<Dim>* law = inelastic_laws_[static_cast<std::size_t>(mesh.cell_body[c])].get();
+        if (!law) continue;
+        const auto size = static_cast<std::int32_t>(law->initial_memory().size());
+        const std::ptrdiff_t end = begin + size + (free_position(c) >= 0 ? Dim * Dim : 0);
+        inelastic_index_[c] = static_cast<std::int32_t>(inelastic_.size());
+        inelastic_.push_back({law, c, size, begin, end});
+        begin = end;
+    }
+}
+
+template <int Dim>
+std::vector<double> FiniteCells<Dim>::initial_memory() const {
+    std::vector<double> memory;
+    const Matrix<Dim> unit = Matrix<Dim>::Identity();
+    for (const Inelastic& cell : inelastic_) {
+        const std::vector<double> initial = cell.law->initial_memory();
+        memory.insert(memory.end(), initial.begin(), initial.end());
+        if (free_position(cell.cell) >= 0) memory.insert(memory.end(), unit.data(), unit.data() + unit.size());
+    }
+    return memory;
 }
 
 template <int Dim>

@@ -7,8 +7,8 @@
 
 #include "abut/mesh/mesh.hpp"
 #include "abut/solid/boundary_conditions.hpp"
-#include "abut/solid/ccg/finite_options.hpp"
 #include "abut/solid/ccg/finite_cell.hpp"
+#include "abut/solid/ccg/finite_options.hpp"
 #include "abut/solid/kinematics/kinematics.hpp"
 #include "abut/solid/material/stored_energy.hpp"
 
@@ -27,12 +27,35 @@ public:
     [[nodiscard]] bool any() const { return !position_.empty(); }
     /// Whether their mean force is that of both ends; else it is the discrete gradient.
     [[nodiscard]] bool takes_ends() const { return takes_ends_; }
-    /// Whether a body has a StoredEnergy.
-    [[nodiscard]] bool any_law() const { return !laws_.empty(); }
-    /// Of a cell; null: its material is St. Venant and Kirchhoff's.
-    [[nodiscard]] const StoredEnergy<Dim>* law(std::ptrdiff_t cell) const {
+    /// Whether a body has a StoredEnergy or an InelasticLaw.
+    [[nodiscard]] bool any_law() const { return !laws_.empty() || any_inelastic(); }
+    /// Of a cell: false where its material is St. Venant and Kirchhoff's.
+    [[nodiscard]] bool has_law(std::ptrdiff_t cell) const { return elastic_law(cell) || inelastic(cell) >= 0; }
+    /// Of a cell; null where it has another material.
+    [[nodiscard]] const StoredEnergy<Dim>* elastic_law(std::ptrdiff_t cell) const {
         return laws_.empty() ? nullptr : law_[static_cast<std::size_t>(cell)];
     }
+
+    /// Whether a body has an InelasticLaw, on any rank.
+    [[nodiscard]] bool any_inelastic() const { return !inelastic_laws_.empty(); }
+    [[nodiscard]] std::size_t n_inelastic() const { return inelastic_.size(); }
+    /// Index of a cell among those that remember, increasing; -1: it does not.
+    [[nodiscard]] std::int32_t inelastic(std::ptrdiff_t cell) const {
+        return inelastic_index_.empty() ? -1 : inelastic_index_[static_cast<std::size_t>(cell)];
+    }
+    /// By this index.
+    struct Inelastic {
+        const InelasticLaw<Dim>* law;
+        std::int32_t cell;
+        std::int32_t size;     // of z
+        std::ptrdiff_t begin;  // of the memory of the cell: z, and where it has free faces their LeastEnergy::shape
+        std::ptrdiff_t end;
+    };
+    [[nodiscard]] const Inelastic& inelastic_cell(std::int32_t index) const {
+        return inelastic_[static_cast<std::size_t>(index)];
+    }
+    /// The memory of all cells that nothing has happened to.
+    [[nodiscard]] std::vector<double> initial_memory() const;
     [[nodiscard]] bool contains(std::ptrdiff_t cell) const {
         return any() && position_[static_cast<std::size_t>(cell)] != linear;
     }
@@ -49,6 +72,8 @@ public:
     }
 
 private:
+    void set_inelastic(const mesh::Mesh<Dim>& mesh, const FiniteOptions<Dim>& options);
+
     static constexpr std::int32_t linear = -2, inside = -1;
 
     std::vector<std::int32_t> position_;  // of each cell; empty where no body is finite
@@ -56,6 +81,9 @@ private:
     bool takes_ends_ = false;
     std::vector<std::shared_ptr<const StoredEnergy<Dim>>> laws_;  // by body; empty without any
     std::vector<const StoredEnergy<Dim>*> law_;                   // of each cell; the same
+    std::vector<std::shared_ptr<const InelasticLaw<Dim>>> inelastic_laws_;
+    std::vector<std::int32_t> inelastic_index_;  // of each cell; empty without any
+    std::vector<Inelastic> inelastic_;
 };
 
 }  // namespace abut::solid

@@ -50,18 +50,40 @@ void CcgSweeps<Dim, Real>::set_finite_displacement_gradient(std::int32_t c) {
             element_.gradient_of(u_change_.data(), c, [&](std::int32_t f) { return load_packed<Dim>(relative_change_, f); });
     store_tensor(g, g_, c);
     store_tensor(change, g_change_, c);
-    const std::int32_t position = finite_.free_position(c);
+    const std::int32_t position = finite_.free_position(c), inelastic = finite_.inelastic(c);
+    if (advances_ && inelastic >= 0) advance(c, inelastic, unload(g));
     if (position < 0) return element_.set_traces(c, g);
     const FreeCell<Dim>& free = finite_.free()[position];
     const CellGeometry<Dim, Real>& cell = coefficients_.cells[c];
     FreeEnd<Dim>& state = free_[position];
-    if (const StoredEnergy<Dim>* law = finite_.law(c)) {
+    if (const StoredEnergy<Dim>* law = this->law(c)) {
         state.has_law = true;
-        state.least = LeastEnergy<Dim>(free, *law, contraction(cell.lambda, cell.mu), unload(g));
+        const Matrix<Dim> shape = inelastic < 0
+                                      ? LeastEnergy<Dim>::linear_shape(free, contraction(cell.lambda, cell.mu), unload(g))
+                                      : Matrix<Dim>(here().memory->shape(inelastic));
+        state.least = LeastEnergy<Dim>(free, *law, unload(g), shape);
     } else if (free.has_one_normal()) {
         state.condensed = CondensedStep<Dim>(free, contraction(cell.lambda, cell.mu), unload(g), unload(change));
     }
     element_.set_traces(c, free.has_one_normal() ? load_packed<Dim>(state.gradient()) : g);
+}
+
+/// What an inelastic cell remembers at the end of the step, `g` of affine faces. Its free faces are where the step costs least.
+template <int Dim, class Real>
+void CcgSweeps<Dim, Real>::advance(std::int32_t c, std::int32_t inelastic, const Matrix<Dim>& g) {
+    const InelasticLaw<Dim>& law = *finite_.inelastic_cell(inelastic).law;
+    const std::int32_t position = finite_.free_position(c);
+    const std::span<const double> before = kept_.start.memory->of(inelastic);
+    const std::span<double> after = kept_.end.memory->of(inelastic);
+    Matrix<Dim> flowing = g;
+    if (position >= 0) {
+        const auto shape = kept_.start.memory->shape(inelastic);
+        const LeastEnergy<Dim> least(finite_.free()[position], SteppedLaw<Dim>(law, before, after), g, shape);
+        kept_.end.memory->shape(inelastic) = least.shape();
+        flowing = least.gradient();
+    }
+    std::ranges::copy(before, after.begin());
+    flows_[static_cast<std::size_t>(inelastic)] = law.advance(flowing, after).dissipates ? 1 : 0;
 }
 
 /// F S, both means of the ends of the step, and what the jumps add.
@@ -76,7 +98,7 @@ void CcgSweeps<Dim, Real>::set_finite_stress(std::int32_t c) {
     }
     const LaneTensor<Dim, Real> g = load_tensor<Dim>(g_, c);
     Response<Dim> of_law;
-    if (finite_.law(c)) {
+    if (law(c)) {
         of_law = law_response(c, unload(g));
         for (int j = 0; j < Dim; ++j) sum.col[j] += load_packed<Dim>(Vector<Dim>(of_law.stress.col(j)));
     } else {
@@ -91,7 +113,7 @@ void CcgSweeps<Dim, Real>::set_finite_stress(std::int32_t c) {
 template <int Dim, class Real>
 Response<Dim> CcgSweeps<Dim, Real>::law_response(std::int32_t c, const Matrix<Dim>& g) const {
     const std::int32_t position = finite_.free_position(c);
-    return position < 0 ? finite_.law(c)->at(g) : free_[position].least.response();
+    return position < 0 ? law(c)->at(g) : free_[position].least.response();
 }
 
 // Both ends of a step ------------------------------------------------------------------------------------------------
@@ -103,10 +125,9 @@ void CcgSweeps<Dim, Real>::take_ends(const StepEnds<Dim>& ends) {
     static const BoundaryLoad<Dim> none;
     const BoundaryLoad<Dim>& start_load = ends.start_load ? *ends.start_load : none;
     const BoundaryLoad<Dim>& end_load = ends.end_load ? *ends.end_load : none;
-    if (is_kept(kept_.end, ends.start, start_load))
-        std::swap(kept_.start, kept_.end);
-    else if (!is_kept(kept_.start, ends.start, start_load))
-        set_start(ends.start, start_load);
+    begin_step(ends.start, start_load);
+    advances_ = finite_.any_inelastic();
+    looks_at_end_ = advances_;
     end_ = ends.end;
     end_element_ = element_;
     end_element_.tables.load_displacement = plain<double>(end_load.displacement);
@@ -114,6 +135,34 @@ void CcgSweeps<Dim, Real>::take_ends(const StepEnds<Dim>& ends) {
     kept_.end.is_set = true;
     kept_.clear_contact();
     keeps_ = &kept_.end;
+}
+
+/// What is at `start` is taken from where the last step ended, if that is there, and from memory the same wherever it is.
+template <int Dim, class Real>
+void CcgSweeps<Dim, Real>::begin_step(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load) {
+    if (finite_.any_inelastic()) {
+        if (has_ended_) std::swap(kept_.start, kept_.end);
+        has_ended_ = looks_at_end_ = false;
+    } else if (is_kept(kept_.end, u, load)) {
+        return std::swap(kept_.start, kept_.end);
+    }
+    if (is_kept(kept_.start, u, load)) return;
+    set_start(u, load);
+    keeps_ = nullptr;
+}
+
+template <int Dim, class Real>
+void CcgSweeps<Dim, Real>::end_step() {
+    has_ended_ = looks_at_end_ = finite_.any_inelastic();
+}
+
+template <int Dim, class Real>
+void CcgSweeps<Dim, Real>::set_memory(std::span<const double> values) {
+    for (KeptEnd<Dim>* kept : {&kept_.start, &kept_.end}) {
+        std::ranges::copy(values, kept->memory->values().begin());
+        kept->is_set = false;
+    }
+    has_ended_ = looks_at_end_ = false;
 }
 
 template <int Dim, class Real>
@@ -168,12 +217,13 @@ void CcgSweeps<Dim, Real>::keep_end(std::int32_t c, const Response<Dim>& of_law,
     store_tensor(sum, keeps_->s, c);
     store(direct, keeps_->direct, c);
     if (finite_.condensed(c)) keeps_->free[finite_.free_position(c)] = free_[finite_.free_position(c)];
-    if (finite_.law(c)) {
+    if (finite_.has_law(c)) {
         keeps_->energy[c] = of_law.energy;
         store_tensor(load_packed<Dim>(of_law.stress), keeps_->stress, c);
     }
     if (end_.empty()) return;
-    kept_.set_defect(c);
+    const std::int32_t inelastic = finite_.inelastic(c);
+    kept_.set_defect(c, inelastic >= 0 && flows_[static_cast<std::size_t>(inelastic)] != 0);
     const LaneTensor<Dim, Real> start = load_tensor<Dim>(kept_.start.s, c);
     for (int j = 0; j < Dim; ++j) sum.col[j] = 0.5 * (start.col[j] + sum.col[j]);
     store(0.5 * (load_packed<Dim>(kept_.start.direct, c) + direct), direct_, c);
@@ -222,7 +272,7 @@ Matrix<Dim> CcgSweeps<Dim, Real>::law_gradient(std::int32_t c) const {
 template <int Dim, class Real>
 CellStretch CcgSweeps<Dim, Real>::end_stretch(std::int32_t c) const {
     const CellGeometry<Dim, Real>& cell = coefficients_.cells[c];
-    if (finite_.law(c)) return cell_stretch<Dim>(law_gradient(c));
+    if (finite_.has_law(c)) return cell_stretch<Dim>(law_gradient(c));
     LaneTensor<Dim, Real> g = load_tensor<Dim>(g_, c);
     const LaneTensor<Dim, Real> change = load_tensor<Dim>(g_change_, c);
     for (int j = 0; j < Dim; ++j) g.col[j] += 0.5 * change.col[j];
@@ -244,7 +294,7 @@ FiniteExtremes CcgSweeps<Dim, Real>::finite_extremes(std::span<const std::int32_
         for (const std::int32_t c : cells.subspan(begin, end - begin)) {
             if (!finite_.contains(c)) continue;
             const auto [determinant, strain] = end_stretch(c);
-            take(of_part[begin / parallel_grain], {determinant, finite_.law(c) ? 0.0 : strain, c});
+            take(of_part[begin / parallel_grain], {determinant, finite_.has_law(c) ? 0.0 : strain, c});
         }
     });
     FiniteExtremes extremes;
@@ -255,7 +305,7 @@ FiniteExtremes CcgSweeps<Dim, Real>::finite_extremes(std::span<const std::int32_
 /// F S F^T/det F.
 template <int Dim, class Real>
 Matrix<Dim> CcgSweeps<Dim, Real>::cauchy_stress(std::int32_t c) const {
-    if (finite_.law(c)) {
+    if (finite_.has_law(c)) {
         const Matrix<Dim> f = Matrix<Dim>::Identity() + law_gradient(c);
         return law_response(c, law_gradient(c)).stress * f.transpose() / f.determinant();
     }
@@ -269,6 +319,9 @@ Matrix<Dim> CcgSweeps<Dim, Real>::cauchy_stress(std::int32_t c) const {
 #define ABUT_INSTANTIATE(Dim)                                                                             \
     template void CcgSweeps<Dim>::load_change(const StepEnds<Dim>&);                                      \
     template void CcgSweeps<Dim>::take_ends(const StepEnds<Dim>&);                                        \
+    template void CcgSweeps<Dim>::begin_step(std::span<const Vector<Dim>>, const BoundaryLoad<Dim>&);     \
+    template void CcgSweeps<Dim>::end_step();                                                             \
+    template void CcgSweeps<Dim>::set_memory(std::span<const double>);                                    \
     template void CcgSweeps<Dim>::load_end(std::int32_t);                                                 \
     template Response<Dim> CcgSweeps<Dim>::law_response(std::int32_t, const Matrix<Dim>&) const;          \
     template Lanes<Dim> CcgSweeps<Dim>::boundary_change(BoundaryFace) const;                              \

@@ -1,5 +1,6 @@
 #include "abut/solid/ccg/kept_ends.hpp"
 
+#include <algorithm>
 #include <limits>
 
 namespace abut::solid {
@@ -23,6 +24,15 @@ AxialVector<Dim> moment_of(const Matrix<Dim>& f, const Matrix<Dim>& gradient) {
 }  // namespace
 
 template <int Dim>
+CellMemory<Dim>::CellMemory(const FiniteCells<Dim>& finite)
+    : finite_(finite), values_(finite.initial_memory()), laws_(finite.n_inelastic()) {
+    for (std::size_t i = 0; i < laws_.size(); ++i) {
+        const auto index = static_cast<std::int32_t>(i);
+        laws_[i].set(*finite.inelastic_cell(index).law, of(index));
+    }
+}
+
+template <int Dim>
 void KeptEnd<Dim>::resize(std::size_t n_cells, const FiniteCells<Dim>& finite) {
     constexpr std::size_t width = lane_width<Dim>;
     for (LargeArray<double>* vectors : {&u, &direct}) vectors->resize(width * n_cells);
@@ -35,11 +45,13 @@ void KeptEnd<Dim>::resize(std::size_t n_cells, const FiniteCells<Dim>& finite) {
 
 template <int Dim>
 KeptEnds<Dim>::KeptEnds(const CcgCoefficients<Dim, double>& coefficients, const FiniteCells<Dim>& finite)
-    : coefficients_(coefficients), finite_(finite) {
+    : start(finite), end(finite), coefficients_(coefficients), finite_(finite) {
     if (!finite.takes_ends()) return;
     for (KeptEnd<Dim>* kept : {&start, &end}) kept->resize(coefficients.cells.size(), finite);
     defects_.resize(n_of_defect * coefficients.cells.size());
     if (finite.any_law()) of_contact_.resize(finite.free().size());
+    losses_.resize(finite.n_inelastic());
+    flows_.resize(finite.n_inelastic());
     clear_contact();
 }
 
@@ -60,7 +72,7 @@ CondensedStep<Dim> KeptEnds<Dim>::step_of(std::int32_t c, const Matrix<Dim>& g_0
 template <int Dim>
 double KeptEnds<Dim>::elastic_defect(std::int32_t c, const Matrix<Dim>& g_0, const Matrix<Dim>& g_1) const {
     const Matrix<Dim> change = g_1 - g_0;
-    if (finite_.law(c)) {
+    if (finite_.has_law(c)) {
         const Matrix<Dim> mean =
             0.5 * unload(load_tensor<Dim>(start.stress, c)) + 0.5 * unload(load_tensor<Dim>(end.stress, c));
         return product<Dim>(mean, change) - (end.energy[c] - start.energy[c]);
@@ -78,20 +90,34 @@ double KeptEnds<Dim>::elastic_defect(std::int32_t c, const Matrix<Dim>& g_0, con
 /// dV/du . change of the body, and its moment, are sums over cells of direct . change + |c| S : change of G, as all that is
 /// reconstructed is linear, and exact for affine motions. Jumps are quadratic in u and what the traces take for F, and lack
 /// nothing where that is F itself.
+///
+/// Where a material dissipates, the first part is what it takes, except where it is negative by what the step is too long. The part
+/// of the jumps is then that of faces which flow along with their cell, and has no sign.
 template <int Dim>
-void KeptEnds<Dim>::set_defect(std::int32_t c) {
+void KeptEnds<Dim>::set_defect(std::int32_t c, bool flows) {
     const auto [g_0, g_1] = gradients(c);
     const Matrix<Dim> s = 0.5 * (unload(load_tensor<Dim>(start.s, c)) + unload(load_tensor<Dim>(end.s, c)));
     const double measure = 1.0 / coefficients_.cells[c].inverse_measure;
     double energy = elastic_defect(c, g_0, g_1);
+    const std::int32_t inelastic = finite_.inelastic(c);
+    StepLoss loss;
+    if (flows) {
+        loss.in_cells = measure * std::max(0.0, energy);
+        energy = std::min(0.0, energy);
+    }
     if (finite_.condensed(c)) {
         const auto position = static_cast<std::size_t>(finite_.free_position(c));
         const FreeEnd<Dim>&free_0 = start.free[position], &free_1 = end.free[position];
         const Matrix<Dim> jumps = 0.5 * (free_0.jumps + free_1.jumps);
         const Matrix<Dim> pulled = 0.5 * (free_0.pulled_jumps + free_1.pulled_jumps);
-        energy += finite_.law(c)
-                      ? product<Dim>(pulled, g_1 - g_0) - product<Dim>(jumps, free_1.gradient() - free_0.gradient())
-                      : product<Dim>(pulled - step_of(c, g_0, g_1).pull_back(jumps), g_1 - g_0);
+        const double of_jumps =
+            finite_.has_law(c) ? product<Dim>(pulled, g_1 - g_0) - product<Dim>(jumps, free_1.gradient() - free_0.gradient())
+                               : product<Dim>(pulled - step_of(c, g_0, g_1).pull_back(jumps), g_1 - g_0);
+        (flows ? loss.on_faces : energy) += flows ? measure * of_jumps : of_jumps;
+    }
+    if (inelastic >= 0) {
+        losses_[static_cast<std::size_t>(inelastic)] = loss;
+        flows_[static_cast<std::size_t>(inelastic)] = flows ? 1 : 0;
     }
     const AxialVector<Dim> moment = measure * moment_of<Dim>(Matrix<Dim>::Identity() + 0.5 * (g_0 + g_1), s);
     double* defect = defects_.data() + n_of_defect * c;
@@ -103,17 +129,33 @@ template <int Dim>
 StepDefect<Dim> KeptEnds<Dim>::defect(std::int32_t c) const {
     const double* of_cell = defects_.data() + n_of_defect * c;
     StepDefect<Dim> defect{.energy = of_cell[0], .rounding = 0.0, .moment = Eigen::Map<const AxialVector<Dim>>(of_cell + 1)};
-    if (!finite_.law(c)) return defect;
+    if (!finite_.has_law(c)) return defect;
     const double measure = 1.0 / coefficients_.cells[c].inverse_measure;
     double size = start.energy[c] + end.energy[c];
     if (finite_.condensed(c)) {
         const auto position = static_cast<std::size_t>(finite_.free_position(c));
         size += 0.5 * (start.free[position].jumps + end.free[position].jumps).norm();
-        defect.energy += measure * of_contact_[position].energy;
+        if (!flows(c)) defect.energy += measure * of_contact_[position].energy;
         defect.moment += measure * of_contact_[position].moment;
     }
     defect.rounding = epsilon * measure * size;
     return defect;
+}
+
+template <int Dim>
+bool KeptEnds<Dim>::flows(std::int32_t c) const {
+    const std::int32_t inelastic = finite_.inelastic(c);
+    return inelastic >= 0 && flows_[static_cast<std::size_t>(inelastic)] != 0;
+}
+
+template <int Dim>
+StepLoss KeptEnds<Dim>::loss(std::int32_t c) const {
+    if (!flows(c)) return {};
+    StepLoss loss = losses_[static_cast<std::size_t>(finite_.inelastic(c))];
+    if (finite_.condensed(c))
+        loss.on_faces +=
+            of_contact_[static_cast<std::size_t>(finite_.free_position(c))].energy / coefficients_.cells[c].inverse_measure;
+    return loss;
 }
 
 template <int Dim>
@@ -127,7 +169,7 @@ template <int Dim>
 Matrix<Dim> KeptEnds<Dim>::pull_back_contact(std::int32_t c, const Matrix<Dim>& gradient) {
     const auto [g_0, g_1] = gradients(c);
     const auto position = static_cast<std::size_t>(finite_.free_position(c));
-    if (!finite_.law(c)) return step_of(c, g_0, g_1).pull_back(gradient);
+    if (!finite_.has_law(c)) return step_of(c, g_0, g_1).pull_back(gradient);
     const FreeEnd<Dim>&free_0 = start.free[position], &free_1 = end.free[position];
     const Matrix<Dim> pulled = 0.5 * (free_0.pull_back(gradient) + free_1.pull_back(gradient));
     const Matrix<Dim> mean = Matrix<Dim>::Identity() + 0.5 * (g_0 + g_1);
@@ -139,6 +181,8 @@ Matrix<Dim> KeptEnds<Dim>::pull_back_contact(std::int32_t c, const Matrix<Dim>& 
     return pulled;
 }
 
+template class CellMemory<2>;
+template class CellMemory<3>;
 template struct KeptEnd<2>;
 template struct KeptEnd<3>;
 template class KeptEnds<2>;

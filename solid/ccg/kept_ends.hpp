@@ -1,5 +1,6 @@
 #pragma once
 // Private to the sources of this layer.
+#include <memory>
 #include <span>
 #include <utility>
 #include <vector>
@@ -27,20 +28,50 @@ struct FreeEnd {
     }
 };
 
+/// What the cells of inelastic materials remember in one state.
+template <int Dim>
+class CellMemory {
+public:
+    /// Of cells that nothing has happened to; none where no material remembers.
+    explicit CellMemory(const FiniteCells<Dim>& finite);
+
+    [[nodiscard]] std::span<const double> values() const { return values_; }
+    [[nodiscard]] std::span<double> values() { return values_; }
+    /// z of a cell, by FiniteCells::inelastic.
+    [[nodiscard]] std::span<double> of(std::int32_t index) {
+        const auto& cell = finite_.inelastic_cell(index);
+        return std::span(values_).subspan(static_cast<std::size_t>(cell.begin), static_cast<std::size_t>(cell.size));
+    }
+    /// LeastEnergy::shape of a cell that has free faces.
+    [[nodiscard]] Eigen::Map<Matrix<Dim>> shape(std::int32_t index) {
+        const auto& cell = finite_.inelastic_cell(index);
+        return Eigen::Map<Matrix<Dim>>(values_.data() + cell.begin + cell.size);
+    }
+    [[nodiscard]] const StoredEnergy<Dim>& law(std::int32_t index) const { return laws_[static_cast<std::size_t>(index)]; }
+
+private:
+    const FiniteCells<Dim>& finite_;
+    std::vector<double> values_;
+    std::vector<FrozenLaw<Dim>> laws_;
+};
+
 /// One end of a step, of the cells of finite bodies: what the mean of the forces at both ends is made of.
 template <int Dim>
 struct KeptEnd {
+    explicit KeptEnd(const FiniteCells<Dim>& finite) : memory(std::make_unique<CellMemory<Dim>>(finite)) {}
+
     LargeArray<double> u, g, s, direct;          // by cell, packed as the work arrays of the sweeps
     std::vector<FreeEnd<Dim>> free;              // by position in FiniteCells::free
     LargeArray<double> energy, stress;           // by cell, with a StoredEnergy: W, P; empty without any
     std::vector<Vector<Dim>> load_displacement;  // BoundaryLoad::displacement
+    std::unique_ptr<CellMemory<Dim>> memory;
     bool is_set = false;
 
     void resize(std::size_t n_cells, const FiniteCells<Dim>& finite);
 };
 
 /// Both ends of a step. The end of one is the start of the next, as long as displacements are the same: nothing is evaluated
-/// twice, and nothing is remembered that displacements do not say.
+/// twice. Displacements say all of it, except what inelastic materials remember.
 template <int Dim>
 class KeptEnds {
 public:
@@ -49,8 +80,10 @@ public:
 
     KeptEnd<Dim> start, end;
 
-    /// Both ends of this cell are set.
-    void set_defect(std::int32_t c);
+    /// Both ends of this cell are set. `flows`: its material may have dissipated energy in the step.
+    void set_defect(std::int32_t c, bool flows);
+    /// What this cell has dissipated in the step from `start` to `end` [J].
+    [[nodiscard]] StepLoss loss(std::int32_t c) const;
     /// Of the step from `start` to `end`, less the moment of `direct`.
     [[nodiscard]] StepDefect<Dim> defect(std::int32_t c) const;
 
@@ -64,6 +97,7 @@ private:
     static constexpr int n_axial = Dim * (Dim - 1) / 2;
     static constexpr std::ptrdiff_t n_of_defect = 1 + n_axial;
 
+    [[nodiscard]] bool flows(std::int32_t c) const;
     [[nodiscard]] std::pair<Matrix<Dim>, Matrix<Dim>> gradients(std::int32_t c) const;
     [[nodiscard]] CondensedStep<Dim> step_of(std::int32_t c, const Matrix<Dim>& g_0, const Matrix<Dim>& g_1) const;
     [[nodiscard]] double elastic_defect(std::int32_t c, const Matrix<Dim>& g_0, const Matrix<Dim>& g_1) const;
@@ -72,6 +106,8 @@ private:
     const FiniteCells<Dim>& finite_;
     LargeArray<double> defects_;               // by cell: energy, moment
     std::vector<StepDefect<Dim>> of_contact_;  // over |c|, by position in FiniteCells::free; empty without a StoredEnergy
+    std::vector<StepLoss> losses_;             // by FiniteCells::inelastic
+    std::vector<char> flows_;                  // the same
 };
 
 }  // namespace abut::solid

@@ -14,27 +14,47 @@ constexpr int most_steps = 40, most_halvings = 30;
 constexpr double last_step = 1e-8;     // of F: Newton's next one is below rounding
 constexpr double first_square = 0.05;  // of the stretch across that the search begins with
 
-/// Normal to what the tangents have become, of the length that the linear material would take.
+/// Right-handed: along what the first tangent has become, and normal to what all have. Beside a single tangent in space the second
+/// axis is in the plane of it and of the first normal as affine faces carry it.
 template <int Dim>
-Vector<Dim> first_normal(const Matrix<Dim>& y, double contraction) {
-    const double square = 1.0 + contraction * (Dim - 1 - y.template leftCols<Dim - 1>().squaredNorm());
-    const double stretch = std::sqrt(std::max(first_square, square));
-    if constexpr (Dim == 2)
-        return stretch * Vector<2>(-y(1, 0), y(0, 0)).normalized();
-    else
-        return stretch * moment<3>(Vector<3>(y.col(0)), Vector<3>(y.col(1))).normalized();
+Matrix<Dim> frame_of(const Matrix<Dim>& y, bool has_one_normal) {
+    Matrix<Dim> frame;
+    if constexpr (Dim == 2) {
+        const Vector<2> along = Vector<2>(y.col(0)).normalized();
+        frame << along, Vector<2>(-along[1], along[0]);
+    } else {
+        const Eigen::Vector3d along = Eigen::Vector3d(y.col(0)).normalized(), second = y.col(1);
+        if (has_one_normal) {
+            const Eigen::Vector3d normal = Eigen::Vector3d(y.col(0)).cross(second).normalized();
+            frame << along, normal.cross(along), normal;
+        } else {
+            const Eigen::Vector3d across = (second - along.dot(second) * along).normalized();
+            frame << along, across, along.cross(across);
+        }
+    }
+    return frame;
 }
 
 }  // namespace
 
 template <int Dim>
-LeastEnergy<Dim>::LeastEnergy(const FreeCell<Dim>& free, const StoredEnergy<Dim>& law, double contraction,
-                              const Matrix<Dim>& g)
+Matrix<Dim> LeastEnergy<Dim>::linear_shape(const FreeCell<Dim>& free, double contraction, const Matrix<Dim>& g) {
+    const Matrix<Dim> y = free.axes + g * free.axes;
+    double square = 1.0 + contraction * free.n_tangents;
+    for (int k = 0; k < free.n_tangents; ++k) square -= contraction * y.col(k).squaredNorm();
+    return std::sqrt(std::max(first_square, square)) * Matrix<Dim>::Identity();
+}
+
+template <int Dim>
+LeastEnergy<Dim>::LeastEnergy(const FreeCell<Dim>& free, const StoredEnergy<Dim>& law, const Matrix<Dim>& g,
+                              const Matrix<Dim>& shape)
     : law_(&law), axes_(free.axes), gradient_(g) {
+    if (free.n_tangents == 0) return;
+    frame_ = frame_of<Dim>(axes_ + g * axes_, free.has_one_normal());
     if (free.has_one_normal())
-        set_one_normal(g, contraction);
-    else if (free.n_tangents == 1)
-        set_edge(g, contraction);
+        set_one_normal(g, shape);
+    else
+        set_edge(shape);
 }
 
 /// Minimises W over F + sum a_k D_k. Steps that do not lower it are halved.
@@ -69,9 +89,9 @@ void LeastEnergy<Dim>::minimise(std::array<Matrix<Dim>, n> directions) {
 }
 
 template <int Dim>
-void LeastEnergy<Dim>::set_one_normal(const Matrix<Dim>& g, double contraction) {
+void LeastEnergy<Dim>::set_one_normal(const Matrix<Dim>& g, const Matrix<Dim>& shape) {
     const Vector<Dim> normal = axes_.col(Dim - 1);
-    gradient_ += (first_normal<Dim>(axes_ + g * axes_, contraction) - normal - g * normal) * normal.transpose();
+    gradient_ += (frame_ * shape.col(Dim - 1) - normal - g * normal) * normal.transpose();
     std::array<Matrix<Dim>, Dim> directions;
     for (int k = 0; k < Dim; ++k) directions[k] = Vector<Dim>::Unit(k) * normal.transpose();
     minimise<Dim>(directions);
@@ -83,16 +103,12 @@ void LeastEnergy<Dim>::set_one_normal(const Matrix<Dim>& g, double contraction) 
 /// Two normals in space: what is left is a bar along the edge. A turn about it costs nothing and is left out: n_1 stays in the
 /// plane of the bar and of where it was.
 template <int Dim>
-void LeastEnergy<Dim>::set_edge(const Matrix<Dim>& g, double contraction) {
+void LeastEnergy<Dim>::set_edge(const Matrix<Dim>& shape) {
     if constexpr (Dim == 3) {
-        const Matrix<3> y = axes_ + g * axes_;
-        const Eigen::Vector3d along = Eigen::Vector3d(y.col(0)).normalized();
-        const Eigen::Vector3d u = (Eigen::Vector3d(y.col(1)) - along.dot(y.col(1)) * along).normalized(), v = along.cross(u);
-        const double stretch = std::sqrt(std::max(first_square, 1.0 + contraction * (1.0 - y.col(0).squaredNorm())));
-        Matrix<3> wanted;
-        wanted << y.col(0), stretch * u, stretch * v;
+        Matrix<3> wanted = axes_ + gradient_ * axes_;
+        wanted.template rightCols<2>() = frame_ * shape.template rightCols<2>();
         gradient_ = (wanted - axes_) * axes_.transpose();
-        const Vector<3> n_1 = axes_.col(1), n_2 = axes_.col(2);
+        const Vector<3> along = frame_.col(0), u = frame_.col(1), v = frame_.col(2), n_1 = axes_.col(1), n_2 = axes_.col(2);
         minimise<5>({along * n_1.transpose(), u * n_1.transpose(), along * n_2.transpose(), u * n_2.transpose(),
                      v * n_2.transpose()});
     }

@@ -41,6 +41,7 @@ CcgSweeps<Dim, Real>::CcgSweeps(const CcgArrays<Dim>& arrays, const CcgCoefficie
     pair_gradient_.resize(width * arrays.boundary_faces.size());
     free_.resize(finite.free().size());
     if (finite.any()) g_change_.resize(g_.size());
+    flows_.resize(finite.n_inelastic());
     if (finite.any() && !finite.takes_ends()) {
         u_change_.resize(u_.size());
         relative_change_.resize(of_face_.size());
@@ -125,6 +126,7 @@ void CcgSweeps<Dim, Real>::run_sweeps(const LoadCell& load_cell, const BoundaryL
     has_change_ = false;
     keeps_ = nullptr;
     end_ = {};
+    advances_ = false;
 }
 
 template <int Dim, class Real>
@@ -169,8 +171,12 @@ void CcgSweeps<Dim, Real>::evaluate_to_displacement_gradients(const Region<Dim>&
 template <int Dim, class Real>
 void CcgSweeps<Dim, Real>::evaluate_tilted_faces(const Region<Dim>& region, std::span<const Vector<Dim>> u,
                                                  const BoundaryLoad<Dim>& boundary_load, std::span<Vector<Dim>> displacement,
-                                                 std::span<Matrix<Dim>> gradient) {
+                                                 std::span<Matrix<Dim>> gradient, StepState state) {
+    const bool looked_at_end = looks_at_end_;
+    if (state == StepState::end && finite_.any_inelastic()) looks_at_end_ = advances_ = true;
     evaluate_to_displacement_gradients(region, u, boundary_load);
+    looks_at_end_ = looked_at_end;
+    advances_ = false;
     for (std::size_t i = 0; i < region.faces.size(); ++i)
         std::tie(displacement[i], gradient[i]) = tilted_face(region.faces[i]);
 }

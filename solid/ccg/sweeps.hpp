@@ -69,11 +69,18 @@ public:
     void evaluate_faces(const Region<Dim>& region, std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load,
                         std::span<Vector<Dim>> displacement, std::span<Vector<Dim>> gradient);
     void evaluate_tilted_faces(const Region<Dim>& region, std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load,
-                               std::span<Vector<Dim>> displacement, std::span<Matrix<Dim>> displacement_gradient);
+                               std::span<Vector<Dim>> displacement, std::span<Matrix<Dim>> displacement_gradient,
+                               StepState state);
     void evaluate_cells(const Region<Dim>& region, std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load,
                         const FaceCorrections<Dim>& corrections, std::span<Vector<Dim>> result);
 
     /// See Ccg.
+    void begin_step(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load);
+    void end_step();
+    [[nodiscard]] std::span<const double> memory_of(std::int32_t index) const { return here().memory->of(index); }
+    [[nodiscard]] std::span<const double> memory() const { return here().memory->values(); }
+    void set_memory(std::span<const double> values);
+    [[nodiscard]] StepLoss step_loss(std::int32_t cell) const { return kept_.loss(cell); }
     [[nodiscard]] FiniteExtremes finite_extremes(std::span<const std::int32_t> cells) const;
     [[nodiscard]] StepDefect<Dim> step_defect(std::int32_t cell, const Vector<Dim>& arm) const {
         StepDefect<Dim> defect = kept_.defect(cell);
@@ -116,6 +123,14 @@ private:
     void answer_to_corrections(std::int32_t c);
 
     // One element of a finite body
+    /// What inelastic materials remember in the state that is looked at.
+    [[nodiscard]] const KeptEnd<Dim>& here() const { return looks_at_end_ ? kept_.end : kept_.start; }
+    /// Of a cell; null: its material is St. Venant and Kirchhoff's.
+    [[nodiscard]] const StoredEnergy<Dim>* law(std::ptrdiff_t cell) const {
+        const std::int32_t inelastic = finite_.inelastic(cell);
+        return inelastic < 0 ? finite_.elastic_law(cell) : &here().memory->law(inelastic);
+    }
+    void advance(std::int32_t c, std::int32_t inelastic, const Matrix<Dim>& g);
     [[nodiscard]] Tensor finite_stress(std::ptrdiff_t c, const Tensor& strain) const;
     [[nodiscard]] Response<Dim> law_response(std::int32_t c, const Matrix<Dim>& g) const;
     void keep_end(std::int32_t c, const Response<Dim>& of_law, Tensor& sum);
@@ -173,6 +188,11 @@ private:
     KeptEnd<Dim>* keeps_ = nullptr;       // what the sweeps fill; null: they look at one state
     std::span<const Vector<Dim>> end_;    // of the cells, where the sweeps fill the end of a step; else empty
     SweepElements<Vectors> end_element_;  // `element_` with the load at the end
+    // Of inelastic materials
+    bool looks_at_end_ = false;  // at kept_.end: where the last step has ended, or while it is filled
+    bool advances_ = false;      // while it is filled
+    bool has_ended_ = false;     // the last step has, and the next one begins with kept_.end
+    std::vector<char> flows_;    // of each at the end: whether it dissipates
     // Elsewhere: changes from the start of a step to its end
     LargeArray<double> u_change_;
     LargeArray<Real> relative_change_;

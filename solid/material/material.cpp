@@ -6,6 +6,7 @@
 
 #include "abut/base/error.hpp"
 #include "abut/base/messages.hpp"
+#include "abut/solid/material/j2_plasticity.hpp"
 #include "abut/solid/material/mooney_rivlin.hpp"
 
 namespace abut::solid {
@@ -16,6 +17,24 @@ void require(bool holds, int body, const char* quantity, double value, const cha
         throw BadInput(
             "material of body " + std::to_string(body) + ": " + quantity + " is " + number(value) + "; it must be " + limit,
             {.value = value});
+}
+
+void check_plasticity(const Material& material, int body) {
+    struct Value {
+        const char* name;
+        double value;
+    };
+    const bool yields = material.law == MaterialLaw::j2;
+    for (const auto& [name, value] :
+         {Value{"yield_stress", material.yield_stress}, Value{"hardening", material.hardening},
+          Value{"saturation", material.saturation}, Value{"saturation_rate", material.saturation_rate}}) {
+        require(yields || value == 0.0, body, name, value, "0, as its law is not j2.");
+        require(std::isfinite(value) && value >= 0.0, body, name, value, "finite and >= 0.");
+    }
+    if (!yields) return;
+    require(material.yield_stress > 0.0, body, "yield_stress", material.yield_stress, "> 0 Pa. Mild steel has 2.35e8.");
+    require((material.saturation > 0.0) == (material.saturation_rate > 0.0), body, "saturation_rate",
+            material.saturation_rate, "> 0 where saturation is, and 0 where it is not.");
 }
 
 }  // namespace
@@ -29,9 +48,10 @@ void check(const Material& material, int body) {
             "finite and > 0 kg/m^3. Steel has 7800.");
     require(std::isfinite(material.eta) && material.eta >= 0.0, body, "eta", material.eta,
             "finite and >= 0 Pa (0: take E).");
-    require(material.second_share == 0.0 || material.law == ElasticLaw::mooney_rivlin, body, "second_share",
+    require(material.second_share == 0.0 || material.law == MaterialLaw::mooney_rivlin, body, "second_share",
             material.second_share, "0, as its law is not that of Mooney and Rivlin.");
-    if (material.law == ElasticLaw::st_venant_kirchhoff) return;
+    check_plasticity(material, body);
+    if (material.law != MaterialLaw::neo_hookean && material.law != MaterialLaw::mooney_rivlin) return;
     require(material.poisson >= 0.0, body, "poisson (nu)", material.poisson,
             ">= 0 with a law of rubber, whose energy has no least value below. Take st_venant_kirchhoff.");
     const double most_share = std::min(1.0, 0.5 * material.lambda() / material.mu());
@@ -41,11 +61,33 @@ void check(const Material& material, int body) {
 
 template <int Dim>
 std::shared_ptr<const StoredEnergy<Dim>> stored_energy(const Material& material) {
-    if (material.law == ElasticLaw::st_venant_kirchhoff) return nullptr;
+    if (material.law != MaterialLaw::neo_hookean && material.law != MaterialLaw::mooney_rivlin) return nullptr;
     return std::make_shared<MooneyRivlin<Dim>>(material.lambda(), material.mu(), material.second_share);
+}
+
+template <int Dim>
+std::shared_ptr<const InelasticLaw<Dim>> inelastic_law(const Material& material) {
+    if (material.law != MaterialLaw::j2) return nullptr;
+    return std::make_shared<J2Plasticity<Dim>>(material);
+}
+
+double Material::flow_stress(double plastic_strain) const {
+    return yield_stress + hardening * plastic_strain - saturation * std::expm1(-saturation_rate * plastic_strain);
+}
+
+double Material::hardening_modulus(double plastic_strain) const {
+    return hardening + saturation * saturation_rate * std::exp(-saturation_rate * plastic_strain);
+}
+
+double Material::flow_work(double plastic_strain) const {
+    const double linear = (yield_stress + saturation + 0.5 * hardening * plastic_strain) * plastic_strain;
+    if (saturation == 0.0) return linear;
+    return linear + saturation / saturation_rate * std::expm1(-saturation_rate * plastic_strain);
 }
 
 template std::shared_ptr<const StoredEnergy<2>> stored_energy(const Material&);
 template std::shared_ptr<const StoredEnergy<3>> stored_energy(const Material&);
+template std::shared_ptr<const InelasticLaw<2>> inelastic_law(const Material&);
+template std::shared_ptr<const InelasticLaw<3>> inelastic_law(const Material&);
 
 }  // namespace abut::solid

@@ -1,26 +1,36 @@
 #pragma once
 #include <memory>
 
+#include "abut/solid/material/inelastic.hpp"
 #include "abut/solid/material/stored_energy.hpp"
 
 namespace abut::solid {
 
-/// How a body of Kinematics::finite answers to large strains. At small ones all are isotropic and linear, as other bodies are.
-enum class ElasticLaw {
+/// How a body of Kinematics::finite answers to large strains. At small ones, and below the yield stress, all are isotropic and
+/// linear, as other bodies are.
+enum class MaterialLaw {
     st_venant_kirchhoff,  ///< linear in Green's strain: up to strains of some 0.1
     neo_hookean,          ///< rubber: it stiffens without end where it is squeezed
     mooney_rivlin,        ///< the same with a share of the second invariant, `second_share`
+    j2,                   ///< metal: it yields by von Mises's rule at `yield_stress`, hardens, and remembers
 };
 
-/// Isotropic elasticity; plane strain in 2D. One for each body.
+/// Isotropic elasticity, and plasticity where the law has it; plane strain in 2D. One for each body.
 struct Material {
-    double young = 1.0;                                ///< E [Pa], > 0
-    double poisson = 0.3;                              ///< nu [-], in (-1, 1/2)
-    double density = 1.0;                              ///< rho [kg/m^3], > 0
-    double eta = 0.0;                                  ///< stabilisation of the jumps between cells [Pa]; 0 means E
-    ElasticLaw law = ElasticLaw::st_venant_kirchhoff;  ///< of a body of Kinematics::finite; others have the first
+    double young = 1.0;                                  ///< E [Pa], > 0
+    double poisson = 0.3;                                ///< nu [-], in (-1, 1/2)
+    double density = 1.0;                                ///< rho [kg/m^3], > 0
+    double eta = 0.0;                                    ///< stabilisation of the jumps between cells [Pa]; 0 means E
+    MaterialLaw law = MaterialLaw::st_venant_kirchhoff;  ///< of a body of Kinematics::finite; others have the first
     double second_share =
-        0.0;  ///< of ElasticLaw::mooney_rivlin: mu of the second invariant over mu [-], 0 to min(1, lambda/(2 mu))
+        0.0;  ///< of MaterialLaw::mooney_rivlin: mu of the second invariant over mu [-], 0 to min(1, lambda/(2 mu))
+
+    // Of MaterialLaw::j2: it yields at yield_stress + hardening alpha + saturation (1 - exp(-saturation_rate alpha)), alpha being the
+    // equivalent plastic strain.
+    double yield_stress = 0.0;     ///< [Pa], > 0
+    double hardening = 0.0;        ///< [Pa], >= 0: per plastic strain
+    double saturation = 0.0;       ///< Voce's rise of the yield stress in the end [Pa], >= 0
+    double saturation_rate = 0.0;  ///< per plastic strain [-]; > 0 with `saturation`
 
     /// Lame's first parameter lambda [Pa].
     [[nodiscard]] double lambda() const { return young * poisson / ((1.0 + poisson) * (1.0 - 2.0 * poisson)); }
@@ -32,13 +42,22 @@ struct Material {
     [[nodiscard]] double shear_ratio() const { return mu() / wave_modulus(); }
     /// `eta`, or E where none is given [Pa].
     [[nodiscard]] double stabilisation() const { return eta > 0.0 ? eta : young; }
+    /// sigma(alpha) of MaterialLaw::j2 [Pa].
+    [[nodiscard]] double flow_stress(double plastic_strain) const;
+    /// Its slope [Pa].
+    [[nodiscard]] double hardening_modulus(double plastic_strain) const;
+    /// Its integral from 0: the work of flow per volume [J/m^3].
+    [[nodiscard]] double flow_work(double plastic_strain) const;
 };
 
 /// Throws BadInput naming the body, the value, the limit and the remedy.
 void check(const Material& material, int body);
 
-/// Of its law; null of St. Venant and Kirchhoff's, which the operators know by themselves.
+/// Of its law; null of St. Venant and Kirchhoff's, which the operators know by themselves, and of inelastic ones.
 template <int Dim>
 [[nodiscard]] std::shared_ptr<const StoredEnergy<Dim>> stored_energy(const Material& material);
+/// Of its law; null of elastic ones.
+template <int Dim>
+[[nodiscard]] std::shared_ptr<const InelasticLaw<Dim>> inelastic_law(const Material& material);
 
 }  // namespace abut::solid

@@ -101,6 +101,25 @@ TEMPLATE_TEST_CASE_SIG("bodies that turn, and strike each other and a wall, have
     CHECK(report.rebuilds > 1);
 }
 
+TEMPLATE_TEST_CASE_SIG("metal bodies that flow as they strike each other have the bits of one rank, memory included",
+                       "[ranks][solid][contact]", ((int Dim), Dim), 2, 3) {
+    const ranks::Communicator all = test::world();
+    const auto mesh = two_round_bodies<Dim>();
+    solid::SolidOptions<Dim> options;
+    options.materials = {steel,
+                         {.young = 1.0,
+                          .poisson = 0.3,
+                          .density = 1.0,
+                          .law = solid::MaterialLaw::j2,
+                          .yield_stress = 5e-3,
+                          .hardening = 0.05}};
+    options.kinematics = {solid::Kinematics::floating, solid::Kinematics::finite};
+    options.contact = contact::ContactOptions{};
+    const auto report = check_same_bits<Dim>(all, mesh, options, towards_each_other<Dim>(0.1), Dim == 2 ? 120 : 50,
+                                             parts(all, mesh), {.waves = 0.01, .spin = 0.05});
+    CHECK(report.events > 0);
+}
+
 TEST_CASE("a bar that bends far, and one that turns without contact, have the bits of one rank", "[ranks][solid]") {
     const ranks::Communicator all = test::world();
     const auto mesh = bar<2>(mesh::CellShape::triangle);

@@ -8,9 +8,9 @@
 
 using namespace abut;
 using namespace abut::test;
-using solid::ElasticLaw;
 using solid::Kinematics;
 using solid::Material;
+using solid::MaterialLaw;
 
 namespace {
 
@@ -29,9 +29,9 @@ private:
     double lambda_, mu_;
 };
 
-const Material neo_hookean{.young = 1.0, .poisson = 0.3, .density = 1.0, .law = ElasticLaw::neo_hookean};
+const Material neo_hookean{.young = 1.0, .poisson = 0.3, .density = 1.0, .law = MaterialLaw::neo_hookean};
 const Material mooney_rivlin{
-    .young = 1.0, .poisson = 0.4, .density = 1.0, .law = ElasticLaw::mooney_rivlin, .second_share = 0.4};
+    .young = 1.0, .poisson = 0.4, .density = 1.0, .law = MaterialLaw::mooney_rivlin, .second_share = 0.4};
 
 template <int Dim>
 solid::SolidOptions<Dim> finite_of(const Material& material, int n_bodies = 1) {
@@ -254,7 +254,7 @@ TEMPLATE_TEST_CASE_SIG("rubber bodies that spin collide, and keep H~, momentum a
         motion[body].spin = some_spin<Dim>(body == 0 ? 0.02 : -0.03);
     }
     auto options = finite_of<Dim>(neo_hookean, 2);
-    if (other != Kinematics::finite) options.materials[1].law = ElasticLaw::st_venant_kirchhoff;
+    if (other != Kinematics::finite) options.materials[1].law = MaterialLaw::st_venant_kirchhoff;
     TurningScene<Dim> scene(mesh, options, motion, 0.6, std::vector{Kinematics::finite, other});
     scene.run(Dim == 2 ? 600 : 250);
     check_collision<Dim>(scene);

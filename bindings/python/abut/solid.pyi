@@ -12,13 +12,18 @@ _Field = Optional[Callable[[_Doubles], ArrayLike]]
 
 class Material:
     def __init__(self, young: float = ..., poisson: float = ..., density: float = ..., eta: float = ..., law: str = ...,
-                 second_share: float = ...) -> None: ...
+                 second_share: float = ..., yield_stress: float = ..., hardening: float = ..., saturation: float = ...,
+                 saturation_rate: float = ...) -> None: ...
     young: float
     poisson: float
     density: float
     eta: float
     law: str
     second_share: float
+    yield_stress: float
+    hardening: float
+    saturation: float
+    saturation_rate: float
 
 class _Mesh:
     @property

@@ -1,0 +1,126 @@
+#include "abut/solid/material/j2_plasticity.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "abut/base/decompositions.hpp"
+
+namespace abut::solid {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr int most_steps = 60;
+const double alpha_per_flow = std::sqrt(2.0 / 3.0);
+
+/// C_p^-1 - I from z: its lower triangle by columns.
+template <int Dim>
+Matrix<Dim> plastic_part(std::span<const double> memory) {
+    Matrix<Dim> part;
+    std::size_t at = 0;
+    for (int j = 0; j < Dim; ++j)
+        for (int i = j; i < Dim; ++i) part(i, j) = part(j, i) = memory[at++];
+    return part;
+}
+
+template <int Dim>
+void set_plastic_part(const Matrix<Dim>& part, std::span<double> memory) {
+    std::size_t at = 0;
+    for (int j = 0; j < Dim; ++j)
+        for (int i = j; i < Dim; ++i) memory[at++] = 0.5 * (part(i, j) + part(j, i));
+}
+
+template <int Dim>
+constexpr std::size_t n_plastic = Dim*(Dim + 1) / 2;  // and, in the plane, the part out of it
+
+/// b_e - I where nothing has flowed: G + G^T + G G^T.
+template <int Dim>
+Matrix<Dim> stretched(const Matrix<Dim>& g) {
+    return g + g.transpose() + g * g.transpose();
+}
+
+}  // namespace
+
+/// Principal logarithmic elastic strains, and where they point; the third out of the plane in 2D.
+template <int Dim>
+struct J2Plasticity<Dim>::Elastic {
+    Matrix<Dim> directions;
+    Eigen::Vector3d strain;
+    bool is_sound;  // det F > 0
+};
+
+template <int Dim>
+std::vector<double> J2Plasticity<Dim>::initial_memory() const {
+    return std::vector<double>(n_plastic<Dim> + (Dim == 2 ? 2 : 1), 0.0);
+}
+
+template <int Dim>
+auto J2Plasticity<Dim>::elastic_part(const Matrix<Dim>& g, std::span<const double> memory) const -> Elastic {
+    const Matrix<Dim> f = Matrix<Dim>::Identity() + g;
+    const Matrix<Dim> part = plastic_part<Dim>(memory);
+    const Matrix<Dim> left = stretched<Dim>(g) + f * part * f.transpose();
+    const SymmetricEigen<Dim> eigen = symmetric_eigen(Matrix<Dim>(0.5 * (left + left.transpose())));
+    Elastic elastic{eigen.vectors, Eigen::Vector3d::Zero(), f.determinant() > 0.0};
+    for (int k = 0; k < Dim; ++k) elastic.strain[k] = 0.5 * std::log1p(eigen.values[k]);
+    if constexpr (Dim == 2) elastic.strain[2] = 0.5 * std::log1p(memory[n_plastic<2>]);
+    return elastic;
+}
+
+/// W and P = tau F^-T.
+template <int Dim>
+Response<Dim> J2Plasticity<Dim>::response(const Matrix<Dim>& g, const Elastic& elastic) const {
+    if (!elastic.is_sound) return {infinity, Matrix<Dim>::Constant(infinity)};
+    const double lambda = material_.lambda(), mu = material_.mu(), trace = elastic.strain.sum();
+    Matrix<Dim> tau = Matrix<Dim>::Zero();
+    for (int k = 0; k < Dim; ++k)
+        tau += (lambda * trace + 2.0 * mu * elastic.strain[k]) * elastic.directions.col(k) *
+               elastic.directions.col(k).transpose();
+    const Matrix<Dim> inverse = (Matrix<Dim>::Identity() + g).inverse();
+    return {0.5 * lambda * trace * trace + mu * elastic.strain.squaredNorm(), tau * inverse.transpose()};
+}
+
+template <int Dim>
+Response<Dim> J2Plasticity<Dim>::at(const Matrix<Dim>& g, std::span<const double> memory) const {
+    return response(g, elastic_part(g, memory));
+}
+
+/// Delta gamma of a trial deviator of this size [Pa]: the excess over the yield surface is convex and falls, so that Newton's
+/// method comes from one side.
+template <int Dim>
+double J2Plasticity<Dim>::flow(double size, double alpha) const {
+    const double mu = material_.mu();
+    double flow = 0.0;
+    for (int step = 0; step < most_steps; ++step) {
+        const double at = alpha + alpha_per_flow * flow;
+        const double excess = size - 2.0 * mu * flow - alpha_per_flow * material_.flow_stress(at);
+        const double change = excess / (2.0 * mu + 2.0 / 3.0 * material_.hardening_modulus(at));
+        flow += change;
+        if (!(change > std::numeric_limits<double>::epsilon() * flow)) break;
+    }
+    return flow;
+}
+
+template <int Dim>
+Advance<Dim> J2Plasticity<Dim>::advance(const Matrix<Dim>& g, std::span<double> memory) const {
+    Elastic elastic = elastic_part(g, memory);
+    const Eigen::Vector3d deviator = elastic.strain.array() - elastic.strain.mean();
+    const double mu = material_.mu(), size = 2.0 * mu * deviator.norm(), alpha = memory.back();
+    if (!elastic.is_sound || !(size > alpha_per_flow * material_.flow_stress(alpha))) return {response(g, elastic), false};
+
+    const double flowed = flow(size, alpha), next = alpha + alpha_per_flow * flowed;
+    elastic.strain -= flowed / deviator.norm() * deviator;
+    Matrix<Dim> left = Matrix<Dim>::Zero();  // b_e - I
+    for (int k = 0; k < Dim; ++k)
+        left += std::expm1(2.0 * elastic.strain[k]) * elastic.directions.col(k) * elastic.directions.col(k).transpose();
+    const Matrix<Dim> inverse = (Matrix<Dim>::Identity() + g).inverse();
+    set_plastic_part<Dim>(inverse * (left - stretched<Dim>(g)) * inverse.transpose(), memory);
+    if constexpr (Dim == 2) memory[n_plastic<2>] = std::expm1(2.0 * elastic.strain[2]);
+    memory.back() = next;
+    Advance<Dim> advance{response(g, elastic), true};
+    advance.response.energy += material_.flow_work(next) - material_.flow_work(alpha);
+    return advance;
+}
+
+template class J2Plasticity<2>;
+template class J2Plasticity<3>;
+
+}  // namespace abut::solid

@@ -1,0 +1,277 @@
+// Bodies of Kinematics::finite whose material remembers: J2 plasticity, and laws as a user writes them.
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <memory>
+
+#include "abut/base/error.hpp"
+#include "solid/turning_scenes.hpp"
+
+using namespace abut;
+using namespace abut::test;
+using solid::Kinematics;
+using solid::Material;
+using solid::MaterialLaw;
+
+namespace {
+
+const Material metal{.young = 1.0,
+                     .poisson = 0.3,
+                     .density = 1.0,
+                     .law = MaterialLaw::j2,
+                     .yield_stress = 4e-3,
+                     .hardening = 0.05,
+                     .saturation = 2e-3,
+                     .saturation_rate = 8.0};
+
+template <int Dim>
+Matrix<Dim> some_gradient(unsigned seed, double size) {
+    Matrix<Dim> g;
+    const auto values = random_state(Dim * Dim, seed, size);
+    for (int i = 0; i < Dim * Dim; ++i) g.data()[i] = values[static_cast<std::size_t>(i)];
+    return g;
+}
+
+template <int Dim>
+solid::SolidOptions<Dim> metal_bodies(int n_bodies) {
+    auto options = bodies<Dim>(n_bodies);
+    options.materials.assign(static_cast<std::size_t>(n_bodies), metal);
+    options.kinematics.assign(static_cast<std::size_t>(n_bodies), Kinematics::finite);
+    return options;
+}
+
+template <int Dim>
+solid::SolidOptions<Dim> metal_alone() {
+    auto options = metal_bodies<Dim>(1);
+    options.contact.reset();
+    return options;
+}
+
+/// Two bodies that meet while they spin.
+template <int Dim>
+std::unique_ptr<TurningScene<Dim>> collision(const solid::SolidOptions<Dim>& options) {
+    std::vector<Motion<Dim>> motion(2);
+    for (int body = 0; body < 2; ++body) {
+        if constexpr (Dim == 2)
+            motion[body].velocity = disc_velocities[body];
+        else
+            motion[body].velocity = box_velocities[body];
+        motion[body].spin = some_spin<Dim>(body == 0 ? 0.02 : -0.03);
+    }
+    const auto mesh = [] {
+        if constexpr (Dim == 2)
+            return two_discs(0.5);
+        else
+            return two_boxes(3);
+    }();
+    return std::make_unique<TurningScene<Dim>>(mesh, options, motion, 0.5, Kinematics::finite);
+}
+
+/// What counts the steps of a cell that have ended; elastic as St. Venant and Kirchhoff's material.
+template <int Dim>
+class Counting final : public solid::InelasticLaw<Dim> {
+public:
+    explicit Counting(const Material& material) : lambda_(material.lambda()), mu_(material.mu()) {}
+    [[nodiscard]] std::vector<double> initial_memory() const override { return {0.0}; }
+    [[nodiscard]] solid::Response<Dim> at(const Matrix<Dim>& g, std::span<const double> memory) const override {
+        (void)memory;
+        const Matrix<Dim> e = 0.5 * (g + g.transpose() + g.transpose() * g);
+        const Matrix<Dim> s = lambda_ * e.trace() * Matrix<Dim>::Identity() + 2.0 * mu_ * e;
+        return {.energy = 0.5 * s.cwiseProduct(e).sum(), .stress = s + g * s};
+    }
+    [[nodiscard]] solid::Advance<Dim> advance(const Matrix<Dim>& g, std::span<double> memory) const override {
+        memory[0] += 1.0;
+        return {at(g, memory), false};
+    }
+    [[nodiscard]] double plastic_strain(std::span<const double> memory) const override { return memory[0]; }
+
+private:
+    double lambda_, mu_;
+};
+
+/// Kirchhoff's stress P F^T in space, with that out of the plane where its trace is that of an elastic volume.
+template <int Dim>
+double deviator_size(const Matrix<Dim>& stress, const Matrix<Dim>& g, const Material& material) {
+    const Matrix<Dim> f = Matrix<Dim>::Identity() + g;
+    Matrix<3> tau = Matrix<3>::Zero();
+    tau.template topLeftCorner<Dim, Dim>() = stress * f.transpose();
+    if (Dim == 2) {
+        const double bulk = material.lambda() + 2.0 / 3.0 * material.mu();
+        tau(2, 2) = 3.0 * bulk * std::log(f.determinant()) - tau(0, 0) - tau(1, 1);  // flow keeps the volume
+    }
+    return (tau - tau.trace() / 3.0 * Matrix<3>::Identity()).norm();
+}
+
+}  // namespace
+
+TEMPLATE_TEST_CASE_SIG(
+    "a step of any size ends on the yield surface, keeps the volume of what has flowed, and knows no turn",
+    "[solid][material]", ((int Dim), Dim), 2, 3) {
+    const auto law = solid::inelastic_law<Dim>(metal);
+    for (const double size : {0.01, 0.1, 0.3})
+        for (unsigned seed = 1; seed <= 40; ++seed) {
+            std::vector<double> memory = law->initial_memory();
+            const Matrix<Dim> first = some_gradient<Dim>(seed, size), last = first + some_gradient<Dim>(seed + 100, size);
+            if ((Matrix<Dim>::Identity() + first).determinant() < 0.2 ||
+                (Matrix<Dim>::Identity() + last).determinant() < 0.2)
+                continue;
+            (void)law->advance(first, memory);
+            const double before = law->plastic_strain(memory);
+            auto turned_memory = memory;
+            const auto step = law->advance(last, memory);
+            if (!step.dissipates) continue;
+            CHECK(law->plastic_strain(memory) > before);
+            const double yield = std::sqrt(2.0 / 3.0) * metal.flow_stress(law->plastic_strain(memory));
+            CHECK(std::abs(deviator_size<Dim>(step.response.stress, last, metal) - yield) <= 1e-12);
+            // What is remembered gives the stress that the step ended with, and another look does not flow.
+            CHECK((law->at(last, memory).stress - step.response.stress).norm() <= 1e-13);
+            // The same in turned axes of space
+            const Matrix<Dim> turn = turned_by<Dim>(0.8), unit = Matrix<Dim>::Identity();
+            const auto turned = law->advance(turn * (unit + last) - unit, turned_memory);
+            CHECK((turned.response.stress - turn * step.response.stress).norm() <= 1e-13);
+            for (std::size_t i = 0; i < memory.size(); ++i) CHECK(std::abs(turned_memory[i] - memory[i]) <= 1e-13);
+        }
+}
+
+TEMPLATE_TEST_CASE_SIG("the stress at the end of a plastic step is the slope of what the step stores and dissipates",
+                       "[solid][material]", ((int Dim), Dim), 2, 3) {
+    const auto law = solid::inelastic_law<Dim>(metal);
+    constexpr double h = 1e-6;
+    for (const unsigned seed : {1u, 2u, 3u}) {
+        std::vector<double> memory = law->initial_memory();
+        (void)law->advance(some_gradient<Dim>(seed, 0.05), memory);
+        const Matrix<Dim> g = some_gradient<Dim>(seed + 10, 0.1), d = some_gradient<Dim>(seed + 20, 1.0);
+        const auto energy = [&](const Matrix<Dim>& at) {
+            auto changed = memory;
+            return law->advance(at, changed).response.energy;
+        };
+        auto changed = memory;
+        const double slope = (energy(g + h * d) - energy(g - h * d)) / (2.0 * h);
+        CHECK(std::abs(law->advance(g, changed).response.stress.cwiseProduct(d).sum() - slope) <= 1e-8);
+    }
+}
+
+TEST_CASE("pure shear in the plane hardens as the closed form says, for small and for large strains", "[solid][material]") {
+    // Stretches l, 1/l: tau_1 = 2 mu (ln l - e_p), |dev| = sqrt(2) tau_1, alpha = 2 e_p/sqrt(3).
+    Material linear = metal;
+    linear.saturation = linear.saturation_rate = 0.0;
+    const auto law = solid::inelastic_law<2>(linear);
+    const double mu = linear.mu();
+    for (const double log : {1e-3, 5e-3, 0.1, 0.8}) {
+        std::vector<double> memory = law->initial_memory();
+        Matrix<2> g = Matrix<2>::Zero();
+        g(0, 0) = std::expm1(log);
+        g(1, 1) = std::expm1(-log);
+        const auto step = law->advance(g, memory);
+        const double root = std::sqrt(3.0);
+        const double flowed =
+            std::max(0.0, (2.0 * mu * log - linear.yield_stress / root) / (2.0 * mu + 2.0 / 3.0 * linear.hardening));
+        CHECK(law->plastic_strain(memory) == Approx(2.0 * flowed / root).epsilon(1e-12).margin(1e-17));
+        CHECK(step.response.stress(0, 0) == Approx(2.0 * mu * (log - flowed) / std::exp(log)).epsilon(1e-12));
+    }
+}
+
+TEMPLATE_TEST_CASE_SIG("a metal block that spins and rings flows, keeps H~ + D and J~, and dissipates in each step",
+                       "[solid][material]", ((int Dim), Dim), 2, 3) {
+    for (const auto& [name, mesh] : boxes<Dim>()) {
+        CAPTURE(name);
+        const Motion<Dim> spinning{Vector<Dim>::Zero(), some_spin<Dim>(0.02)};
+        TurningScene<Dim> scene(mesh, metal_alone<Dim>(), {spinning}, 0.4, Kinematics::finite, 0.03);
+        double least = 0.0, last = 0.0;
+        for (int step = 0; step < 400; ++step) {
+            scene.run(1);
+            raise(least, last - scene.solid.dissipated().in_cells);
+            last = scene.solid.dissipated().in_cells;
+        }
+        const Drifts drifts = scene.drifts();
+        CHECK(last > 0.1 * scene.ledger.largest_energy());
+        CHECK(least <= 0.0);
+        CHECK(scene.ledger.entries().back().material_dissipated == scene.solid.dissipated().total());
+        CHECK(drifts.pseudo_energy <= 1e-13);
+        CHECK(drifts.pseudo_moment <= 1e-13);
+        CHECK(drifts.momentum <= 1e-13);
+        CHECK(drifts.parasitic <= 1e-2);
+    }
+}
+
+TEMPLATE_TEST_CASE_SIG("metal bodies that spin collide, flow where they touch, and keep H~ + D, momentum and J~",
+                       "[solid][material]", ((int Dim), Dim), 2, 3) {
+    const auto scene = collision<Dim>(metal_bodies<Dim>(2));
+    scene->run(Dim == 2 ? 600 : 250);
+    check_collision<Dim>(*scene);
+    CHECK(scene->solid.dissipated().in_cells > 0.01 * scene->ledger.largest_energy());
+    CHECK(std::abs(scene->solid.dissipated().on_faces) <= 0.2 * scene->solid.dissipated().in_cells);
+    CHECK(scene->drifts().energy_excess <= 1e-2);
+}
+
+TEMPLATE_TEST_CASE_SIG("only a step that has ended is remembered: looks, forces and refused steps are not",
+                       "[solid][material]", ((int Dim), Dim), 2, 3) {
+    auto options = metal_bodies<Dim>(2);
+    const Material elastic{.young = 1.0, .poisson = 0.3, .density = 1.0};
+    options.materials = {elastic, elastic};
+    options.finite.inelastic = {std::make_shared<Counting<Dim>>(elastic), nullptr};
+    const auto scene = collision<Dim>(options);
+    auto& solid = scene->solid;
+    std::vector<double> force(solid.size());
+    const auto check_count = [&](double expected) {
+        for (std::int32_t c = 0; c < scene->mesh.n_cells(); ++c)
+            CHECK(solid.plastic_strain(c) == (scene->mesh.cell_body[static_cast<std::size_t>(c)] == 0 ? expected : 0.0));
+    };
+    for (int step = 0; step < 40; ++step) {  // into contact
+        scene->memm.step();
+        std::vector<double> q(scene->memm.q().begin(), scene->memm.q().end());
+        (void)solid.potential(q);
+        solid.force(q, force);
+        (void)solid.contact_field(q);
+        for (double& of_point : q) of_point *= 1.01;
+        (void)solid.potential(q);
+        (void)dynamics::measure(scene->memm, solid);
+    }
+    check_count(40.0);
+    const std::vector<double> q(scene->memm.q().begin(), scene->memm.q().end());
+    std::vector<double> nowhere(q.size());
+    for (std::size_t i = 0; i < q.size(); ++i)
+        nowhere[i] = 10.0 * solid.rest_positions()[i / Dim][static_cast<int>(i % Dim)];
+    CHECK_THROWS_AS(solid.mean_force(q, nowhere, scene->memm.time(), scene->memm.dt(), force), Error);
+    scene->memm.step();
+    check_count(41.0);
+}
+
+TEMPLATE_TEST_CASE_SIG("a run of metal bodies that goes on from its state has the same bits", "[solid][material]",
+                       ((int Dim), Dim), 2, 3) {
+    const auto whole = collision<Dim>(metal_bodies<Dim>(2)), first = collision<Dim>(metal_bodies<Dim>(2));
+    const int half = Dim == 2 ? 200 : 80;
+    whole->run(2 * half);
+    first->run(half);
+    CHECK(first->solid.dissipated().in_cells > 0.0);
+    const auto second = collision<Dim>(metal_bodies<Dim>(2));
+    second->memm.restore(first->memm.state());
+    second->solid.restore(first->solid.state(), second->memm.q());
+    second->run(half);
+    CHECK(std::ranges::equal(second->memm.q(), whole->memm.q()));
+    CHECK(std::ranges::equal(second->memm.p_after(), whole->memm.p_after()));
+    CHECK(second->solid.dissipated().total() == whole->solid.dissipated().total());
+    for (std::int32_t c = 0; c < whole->mesh.n_cells(); ++c)
+        CHECK(second->solid.plastic_strain(c) == whole->solid.plastic_strain(c));
+}
+
+TEST_CASE("a material that remembers is refused where nothing keeps what it remembers", "[solid][material]") {
+    const auto mesh = boxes<2>()[0].mesh;
+    solid::Solid<2> solid(mesh, metal_alone<2>());
+    const std::vector<double> q(solid.size(), 0.0);
+    std::vector<double> force(q.size());
+    CHECK_THROWS_WITH(solid.end_force(q, q, 0.0, 1.0, force), Catch::Contains("remembers") && Catch::Contains("memm"));
+    const std::vector<std::int32_t> level(q.size(), 0);
+    CHECK_THROWS_WITH(solid.set_levels(1, level), Catch::Contains("local steps"));
+    auto options = metal_alone<2>();
+    options.kinematics = {Kinematics::floating};
+    CHECK_THROWS_WITH(solid::Solid<2>(mesh, options), Catch::Contains("which bodies of Kinematics::finite alone know"));
+    options = metal_alone<2>();
+    options.materials[0].yield_stress = 0.0;
+    CHECK_THROWS_WITH(solid::Solid<2>(mesh, options), Catch::Contains("yield_stress"));
+    options = metal_alone<2>();
+    options.materials[0].law = MaterialLaw::neo_hookean;
+    CHECK_THROWS_WITH(solid::Solid<2>(mesh, options), Catch::Contains("its law is not j2"));
+    options = metal_alone<2>();
+    options.materials[0].saturation_rate = 0.0;
+    CHECK_THROWS_WITH(solid::Solid<2>(mesh, options), Catch::Contains("saturation_rate"));
+}
