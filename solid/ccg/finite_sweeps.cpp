@@ -68,22 +68,28 @@ void CcgSweeps<Dim, Real>::set_finite_displacement_gradient(std::int32_t c) {
     element_.set_traces(c, free.has_one_normal() ? load_packed<Dim>(state.gradient()) : g);
 }
 
-/// What an inelastic cell remembers at the end of the step, `g` of affine faces. Its free faces are where the step costs least.
+/// What an inelastic cell remembers at the end of the step, `g` of affine faces. Its free faces are where the step costs least: where
+/// they would be if the cell remembered what it did before, unless that makes it remember something else.
 template <int Dim, class Real>
 void CcgSweeps<Dim, Real>::advance(std::int32_t c, std::int32_t inelastic, const Matrix<Dim>& g) {
     const InelasticLaw<Dim>& law = *finite_.inelastic_cell(inelastic).law;
+    CellMemory<Dim>&start = *kept_.start.memory, &end = *kept_.end.memory;
+    const std::span<const double> before = start.of(inelastic);
+    const std::span<double> after = end.of(inelastic);
+    const auto advance_to = [&](const Matrix<Dim>& reached) {
+        std::ranges::copy(before, after.begin());
+        flows_[static_cast<std::size_t>(inelastic)] = law.advance(reached, after).dissipates ? 1 : 0;
+    };
     const std::int32_t position = finite_.free_position(c);
-    const std::span<const double> before = kept_.start.memory->of(inelastic);
-    const std::span<double> after = kept_.end.memory->of(inelastic);
-    Matrix<Dim> flowing = g;
-    if (position >= 0) {
-        const auto shape = kept_.start.memory->shape(inelastic);
-        const LeastEnergy<Dim> least(finite_.free()[position], SteppedLaw<Dim>(law, before, after), g, shape);
-        kept_.end.memory->shape(inelastic) = least.shape();
-        flowing = least.gradient();
-    }
-    std::ranges::copy(before, after.begin());
-    flows_[static_cast<std::size_t>(inelastic)] = law.advance(flowing, after).dissipates ? 1 : 0;
+    if (position < 0) return advance_to(g);
+    const FreeCell<Dim>& free = finite_.free()[position];
+    const auto shape = start.shape(inelastic);
+    end.shape(inelastic) = shape;
+    advance_to(LeastEnergy<Dim>(free, start.law(inelastic), g, shape).gradient());
+    if (std::ranges::equal(before, after)) return;
+    const LeastEnergy<Dim> least(free, SteppedLaw<Dim>(law, before, after), g, shape);
+    end.shape(inelastic) = least.shape();
+    advance_to(least.gradient());
 }
 
 /// F S, both means of the ends of the step, and what the jumps add.

@@ -62,13 +62,14 @@ template <int Dim>
 template <int n>
 void LeastEnergy<Dim>::minimise(std::array<Matrix<Dim>, n> directions) {
     using Unknowns = Eigen::Matrix<double, n, 1>;
+    std::array<Matrix<Dim>, n> changes;
     response_ = law_->at(gradient_);
     for (int step = 0; step < most_steps; ++step) {
         Unknowns residual;
         Eigen::Matrix<double, n, n> tangent;
+        law_->stress_changes(gradient_, directions, changes);
         for (int l = 0; l < n; ++l) {
-            const Matrix<Dim> change = law_->stress_change(gradient_, directions[l]);
-            for (int k = 0; k < n; ++k) tangent(k, l) = directions[k].cwiseProduct(change).sum();
+            for (int k = 0; k < n; ++k) tangent(k, l) = directions[k].cwiseProduct(changes[l]).sum();
             residual[l] = directions[l].cwiseProduct(response_.stress).sum();
         }
         const Unknowns a = -tangent.ldlt().solve(residual);
@@ -95,8 +96,10 @@ void LeastEnergy<Dim>::set_one_normal(const Matrix<Dim>& g, const Matrix<Dim>& s
     std::array<Matrix<Dim>, Dim> directions;
     for (int k = 0; k < Dim; ++k) directions[k] = Vector<Dim>::Unit(k) * normal.transpose();
     minimise<Dim>(directions);
+    std::array<Matrix<Dim>, Dim> changes;
+    law_->stress_changes(gradient_, directions, changes);
     Matrix<Dim> tangent;
-    for (int k = 0; k < Dim; ++k) tangent.col(k) = law_->stress_change(gradient_, directions[k]) * normal;
+    for (int k = 0; k < Dim; ++k) tangent.col(k) = changes[k] * normal;
     inverse_ = tangent.inverse();
 }
 

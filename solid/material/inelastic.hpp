@@ -36,6 +36,19 @@ public:
     [[nodiscard]] virtual Response<Dim> at(const Matrix<Dim>& g, std::span<const double> memory) const = 0;
     /// Changes z by a step that ends at G. Afterwards `at` has the stress that is returned, up to rounding.
     [[nodiscard]] virtual Advance<Dim> advance(const Matrix<Dim>& g, std::span<double> memory) const = 0;
+    /// Where it is known in closed form: changes of the stress of `at` for changes of F at G; false: it is not, and differences are
+    /// taken. Free faces of cells ask for it.
+    [[nodiscard]] virtual bool stress_changes(const Matrix<Dim>& g, std::span<const double> memory,
+                                              std::span<const Matrix<Dim>> changes, std::span<Matrix<Dim>> results) const {
+        (void)g, (void)memory, (void)changes, (void)results;
+        return false;
+    }
+    /// The same of the stress at the end of a step that begins with this memory.
+    [[nodiscard]] virtual bool advanced_changes(const Matrix<Dim>& g, std::span<const double> memory,
+                                                std::span<const Matrix<Dim>> changes, std::span<Matrix<Dim>> results) const {
+        (void)g, (void)memory, (void)changes, (void)results;
+        return false;
+    }
     /// What of z is shown: equivalent plastic strain [-], or 0.
     [[nodiscard]] virtual double plastic_strain(std::span<const double> memory) const {
         (void)memory;
@@ -56,6 +69,16 @@ public:
     }
 
     [[nodiscard]] Response<Dim> at(const Matrix<Dim>& g) const override { return law_->at(g, memory_); }
+    [[nodiscard]] Matrix<Dim> stress_change(const Matrix<Dim>& g, const Matrix<Dim>& change) const override {
+        Matrix<Dim> result;
+        stress_changes(g, std::span(&change, 1), std::span(&result, 1));
+        return result;
+    }
+    void stress_changes(const Matrix<Dim>& g, std::span<const Matrix<Dim>> changes,
+                        std::span<Matrix<Dim>> results) const override {
+        if (law_->stress_changes(g, memory_, changes, results)) return;
+        for (std::size_t i = 0; i < changes.size(); ++i) results[i] = StoredEnergy<Dim>::stress_change(g, changes[i]);
+    }
 
 private:
     const InelasticLaw<Dim>* law_ = nullptr;
@@ -73,6 +96,11 @@ public:
     [[nodiscard]] Response<Dim> at(const Matrix<Dim>& g) const override {
         std::ranges::copy(memory_, changed_.begin());
         return law_.advance(g, changed_).response;
+    }
+    void stress_changes(const Matrix<Dim>& g, std::span<const Matrix<Dim>> changes,
+                        std::span<Matrix<Dim>> results) const override {
+        if (law_.advanced_changes(g, memory_, changes, results)) return;
+        StoredEnergy<Dim>::stress_changes(g, changes, results);
     }
 
 private:

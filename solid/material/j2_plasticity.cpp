@@ -10,6 +10,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr int most_steps = 60;
+constexpr double same_stretch = 1e-9;  // of two axes: the slope of what is between them is taken
 const double alpha_per_flow = std::sqrt(2.0 / 3.0);
 
 /// C_p^-1 - I from z: its lower triangle by columns.
@@ -44,6 +45,7 @@ Matrix<Dim> stretched(const Matrix<Dim>& g) {
 template <int Dim>
 struct J2Plasticity<Dim>::Elastic {
     Matrix<Dim> directions;
+    Vector<Dim> stretch;  // eigenvalues of b_e - I
     Eigen::Vector3d strain;
     bool is_sound;  // det F > 0
 };
@@ -59,7 +61,7 @@ auto J2Plasticity<Dim>::elastic_part(const Matrix<Dim>& g, std::span<const doubl
     const Matrix<Dim> part = plastic_part<Dim>(memory);
     const Matrix<Dim> left = stretched<Dim>(g) + f * part * f.transpose();
     const SymmetricEigen<Dim> eigen = symmetric_eigen(Matrix<Dim>(0.5 * (left + left.transpose())));
-    Elastic elastic{eigen.vectors, Eigen::Vector3d::Zero(), f.determinant() > 0.0};
+    Elastic elastic{eigen.vectors, eigen.values, Eigen::Vector3d::Zero(), f.determinant() > 0.0};
     for (int k = 0; k < Dim; ++k) elastic.strain[k] = 0.5 * std::log1p(eigen.values[k]);
     if constexpr (Dim == 2) elastic.strain[2] = 0.5 * std::log1p(memory[n_plastic<2>]);
     return elastic;
@@ -118,6 +120,71 @@ Advance<Dim> J2Plasticity<Dim>::advance(const Matrix<Dim>& g, std::span<double> 
     Advance<Dim> advance{response(g, elastic), true};
     advance.response.energy += material_.flow_work(next) - material_.flow_work(alpha);
     return advance;
+}
+
+/// d tau_i/d strain_j of principal values [Pa].
+template <int Dim>
+Matrix<3> J2Plasticity<Dim>::elastic_moduli() const {
+    return Matrix<3>::Constant(material_.lambda()) + 2.0 * material_.mu() * Matrix<3>::Identity();
+}
+
+template <int Dim>
+bool J2Plasticity<Dim>::stress_changes(const Matrix<Dim>& g, std::span<const double> memory,
+                                       std::span<const Matrix<Dim>> changes, std::span<Matrix<Dim>> results) const {
+    const Elastic elastic = elastic_part(g, memory);
+    change_stress(g, memory, elastic, elastic.strain, elastic_moduli(), changes, results);
+    return true;
+}
+
+/// The tangent that is consistent with the radial return.
+template <int Dim>
+bool J2Plasticity<Dim>::advanced_changes(const Matrix<Dim>& g, std::span<const double> memory,
+                                         std::span<const Matrix<Dim>> changes, std::span<Matrix<Dim>> results) const {
+    const Elastic elastic = elastic_part(g, memory);
+    const Eigen::Vector3d deviator = elastic.strain.array() - elastic.strain.mean();
+    const double mu = material_.mu(), size = 2.0 * mu * deviator.norm(), alpha = memory.back();
+    Eigen::Vector3d strain = elastic.strain;
+    Matrix<3> moduli = elastic_moduli();
+    if (size > alpha_per_flow * material_.flow_stress(alpha)) {
+        const double flowed = flow(size, alpha);
+        const double hardening = 2.0 / 3.0 * material_.hardening_modulus(alpha + alpha_per_flow * flowed);
+        const Eigen::Vector3d along = deviator.normalized();
+        const Matrix<3> onto = along * along.transpose();
+        const Matrix<3> deviatoric = Matrix<3>::Identity() - Matrix<3>::Constant(1.0 / 3.0);
+        moduli -= 4.0 * mu * mu * (flowed / size * (deviatoric - onto) + onto / (2.0 * mu + hardening));
+        strain -= flowed * along;
+    }
+    change_stress(g, memory, elastic, strain, moduli, changes, results);
+    return true;
+}
+
+/// Changes of P = tau F^-T, tau being a function of b_e before the step has flowed, with its axes.
+template <int Dim>
+void J2Plasticity<Dim>::change_stress(const Matrix<Dim>& g, std::span<const double> memory, const Elastic& elastic,
+                                      const Eigen::Vector3d& strain, const Matrix<3>& moduli,
+                                      std::span<const Matrix<Dim>> changes, std::span<Matrix<Dim>> results) const {
+    const Matrix<Dim> f = Matrix<Dim>::Identity() + g, to_stress = f.inverse().transpose();
+    const Matrix<Dim> arm = (Matrix<Dim>::Identity() + plastic_part<Dim>(memory)) * f.transpose();
+    const Eigen::Vector3d tau = material_.lambda() * strain.sum() * Eigen::Vector3d::Ones() + 2.0 * material_.mu() * strain;
+    const Matrix<Dim>& axes = elastic.directions;
+    const Matrix<Dim> stress = axes * tau.head<Dim>().asDiagonal() * axes.transpose() * to_stress;
+    for (std::size_t n = 0; n < changes.size(); ++n) {
+        const Matrix<Dim> half = changes[n] * arm;
+        const Matrix<Dim> stretched = axes.transpose() * (half + half.transpose()) * axes;
+        Eigen::Vector3d strained = Eigen::Vector3d::Zero();
+        for (int k = 0; k < Dim; ++k) strained[k] = 0.5 * stretched(k, k) / (1.0 + elastic.stretch[k]);
+        const Eigen::Vector3d along = moduli * strained;
+        Matrix<Dim> change;
+        for (int j = 0; j < Dim; ++j)
+            for (int i = 0; i < Dim; ++i) {
+                const double apart = elastic.stretch[i] - elastic.stretch[j];
+                const double slope = std::abs(apart) > same_stretch
+                                         ? (tau[i] - tau[j]) / apart
+                                         : 0.5 * (moduli(i, i) - moduli(i, j)) / (1.0 + elastic.stretch[i]);
+                change(i, j) = i == j ? along[i] : slope * stretched(i, j);
+            }
+        results[n] = axes * change * axes.transpose() * to_stress - stress * changes[n].transpose() * to_stress;
+    }
 }
 
 template class J2Plasticity<2>;

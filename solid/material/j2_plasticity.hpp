@@ -20,6 +20,10 @@ public:
     [[nodiscard]] std::vector<double> initial_memory() const override;
     [[nodiscard]] Response<Dim> at(const Matrix<Dim>& g, std::span<const double> memory) const override;
     [[nodiscard]] Advance<Dim> advance(const Matrix<Dim>& g, std::span<double> memory) const override;
+    [[nodiscard]] bool stress_changes(const Matrix<Dim>& g, std::span<const double> memory,
+                                      std::span<const Matrix<Dim>> changes, std::span<Matrix<Dim>> results) const override;
+    [[nodiscard]] bool advanced_changes(const Matrix<Dim>& g, std::span<const double> memory,
+                                        std::span<const Matrix<Dim>> changes, std::span<Matrix<Dim>> results) const override;
     [[nodiscard]] double plastic_strain(std::span<const double> memory) const override { return memory.back(); }
 
 private:
@@ -27,6 +31,10 @@ private:
     [[nodiscard]] Elastic elastic_part(const Matrix<Dim>& g, std::span<const double> memory) const;
     [[nodiscard]] Response<Dim> response(const Matrix<Dim>& g, const Elastic& elastic) const;
     [[nodiscard]] double flow(double size, double alpha) const;
+    [[nodiscard]] Matrix<3> elastic_moduli() const;
+    void change_stress(const Matrix<Dim>& g, std::span<const double> memory, const Elastic& elastic,
+                       const Eigen::Vector3d& strain, const Matrix<3>& moduli, std::span<const Matrix<Dim>> changes,
+                       std::span<Matrix<Dim>> results) const;
 
     Material material_;
 };

@@ -1,4 +1,5 @@
 // Bodies of Kinematics::finite whose material remembers: J2 plasticity, and laws as a user writes them.
+#include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <memory>
@@ -148,6 +149,32 @@ TEMPLATE_TEST_CASE_SIG("the stress at the end of a plastic step is the slope of 
         const double slope = (energy(g + h * d) - energy(g - h * d)) / (2.0 * h);
         CHECK(std::abs(law->advance(g, changed).response.stress.cwiseProduct(d).sum() - slope) <= 1e-8);
     }
+}
+
+TEMPLATE_TEST_CASE_SIG("changes of the stress of metal are its slopes, in a state and in a step that flows",
+                       "[solid][material]", ((int Dim), Dim), 2, 3) {
+    const auto law = solid::inelastic_law<Dim>(metal);
+    constexpr double h = 1e-6;
+    for (const unsigned seed : {1u, 2u, 3u})
+        for (const double size : {1e-4, 0.1}) {  // before it yields, and beyond
+            std::vector<double> memory = law->initial_memory();
+            (void)law->advance(some_gradient<Dim>(seed, size), memory);
+            const Matrix<Dim> g = some_gradient<Dim>(seed + 10, size);
+            const std::array changes{some_gradient<Dim>(seed + 20, 1.0), some_gradient<Dim>(seed + 30, 1.0)};
+            std::array<Matrix<Dim>, 2> of_state, of_step;
+            REQUIRE(law->stress_changes(g, memory, changes, of_state));
+            REQUIRE(law->advanced_changes(g, memory, changes, of_step));
+            const auto advanced = [&](const Matrix<Dim>& at) {
+                auto changed = memory;
+                return law->advance(at, changed).response.stress;
+            };
+            for (std::size_t i = 0; i < 2; ++i) {
+                const Matrix<Dim> d = h * changes[i];
+                const Matrix<Dim> frozen = (law->at(g + d, memory).stress - law->at(g - d, memory).stress) / (2.0 * h);
+                CHECK((of_state[i] - frozen).norm() <= 1e-8);
+                CHECK((of_step[i] - (advanced(g + d) - advanced(g - d)) / (2.0 * h)).norm() <= 1e-8);
+            }
+        }
 }
 
 TEST_CASE("pure shear in the plane hardens as the closed form says, for small and for large strains", "[solid][material]") {
