@@ -10,9 +10,10 @@ namespace {
 using Of = Make<Settings>;
 using run::FrameFields;
 
-constexpr std::array<Word<bool FrameFields::*>, 7> field_words{{{"velocity", &FrameFields::velocity},
+constexpr std::array<Word<bool FrameFields::*>, 8> field_words{{{"velocity", &FrameFields::velocity},
                                                                 {"stress", &FrameFields::stress},
                                                                 {"von_mises", &FrameFields::von_mises},
+                                                                {"plastic_strain", &FrameFields::plastic_strain},
                                                                 {"pressure", &FrameFields::pressure},
                                                                 {"gap", &FrameFields::gap},
                                                                 {"friction", &FrameFields::friction},
@@ -29,8 +30,9 @@ Key<Settings> fields() {
         for (const std::size_t index : *chosen) fields.*field_words[index].choice = true;
         return fields;
     };
-    Key<Settings> key = key_of<Settings>("fields", "list of velocity, stress, von_mises, pressure, gap, friction, pairs",
-                                         "what frames hold beside the displacement", &Settings::fields, read);
+    Key<Settings> key =
+        key_of<Settings>("fields", "list of velocity, stress, von_mises, plastic_strain, pressure, gap, friction, pairs",
+                         "what frames hold beside the displacement", &Settings::fields, read);
     key.by_default = "all";
     return key;
 }

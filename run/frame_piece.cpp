@@ -37,6 +37,8 @@ public:
             piece_.displacement.push_back(displacement[c]);
             piece_.velocity.push_back(velocity[c]);
             piece_.stress.push_back(solid_.stress(position));
+            piece_.out_of_plane_stress.push_back(solid_.out_of_plane_stress(position));
+            if (solid_.any_inelastic()) piece_.plastic_strain.push_back(solid_.plastic_strain(position));
         }
     }
 
@@ -154,7 +156,6 @@ FramePiece<Dim> frame_piece(std::int64_t frame, const mesh::Mesh<Dim>& mesh, con
     piece.frame = frame;
     piece.time = run.time;
     piece.mesh = &mesh;
-    for (const solid::Material& material : solid.options().materials) piece.poisson.push_back(material.poisson);
     PieceMaker<Dim> maker(piece, solid);
     const solid::ContactField contact = solid.contact_field(run.q);
     maker.take_cells(run);

@@ -21,13 +21,14 @@ struct FramePiece {
     double time = 0.0;                      ///< [s]
     int number = 0;                         ///< of the piece, that of the rank
     int n_pieces = 1;                       ///< of all ranks
-    std::vector<double> poisson;            ///< of the bodies [-]
     const mesh::Mesh<Dim>* mesh = nullptr;  ///< of the scene
 
-    std::vector<std::int32_t> cells;        ///< in the mesh, increasing (n)
-    std::vector<Vector<Dim>> displacement;  ///< (n) [m]
-    std::vector<Vector<Dim>> velocity;      ///< (n) [m/s]
-    std::vector<Matrix<Dim>> stress;        ///< (n) [Pa]
+    std::vector<std::int32_t> cells;          ///< in the mesh, increasing (n)
+    std::vector<Vector<Dim>> displacement;    ///< (n) [m]
+    std::vector<Vector<Dim>> velocity;        ///< (n) [m/s]
+    std::vector<Matrix<Dim>> stress;          ///< (n) [Pa]
+    std::vector<double> out_of_plane_stress;  ///< Solid::out_of_plane_stress (n) [Pa]
+    std::vector<double> plastic_strain;       ///< (n) [-]; empty where no material has one
 
     std::vector<std::int32_t> vertices;            ///< of these cells, increasing (n_vertices)
     std::vector<Vector<Dim>> vertex_displacement;  ///< as mesh::VtuSeries has it for the whole mesh (n_vertices) [m]

@@ -16,14 +16,6 @@
 namespace abut::run {
 namespace {
 
-template <int Dim>
-Matrix<3> full_stress(const Matrix<Dim>& stress, double poisson) {
-    Matrix<3> full = Matrix<3>::Zero();
-    full.topLeftCorner<Dim, Dim>() = stress;
-    if constexpr (Dim == 2) full(2, 2) = poisson * stress.trace();
-    return full;
-}
-
 std::vector<double> in_contact(std::vector<double> gaps) {
     for (double& gap : gaps) gap = gap_in_contact(gap);
     return gaps;
@@ -34,26 +26,24 @@ template <int Dim>
 struct Stresses {
     /// Stresses of all cells, as the last evaluation of the solid left them.
     explicit Stresses(solid::Solid<Dim>& solid) {
-        for (std::int32_t c = 0; c < solid.mesh().n_cells(); ++c)
-            add(solid.stress(c),
-                solid.options()
-                    .materials[static_cast<std::size_t>(solid.mesh().cell_body[static_cast<std::size_t>(c)])]
-                    .poisson);
-    }
-    explicit Stresses(const FramePiece<Dim>& piece) {
-        for (std::size_t i = 0; i < piece.cells.size(); ++i) {
-            const auto cell = static_cast<std::size_t>(piece.cells[i]);
-            add(piece.stress[i], piece.poisson[static_cast<std::size_t>(piece.mesh->cell_body[cell])]);
+        for (std::int32_t c = 0; c < solid.mesh().n_cells(); ++c) {
+            add(solid.stress(c), solid.out_of_plane_stress(c));
+            if (solid.any_inelastic()) plastic_strain.push_back(solid.plastic_strain(c));
         }
     }
-    void add(const Matrix<Dim>& of_cell, double poisson) {
+    explicit Stresses(const FramePiece<Dim>& piece) {
+        for (std::size_t i = 0; i < piece.cells.size(); ++i) add(piece.stress[i], piece.out_of_plane_stress[i]);
+        plastic_strain = piece.plastic_strain;
+    }
+    void add(const Matrix<Dim>& of_cell, double out_of_plane_stress) {
         stress.push_back(of_cell);
-        equivalent.push_back(von_mises<Dim>(of_cell, poisson));
-        out_of_plane.push_back(full_stress<Dim>(of_cell, poisson)(2, 2));
+        equivalent.push_back(von_mises<Dim>(of_cell, out_of_plane_stress));
+        out_of_plane.push_back(out_of_plane_stress);
     }
     std::vector<Matrix<Dim>> stress;
     std::vector<double> equivalent;
     std::vector<double> out_of_plane;
+    std::vector<double> plastic_strain;  // empty where no material has one
 };
 
 template <int Dim>
@@ -64,6 +54,8 @@ std::vector<mesh::Field<Dim>> cell_fields(const FrameFields& fields, std::span<c
     if (fields.stress) chosen.push_back({"stress [Pa]", std::span<const Matrix<Dim>>(stresses.stress)});
     if (fields.von_mises) chosen.push_back({"von Mises [Pa]", std::span<const double>(stresses.equivalent)});
     if (Dim == 2 && fields.stress) chosen.push_back({"stress zz [Pa]", std::span<const double>(stresses.out_of_plane)});
+    if (fields.plastic_strain && !stresses.plastic_strain.empty())
+        chosen.push_back({"plastic strain", std::span<const double>(stresses.plastic_strain)});
     return chosen;
 }
 
@@ -165,8 +157,10 @@ private:
 }  // namespace
 
 template <int Dim>
-double von_mises(const Matrix<Dim>& stress, double poisson) {
-    const Matrix<3> full = full_stress<Dim>(stress, poisson);
+double von_mises(const Matrix<Dim>& stress, double out_of_plane_stress) {
+    Matrix<3> full = Matrix<3>::Zero();
+    full.topLeftCorner<Dim, Dim>() = stress;
+    if constexpr (Dim == 2) full(2, 2) = out_of_plane_stress;
     const Matrix<3> deviator = full - full.trace() / 3.0 * Matrix<3>::Identity();
     return std::sqrt(1.5) * deviator.norm();
 }

@@ -86,8 +86,8 @@ private:
     FrameFields fields_;
 };
 
-/// von Mises equivalent stress [Pa]; in 2D of plane strain, with sigma_zz = nu (sigma_xx + sigma_yy).
+/// von Mises equivalent stress [Pa]; in 2D with the stress out of the plane, Solid::out_of_plane_stress.
 template <int Dim>
-[[nodiscard]] double von_mises(const Matrix<Dim>& stress, double poisson);
+[[nodiscard]] double von_mises(const Matrix<Dim>& stress, double out_of_plane_stress);
 
 }  // namespace abut::run

@@ -21,10 +21,11 @@ struct FrameFields {
     bool velocity = true;
     bool stress = true;  ///< in 2D with that out of the plane
     bool von_mises = true;
-    bool pressure = true;  ///< of contact, on the surface
-    bool gap = true;       ///< on the surface
-    bool friction = true;  ///< traction, slip and state on the surface, and of pairs; where there is friction
-    bool pairs = true;     ///< of faces that push each other, as a series of points
+    bool plastic_strain = true;  ///< where a material has one
+    bool pressure = true;        ///< of contact, on the surface
+    bool gap = true;             ///< on the surface
+    bool friction = true;        ///< traction, slip and state on the surface, and of pairs; where there is friction
+    bool pairs = true;           ///< of faces that push each other, as a series of points
 };
 
 /// Files that ResultFiles writes of a scene beside its energies.

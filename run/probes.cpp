@@ -20,9 +20,9 @@ constexpr double allowed_distance = 0.5;  // of a place from its cell, over the 
 
 /// In the order of the columns.
 template <int Dim>
-std::vector<double> components(const Matrix<Dim>& stress, double poisson) {
+std::vector<double> components(const Matrix<Dim>& stress, double out_of_plane_stress) {
     if constexpr (Dim == 2)
-        return {stress(0, 0), stress(1, 1), poisson * stress.trace(), stress(0, 1)};
+        return {stress(0, 0), stress(1, 1), out_of_plane_stress, stress(0, 1)};
     else
         return {stress(0, 0), stress(1, 1), stress(2, 2), stress(1, 2), stress(0, 2), stress(0, 1)};
 }
@@ -123,6 +123,7 @@ std::vector<std::vector<double>> Probes<Dim>::values(const dynamics::RunView<Dim
     for (const Watched& probe : probes_) {
         Vector<Dim> u = Vector<Dim>::Zero(), v = Vector<Dim>::Zero();
         Matrix<Dim> stress = Matrix<Dim>::Zero();
+        double out_of_plane = 0.0;
         for (std::size_t i = 0; i < probe.cells.size(); ++i) {
             const std::int32_t cell = probe.cells[i];
             const double weight = probe.weights[i];
@@ -130,13 +131,12 @@ std::vector<std::vector<double>> Probes<Dim>::values(const dynamics::RunView<Dim
                  (displacement[static_cast<std::size_t>(cell)] + solid.displacement_gradient(cell, run.q) * probe.arms[i]);
             v += weight * velocity[static_cast<std::size_t>(cell)];
             stress += weight * solid.stress(cell);
+            out_of_plane += weight * solid.out_of_plane_stress(cell);
         }
-        const auto body = static_cast<std::size_t>(solid.mesh().cell_body[probe.cells.front()]);
-        const double poisson = solid.options().materials[body].poisson;
         std::vector<double> values(u.begin(), u.end());
         values.insert(values.end(), v.begin(), v.end());
-        for (const double value : components<Dim>(stress, poisson)) values.push_back(value);
-        values.push_back(von_mises<Dim>(stress, poisson));
+        for (const double value : components<Dim>(stress, out_of_plane)) values.push_back(value);
+        values.push_back(von_mises<Dim>(stress, out_of_plane));
         rows.push_back(std::move(values));
     }
     return rows;

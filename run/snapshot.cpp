@@ -134,7 +134,7 @@ std::vector<double> SnapshotMaker<Dim>::values(const dynamics::RunView<Dim>& run
         else if (is_rigid_[body] != 0)
             result.push_back(std::numeric_limits<double>::quiet_NaN());
         else
-            result.push_back(von_mises<Dim>(solid.stress(cell), solid.options().materials[body].poisson));
+            result.push_back(von_mises<Dim>(solid.stress(cell), solid.out_of_plane_stress(cell)));
     }
     return result;
 }

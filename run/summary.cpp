@@ -192,13 +192,23 @@ Json friction_json(const RunResult<Dim>& result) {
     const auto& last = result.ledger.entries().back();
     return {
         {"friction",
-         {{"dissipated", last.dissipated},
+         {{"dissipated", last.dissipated - last.material_dissipated},
           {"energy", last.friction_energy},
           {"least_dissipated", contact.least_dissipated},
           {"sticking_faces_max", contact.sticking_faces_max},
           {"sliding_faces_max", contact.sliding_faces_max},
           {"force_over_limit_max", contact.friction_ratio_max},
           {"sliding_share", contact.sliding_limit > 0.0 ? Json(contact.sliding_force / contact.sliding_limit) : Json()}}}};
+}
+
+/// Nothing where no material flows.
+template <int Dim>
+Json material_json(const RunResult<Dim>& result) {
+    if (result.dissipated.in_cells == 0.0) return Json::object();
+    return {{"plasticity",
+             {{"dissipated", result.dissipated.in_cells},
+              {"dissipated_on_faces", result.dissipated.on_faces},
+              {"strain_max", result.finite.plastic_strain}}}};
 }
 
 Json encounter_json(const Encounter& met) {
@@ -290,7 +300,8 @@ std::string friction_lines(const RunResult<Dim>& result) {
     const auto& last = result.ledger.entries().back();
     const std::string& name = result.scale.name;
     std::string text = table_line(fmt::format("dissipated by friction, / {}", name),
-                                  fmt::format("{:.4g}; held by faces that stick {:.2e}", result.scale.over(last.dissipated),
+                                  fmt::format("{:.4g}; held by faces that stick {:.2e}",
+                                              result.scale.over(last.dissipated - last.material_dissipated),
                                               result.scale.over(last.friction_energy))) +
                        table_line("faces that stick, that slide, at most",
                                   fmt::format("{}, {}", contact.sticking_faces_max, contact.sliding_faces_max));
@@ -298,6 +309,17 @@ std::string friction_lines(const RunResult<Dim>& result) {
         text += table_line("force of sliding faces over its limit",
                            fmt::format("{:.3g}", contact.sliding_force / contact.sliding_limit));
     return text;
+}
+
+/// Nothing where no material flows.
+template <int Dim>
+std::string material_lines(const RunResult<Dim>& result) {
+    if (result.dissipated.in_cells == 0.0) return "";
+    return table_line(
+               fmt::format("dissipated by plastic flow, / {}", result.scale.name),
+               fmt::format("{:.4g}; with free faces that flow along {:.1e}", result.scale.over(result.dissipated.in_cells),
+                           result.scale.over(result.dissipated.on_faces))) +
+           table_line("largest plastic strain", fmt::format("{:.3g}", result.finite.plastic_strain));
 }
 
 template <int Dim>
@@ -336,6 +358,7 @@ std::string summary_json(const std::string& program, const Scene<Dim>& scene, co
     json.update(restarts_json(result));
     json.update(counts_json(result));
     json.update(friction_json(result));
+    json.update(material_json(result));
     for (const Finding& finding : result.findings) json[finding.key] = to_json(finding.value);
     if (result.pilot) json["pilot"] = pilot_json(*result.pilot);
     if (result.settling) json["settling"] = settling_json(*result.settling);
@@ -363,7 +386,8 @@ std::string closing_table(const std::string& program, const Scene<Dim>& scene, c
                            fmt::format("in {} steps, to {:.2g} m/s", result.settling->steps, result.settling->speed));
     if (result.resumed_after > 0)
         text += table_line("gone on from a checkpoint", fmt::format("after step {}", result.resumed_after));
-    text += energy_lines(result) + restart_line(result) + contact_lines(result) + friction_lines(result);
+    text += energy_lines(result) + restart_line(result) + contact_lines(result) + friction_lines(result) +
+            material_lines(result);
     for (const Finding& finding : result.findings) text += table_line(finding.text, value_text(finding.value));
     return text + body_lines(scene, result) + time_line(result) + table_line("verdict", verdict(scene, result).text);
 }

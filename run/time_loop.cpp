@@ -93,6 +93,7 @@ public:
         result_.looks = watch_.looks();
         result_.local_rotations = solid_.local_rotations(integrator_->q());
         result_.finite = solid_.finite_extremes();
+        result_.dissipated = solid_.dissipated();
         result_.contact = solid_.contact_report();
         result_.skin = solid_.skin();
         result_.evaluations = solid_.evaluations();

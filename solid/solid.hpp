@@ -240,6 +240,9 @@ public:
     [[nodiscard]] double plastic_strain(std::int32_t cell) const;
     /// Whether a material remembers and dissipates: only schemes that call `mean_force` may run it.
     [[nodiscard]] bool any_inelastic() const { return ccg_.any_inelastic(); }
+    /// In 2D: sigma_zz of a cell, which `stress` does not have [Pa]; of an elastic body that of small strains, nu (sigma_xx +
+    /// sigma_yy). In 3D 0.
+    [[nodiscard]] double out_of_plane_stress(std::int32_t cell) const;
     /// sigma of a cell of the mesh in space [Pa], of the state that was evaluated last; 0 in rigid bodies.
     [[nodiscard]] Matrix<Dim> stress(std::int32_t cell) const;
 

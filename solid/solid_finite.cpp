@@ -28,13 +28,14 @@ struct Extremes {
 /// Of all ranks, from those of each.
 Extremes of_ranks(const dynamics::Ranks& ranks, const Extremes& here) {
     if (ranks.is_one()) return here;
-    const std::vector<double> all =
-        ranks.gather(std::vector{here.values.determinant, here.values.strain, static_cast<double>(here.values.cell),
-                                 static_cast<double>(here.label), static_cast<double>(here.body)});
+    const std::vector<double> all = ranks.gather(
+        std::vector{here.values.determinant, here.values.strain, static_cast<double>(here.values.cell),
+                    static_cast<double>(here.label), static_cast<double>(here.body), here.values.plastic_strain});
     Extremes extremes;
     FiniteExtremes& values = extremes.values;
-    for (std::size_t i = 0; i < all.size(); i += 5) {
+    for (std::size_t i = 0; i < all.size(); i += 6) {
         values.strain = std::max(values.strain, all[i + 1]);
+        values.plastic_strain = std::max(values.plastic_strain, all[i + 5]);
         const double determinant = all[i];
         const auto cell = static_cast<std::int32_t>(all[i + 2]);
         if (cell < 0 || (determinant >= values.determinant && !(determinant == values.determinant && cell < values.cell)))
@@ -81,8 +82,9 @@ void Solid<Dim>::require_no_collapse() {
         now.values.cell = static_cast<std::int32_t>(part_->cell_numbers()[now.values.cell]) + cell - now.values.cell;
     }
     now = of_ranks(ranks(), now);
-    const auto& [determinant, strain, cell] = now.values;
+    const auto& [determinant, strain, cell, plastic_strain] = now.values;
     finite_extremes_.strain = std::max(finite_extremes_.strain, strain);
+    finite_extremes_.plastic_strain = plastic_strain;
     if (cell < 0) return;
     if (!(determinant >= finite_extremes_.determinant)) {
         finite_extremes_.determinant = determinant;

@@ -166,6 +166,16 @@ double Solid<Dim>::plastic_strain(std::int32_t cell) const {
 }
 
 template <int Dim>
+double Solid<Dim>::out_of_plane_stress(std::int32_t cell) const {
+    if constexpr (Dim == 3) return 0.0;
+    const std::int32_t deformable = bodies_->deformable_cell(cell).first;
+    if (deformable < 0) return 0.0;
+    if (const auto of_law = ccg_.out_of_plane_stress(deformable)) return *of_law;
+    const auto body = static_cast<std::size_t>(mesh_.cell_body[static_cast<std::size_t>(cell)]);
+    return options_.materials[body].poisson * stress(cell).trace();
+}
+
+template <int Dim>
 std::int32_t Solid<Dim>::cell_of_contact_face(std::int64_t face) const {
     if (!contact_ || face < 0 || face > std::numeric_limits<std::int32_t>::max()) return -1;
     const BoundaryFace boundary = contact_->mesh_boundary(contact::Face{static_cast<std::int32_t>(face)});
@@ -355,6 +365,7 @@ double Solid<Dim>::step_margin() const {
     template contact::ContactReport Solid<Dim>::contact_report() const;                                               \
     template void Solid<Dim>::require_depth() const;                                                                  \
     template dynamics::ContactCounts Solid<Dim>::contact_counts() const;                                              \
+    template double Solid<Dim>::out_of_plane_stress(std::int32_t) const;                                              \
     template double Solid<Dim>::plastic_strain(std::int32_t) const;                                                   \
     template std::int32_t Solid<Dim>::cell_of_contact_face(std::int64_t) const;                                       \
     template std::vector<contact::BlindCorner<Dim>> Solid<Dim>::blind_corners() const;                                \

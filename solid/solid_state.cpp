@@ -54,7 +54,8 @@ std::vector<std::byte> Solid<Dim>::state() const {
     state.put(time_);
     state.put(work_);
     state.put(evaluations_);
-    for (const double extreme : {finite_extremes_.strain, finite_extremes_.determinant}) state.put(extreme);
+    for (const double extreme : {finite_extremes_.strain, finite_extremes_.determinant, finite_extremes_.plastic_strain})
+        state.put(extreme);
     state.put(finite_extremes_.cell);
     loads_->save(state);
     point_loads_->save(state);
@@ -84,7 +85,8 @@ void Solid<Dim>::restore(std::span<const std::byte> bytes, std::span<const doubl
     time_ = state.get<double>();
     work_ = state.get<double>();
     evaluations_ = state.get<std::int64_t>();
-    for (double* extreme : {&finite_extremes_.strain, &finite_extremes_.determinant}) *extreme = state.get<double>();
+    for (double* extreme : {&finite_extremes_.strain, &finite_extremes_.determinant, &finite_extremes_.plastic_strain})
+        *extreme = state.get<double>();
     finite_extremes_.cell = state.get<std::int32_t>();
     loads_->restore(state);
     if (frame_loads_->any()) frame_loads_->take(loads_->end());

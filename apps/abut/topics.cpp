@@ -45,7 +45,8 @@ const Topic materials{
     R"(A body is linear elastic: `young` [Pa], `poisson` and `density` [kg/m^3], plane strain in 2D. A body that
 bends (kinematics = "finite") is of St. Venant and Kirchhoff's material: linear elastic in the strain of
 Green, good for strains up to 0.2. Beyond, `law` = "neo_hookean" or "mooney_rivlin" are rubber, the latter with
-`second_share`; at small strains all are the same. A rigid body uses its density alone.
+`second_share`; at small strains all are the same. `law` = "j2" is metal: beyond `yield_stress` it flows, hardens by
+`hardening` and `saturation`, and remembers; what it dissipates is booked. A rigid body uses its density alone.
 
 Poisson's ratio is below 0.5: an incompressible body has no stable explicit step. `eta` [Pa] is the stiffness
 against jumps between cells, Young's modulus by default.)"};

@@ -81,7 +81,8 @@ public:
     [[nodiscard]] py::dict frames() const {
         return py::dict("step"_a = frame_steps_, "time"_a = frame_times_, "displacement"_a = displacement_,
                         "velocity"_a = velocity_, "stress"_a = stress_, "von_mises"_a = von_mises_,
-                        "contact_pressure"_a = pressure_, "point_displacement"_a = point_displacement_);
+                        "plastic_strain"_a = plastic_strain_, "contact_pressure"_a = pressure_,
+                        "point_displacement"_a = point_displacement_);
     }
 
 private:
@@ -105,6 +106,7 @@ private:
         velocity_.append(state.velocity());
         stress_.append(state.stress());
         von_mises_.append(state.von_mises());
+        plastic_strain_.append(state.plastic_strain());
         pressure_.append(state.contact_pressure());
         point_displacement_.append(state.point_displacement());
     }
@@ -121,7 +123,7 @@ private:
     std::int64_t n_steps_ = 0, n_frames_ = 0;
     std::vector<std::int64_t> frame_steps_;
     std::vector<double> frame_times_;
-    py::list displacement_, velocity_, stress_, von_mises_, pressure_, point_displacement_;
+    py::list displacement_, velocity_, stress_, von_mises_, plastic_strain_, pressure_, point_displacement_;
 };
 
 }  // namespace abut::python

@@ -44,11 +44,14 @@ public:
     [[nodiscard]] py::array_t<double> von_mises() const {
         static_cast<void>(solid_.potential(view_.q));
         std::vector<double> equivalent;
-        for (std::int32_t c = 0; c < solid_.mesh().n_cells(); ++c) {
-            const auto body = static_cast<std::size_t>(solid_.mesh().cell_body[static_cast<std::size_t>(c)]);
-            equivalent.push_back(run::von_mises<Dim>(solid_.stress(c), solid_.options().materials[body].poisson));
-        }
+        for (std::int32_t c = 0; c < solid_.mesh().n_cells(); ++c)
+            equivalent.push_back(run::von_mises<Dim>(solid_.stress(c), solid_.out_of_plane_stress(c)));
         return copy_of(equivalent);
+    }
+    [[nodiscard]] py::array_t<double> plastic_strain() const {
+        std::vector<double> of_cells;
+        for (std::int32_t c = 0; c < solid_.mesh().n_cells(); ++c) of_cells.push_back(solid_.plastic_strain(c));
+        return copy_of(of_cells);
     }
     [[nodiscard]] py::array_t<double> contact_pressure() const { return copy_of(solid_.contact_field(view_.q).pressure); }
     /// As files show it: a body that turns is not where the mean displacement of its cells takes it.
@@ -81,6 +84,8 @@ void add_state(Class& made, StateOf state_of) {
             "stress", [=](Self& self) { return state_of(self)->stress(); }, "(n_cells, dim, dim) [Pa]")
         .def_property_readonly(
             "von_mises", [=](Self& self) { return state_of(self)->von_mises(); }, "(n_cells) [Pa]")
+        .def_property_readonly(
+            "plastic_strain", [=](Self& self) { return state_of(self)->plastic_strain(); }, "(n_cells) [-]")
         .def_property_readonly(
             "contact_pressure", [=](Self& self) { return state_of(self)->contact_pressure(); },
             "of the boundary faces, in the order of surface [Pa]");

@@ -114,6 +114,8 @@ std::vector<std::string> said_of(const solid::Material& material, bool is_finite
     std::string law = is_finite ? word_of(solid::material_law_words, material.law) : "";
     if (is_finite && material.law == solid::MaterialLaw::mooney_rivlin)
         law += fmt::format(", share {:g}", material.second_share);
+    if (is_finite && material.law == solid::MaterialLaw::j2)
+        law += fmt::format(", yields at {:g} Pa", material.yield_stress);
     return {fmt::format("{:g}", material.young), fmt::format("{:g}", material.poisson),
             fmt::format("{:g}", material.density),
             fmt::format("{:.4g}", std::sqrt(material.wave_modulus() / material.density)), law};
@@ -213,6 +215,16 @@ Markup friction_part(const Figures& figures, const Scene<Dim>& scene, const RunR
                              figure_row(figures, "force of sliding faces over its limit", "friction.sliding_share", "")}));
 }
 
+/// Nothing without a material that flows.
+Markup plasticity_part(const Figures& figures) {
+    if (!figures.summary().contains("plasticity")) return {};
+    return section(
+        "Plastic flow",
+        table({"", ""}, {figure_row(figures, "dissipated", "plasticity.dissipated", "J"),
+                         figure_row(figures, "by free faces that flow along", "plasticity.dissipated_on_faces", "J"),
+                         figure_row(figures, "largest plastic strain", "plasticity.strain_max", "")}));
+}
+
 Markup findings_part(const Figures& figures, const std::vector<Finding>& findings) {
     std::vector<Markup> rows;
     for (const Finding& finding : findings) rows.push_back(row({finding.text, figures.at(finding.key)}));
@@ -295,7 +307,7 @@ std::string report_html(const std::string& program, const Scene<Dim>& scene, con
                         (sources.pictures ? pictures_part(*sources.pictures) : Markup()) + warnings_part(warnings) +
                         energies_part(figures, result) + bodies_part(figures, scene, result) +
                         materials_part(scene, result) + contact_part(figures, scene, result, sources) +
-                        friction_part(figures, scene, result) + probes_part(scene, sources) +
+                        friction_part(figures, scene, result) + plasticity_part(figures) + probes_part(scene, sources) +
                         findings_part(figures, result.findings) + settings_part(figures, scene, result) +
                         seconds_part(figures) + files_part(files);
     return "<!DOCTYPE html>\n" + page((scene.title.empty() ? program : scene.title) + ": report of a run", body).html() +

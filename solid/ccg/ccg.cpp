@@ -292,6 +292,14 @@ double Ccg<Dim>::plastic_strain(std::int32_t cell) const {
 }
 
 template <int Dim>
+std::optional<double> Ccg<Dim>::out_of_plane_stress(std::int32_t cell) const {
+    const std::int32_t inelastic = impl_->finite.inelastic(cell);
+    if (inelastic < 0) return std::nullopt;
+    return impl_->finite.inelastic_cell(inelastic).law->out_of_plane_stress(impl_->sweeps.law_gradient(cell),
+                                                                            impl_->sweeps.memory_of(inelastic));
+}
+
+template <int Dim>
 std::vector<std::int32_t> Ccg<Dim>::memory_sizes() const {
     std::vector<std::int32_t> sizes(static_cast<std::size_t>(n_cells()), 0);
     for (std::int32_t i = 0; i < static_cast<std::int32_t>(impl_->finite.n_inelastic()); ++i) {

@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -67,9 +68,10 @@ enum class StepState {
 
 /// How much the cells of bodies of Kinematics::finite are deformed at most.
 struct FiniteExtremes {
-    double determinant = 1.0;  ///< least det F [-]; 0 where a free face has no stretch across left
-    double strain = 0.0;       ///< largest |E|, Frobenius, of St. Venant and Kirchhoff's material [-]
-    std::int32_t cell = -1;    ///< with the least det F; -1 where none is below 1
+    double determinant = 1.0;     ///< least det F [-]; 0 where a free face has no stretch across left
+    double strain = 0.0;          ///< largest |E|, Frobenius, of St. Venant and Kirchhoff's material [-]
+    std::int32_t cell = -1;       ///< with the least det F; -1 where none is below 1
+    double plastic_strain = 0.0;  ///< largest equivalent one [-]
 };
 
 /// A part of the mesh on which the operators can be applied alone: everything that the asked-for values depend on.
@@ -166,6 +168,8 @@ public:
     [[nodiscard]] StepLoss step_loss(std::int32_t cell) const;
     /// Equivalent plastic strain of a cell [-]; 0 where its material has none.
     [[nodiscard]] double plastic_strain(std::int32_t cell) const;
+    /// In the plane, of a cell of an inelastic material as of the last call: its stress out of the plane [Pa].
+    [[nodiscard]] std::optional<double> out_of_plane_stress(std::int32_t cell) const;
     /// How many numbers a cell remembers, 0 where its material is elastic (n_cells).
     [[nodiscard]] std::vector<std::int32_t> memory_sizes() const;
     /// All that cells remember, one cell after the other.

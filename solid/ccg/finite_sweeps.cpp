@@ -267,7 +267,6 @@ std::pair<Vector<Dim>, Matrix<Dim>> CcgSweeps<Dim, Real>::tilted_face(BoundaryFa
     return {affine + free->measure_over * ((condensed - g) * arrays_.normal_of(face)), condensed};
 }
 
-/// F - I of a cell with a StoredEnergy, its free faces where this is least.
 template <int Dim, class Real>
 Matrix<Dim> CcgSweeps<Dim, Real>::law_gradient(std::int32_t c) const {
     const std::int32_t position = finite_.free_position(c);
@@ -294,13 +293,17 @@ FiniteExtremes CcgSweeps<Dim, Real>::finite_extremes(std::span<const std::int32_
             extremes.cell = other.cell;
         }
         extremes.strain = std::max(extremes.strain, other.strain);
+        extremes.plastic_strain = std::max(extremes.plastic_strain, other.plastic_strain);
     };
     std::vector<FiniteExtremes> of_part((cells.size() + parallel_grain - 1) / parallel_grain);
     parallel_parts(cells.size(), parallel_grain, [&](std::size_t begin, std::size_t end) {
         for (const std::int32_t c : cells.subspan(begin, end - begin)) {
             if (!finite_.contains(c)) continue;
             const auto [determinant, strain] = end_stretch(c);
-            take(of_part[begin / parallel_grain], {determinant, finite_.has_law(c) ? 0.0 : strain, c});
+            const std::int32_t inelastic = finite_.inelastic(c);
+            const double plastic =
+                inelastic < 0 ? 0.0 : finite_.inelastic_cell(inelastic).law->plastic_strain(kept_.end.memory->of(inelastic));
+            take(of_part[begin / parallel_grain], {determinant, finite_.has_law(c) ? 0.0 : strain, c, plastic});
         }
     });
     FiniteExtremes extremes;
@@ -337,6 +340,7 @@ Matrix<Dim> CcgSweeps<Dim, Real>::cauchy_stress(std::int32_t c) const {
     template void CcgSweeps<Dim>::add_moments(std::int32_t, std::int32_t);                                \
     template std::pair<Vector<Dim>, Matrix<Dim>> CcgSweeps<Dim>::tilted_face(BoundaryFace) const;         \
     template FiniteExtremes CcgSweeps<Dim>::finite_extremes(std::span<const std::int32_t>) const;         \
+    template Matrix<Dim> CcgSweeps<Dim>::law_gradient(std::int32_t) const;                                \
     template Matrix<Dim> CcgSweeps<Dim>::cauchy_stress(std::int32_t) const;
 ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)

@@ -80,6 +80,8 @@ public:
     [[nodiscard]] std::span<const double> memory_of(std::int32_t index) const { return here().memory->of(index); }
     [[nodiscard]] std::span<const double> memory() const { return here().memory->values(); }
     void set_memory(std::span<const double> values);
+    /// F - I of a cell with a law of its own, its free faces where its energy is least.
+    [[nodiscard]] Matrix<Dim> law_gradient(std::int32_t c) const;
     [[nodiscard]] StepLoss step_loss(std::int32_t cell) const { return kept_.loss(cell); }
     [[nodiscard]] FiniteExtremes finite_extremes(std::span<const std::int32_t> cells) const;
     [[nodiscard]] StepDefect<Dim> step_defect(std::int32_t cell, const Vector<Dim>& arm) const {
@@ -134,7 +136,6 @@ private:
     [[nodiscard]] Tensor finite_stress(std::ptrdiff_t c, const Tensor& strain) const;
     [[nodiscard]] Response<Dim> law_response(std::int32_t c, const Matrix<Dim>& g) const;
     void keep_end(std::int32_t c, const Response<Dim>& of_law, Tensor& sum);
-    [[nodiscard]] Matrix<Dim> law_gradient(std::int32_t c) const;
     [[nodiscard]] CellStretch end_stretch(std::int32_t c) const;
     [[nodiscard]] Vectors boundary_change(BoundaryFace b) const;
     void set_finite_displacement_gradient(std::int32_t c);

@@ -1,5 +1,6 @@
 #pragma once
 #include <algorithm>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -48,6 +49,12 @@ public:
                                                 std::span<const Matrix<Dim>> changes, std::span<Matrix<Dim>> results) const {
         (void)g, (void)memory, (void)changes, (void)results;
         return false;
+    }
+    /// In the plane: Cauchy's stress out of it [Pa].
+    [[nodiscard]] virtual std::optional<double> out_of_plane_stress(const Matrix<Dim>& g,
+                                                                    std::span<const double> memory) const {
+        (void)g, (void)memory;
+        return std::nullopt;
     }
     /// What of z is shown: equivalent plastic strain [-], or 0.
     [[nodiscard]] virtual double plastic_strain(std::span<const double> memory) const {

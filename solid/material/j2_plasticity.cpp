@@ -187,6 +187,14 @@ void J2Plasticity<Dim>::change_stress(const Matrix<Dim>& g, std::span<const doub
     }
 }
 
+template <int Dim>
+std::optional<double> J2Plasticity<Dim>::out_of_plane_stress(const Matrix<Dim>& g, std::span<const double> memory) const {
+    if constexpr (Dim == 3) return std::nullopt;
+    const Eigen::Vector3d strain = elastic_part(g, memory).strain;
+    const double tau = material_.lambda() * strain.sum() + 2.0 * material_.mu() * strain[2];
+    return tau / (Matrix<Dim>::Identity() + g).determinant();
+}
+
 template class J2Plasticity<2>;
 template class J2Plasticity<3>;
 

@@ -24,6 +24,8 @@ public:
                                       std::span<const Matrix<Dim>> changes, std::span<Matrix<Dim>> results) const override;
     [[nodiscard]] bool advanced_changes(const Matrix<Dim>& g, std::span<const double> memory,
                                         std::span<const Matrix<Dim>> changes, std::span<Matrix<Dim>> results) const override;
+    [[nodiscard]] std::optional<double> out_of_plane_stress(const Matrix<Dim>& g,
+                                                            std::span<const double> memory) const override;
     [[nodiscard]] double plastic_strain(std::span<const double> memory) const override { return memory.back(); }
 
 private:

@@ -69,6 +69,7 @@ class Frames:
     velocity: _Doubles
     stress: _Doubles
     von_mises: _Doubles
+    plastic_strain: _Doubles
     contact_pressure: _Doubles
     point_displacement: _Doubles
     def __init__(self, fields: Mapping[str, Any]) -> None: ...

@@ -12,7 +12,7 @@ class Frames:
     """Fields at some times of a run, arrays whose first axis is that of the frames.
 
     step; time [s]; displacement and velocity (n, n_cells, dim) [m], [m/s]; stress (n, n_cells, dim, dim) [Pa]; von_mises
-    (n, n_cells) [Pa]; contact_pressure (n, n_faces) [Pa], in the order of mesh.surface; point_displacement (n, n_points, dim) [m].
+    (n, n_cells) [Pa]; plastic_strain (n, n_cells); contact_pressure (n, n_faces) [Pa], in the order of mesh.surface; point_displacement (n, n_points, dim) [m].
     """
 
     def __init__(self, fields):
