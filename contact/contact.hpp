@@ -9,7 +9,6 @@
 #include "abut/contact/options.hpp"
 #include "abut/contact/pair_store.hpp"
 #include "abut/contact/report.hpp"
-#include "abut/contact/search/candidate_search.hpp"
 #include "abut/contact/sharing.hpp"
 #include "abut/contact/step.hpp"
 #include "abut/contact/surface.hpp"

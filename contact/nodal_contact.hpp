@@ -8,13 +8,13 @@
 #include <string>
 #include <vector>
 
+#include "abut/base/strided_points.hpp"
 #include "abut/contact/blind_corners.hpp"
 #include "abut/contact/friction.hpp"
 #include "abut/contact/nodal_step.hpp"
 #include "abut/contact/nodal_surface.hpp"
 #include "abut/contact/options.hpp"
 #include "abut/contact/report.hpp"
-#include "abut/contact/search/candidate_search.hpp"
 #include "abut/contact/sharing.hpp"
 #include "abut/contact/unseen_edges.hpp"
 #include "abut/geometry/pair_potential/pair_potential.hpp"

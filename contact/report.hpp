@@ -31,4 +31,20 @@ struct ContactReport {
     std::int64_t sliding_faces_max = 0;
 };
 
+/// What a search did, for the reader of a run.
+struct CandidateReport {
+    std::int64_t searches = 0;         ///< lists made
+    std::int64_t orderings = 0;        ///< of them, how many put the faces into a new spatial order first
+    std::int64_t box_pairs = 0;        ///< pairs of boxes that overlapped, of bodies that may touch: the last search
+    std::int64_t neighbours = 0;       ///< of them, left out because the faces are neighbours on one body
+    std::int64_t both_rigid = 0;       ///< left out because both faces are rigid
+    std::int64_t not_facing = 0;       ///< left out because the faces do not look at each other
+    std::int64_t too_far_apart = 0;    ///< left out because gap or tangential offset rule contact out
+    std::int64_t candidates = 0;       ///< pairs in the list
+    std::int64_t candidates_max = 0;   ///< over all searches
+    double motion = 0.0;               ///< [m] the farthest that a face or vertex moved within the step of the last search
+    double seconds_boxes = 0.0;        ///< all searches: making boxes
+    double seconds_broad_phase = 0.0;  ///< all searches: finding the pairs, tests of faces included
+};
+
 }  // namespace abut::contact

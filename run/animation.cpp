@@ -12,11 +12,11 @@
 
 #include "abut/contact/obstacle_side.hpp"
 #include "abut/run/body_names.hpp"
+#include "abut/run/drawing/animation_page.hpp"
+#include "abut/run/drawing/base64.hpp"
+#include "abut/run/drawing/colours.hpp"
+#include "abut/run/drawing/markup.hpp"
 #include "abut/run/json.hpp"
-#include "abut/run/report/animation_page.hpp"
-#include "abut/run/report/base64.hpp"
-#include "abut/run/report/colours.hpp"
-#include "abut/run/report/markup.hpp"
 
 namespace abut::run {
 namespace {

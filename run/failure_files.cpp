@@ -10,8 +10,8 @@
 
 #include "abut/mesh/io/write_vtu.hpp"
 #include "abut/run/cell_velocity.hpp"
+#include "abut/run/drawing/cell_map.hpp"
 #include "abut/run/files.hpp"
-#include "abut/run/report/cell_map.hpp"
 
 namespace abut::run {
 namespace {

@@ -17,7 +17,7 @@
 #include "abut/base/throw_again.hpp"
 #include "abut/run/checkpoint_folder.hpp"
 #include "abut/run/frames.hpp"
-#include "abut/run/result_files.hpp"
+#include "abut/run/report/result_files.hpp"
 #include "abut/run/simulation.hpp"
 #include "abut/run/summary.hpp"
 #include "abut/solid/options.hpp"

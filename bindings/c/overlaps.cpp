@@ -7,7 +7,7 @@
 #include "abut/base/ids.hpp"
 #include "abut/base/sort_unique.hpp"
 #include "abut/contact/face_distance.hpp"
-#include "abut/contact/near_overlaps.hpp"
+#include "abut/contact/search/near_overlaps.hpp"
 #include "arguments.hpp"
 
 using namespace abut;

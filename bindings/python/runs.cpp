@@ -17,7 +17,7 @@
 #include "abut/input/scene_file.hpp"
 #include "abut/mesh/interpenetration.hpp"
 #include "abut/run/option_table.hpp"
-#include "abut/run/result_files.hpp"
+#include "abut/run/report/result_files.hpp"
 #include "abut/run/simulation.hpp"
 #include "abut/run/summary.hpp"
 #include "abut/run/verdict.hpp"

@@ -8,10 +8,10 @@
 #include <span>
 #include <utility>
 
-#include "abut/run/report/colours.hpp"
-#include "abut/run/report/raster.hpp"
-#include "abut/run/report/svg.hpp"
-#include "abut/run/report/ticks.hpp"
+#include "abut/run/drawing/colours.hpp"
+#include "abut/run/drawing/raster.hpp"
+#include "abut/run/drawing/svg.hpp"
+#include "abut/run/drawing/ticks.hpp"
 
 namespace abut::run {
 namespace {

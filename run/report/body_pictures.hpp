@@ -1,6 +1,6 @@
 #pragma once
 // Private to the sources of run.
-#include "abut/run/report/markup.hpp"
+#include "abut/run/drawing/markup.hpp"
 #include "abut/run/snapshots.hpp"
 
 namespace abut::run {

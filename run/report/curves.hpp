@@ -4,8 +4,8 @@
 #include <span>
 
 #include "abut/dynamics/ledger.hpp"
-#include "abut/run/report/markup.hpp"
-#include "abut/run/report/plot.hpp"
+#include "abut/run/drawing/markup.hpp"
+#include "abut/run/drawing/plot.hpp"
 #include "abut/run/scene.hpp"
 
 namespace abut::run {

@@ -4,8 +4,8 @@
 #include <utility>
 #include <vector>
 
+#include "abut/run/drawing/markup.hpp"
 #include "abut/run/json.hpp"
-#include "abut/run/report/markup.hpp"
 #include "abut/run/scene.hpp"
 
 namespace abut::run {

@@ -8,11 +8,11 @@
 #include <cmath>
 
 #include "abut/run/body_names.hpp"
+#include "abut/run/drawing/style.hpp"
 #include "abut/run/option_table.hpp"
 #include "abut/run/report/body_pictures.hpp"
 #include "abut/run/report/curves.hpp"
 #include "abut/run/report/figures.hpp"
-#include "abut/run/report/style.hpp"
 #include "abut/run/report/watched.hpp"
 #include "abut/run/summary.hpp"
 #include "abut/run/verdict.hpp"

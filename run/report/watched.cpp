@@ -13,8 +13,8 @@
 #include <utility>
 
 #include "abut/base/error.hpp"
+#include "abut/run/drawing/plot.hpp"
 #include "abut/run/files.hpp"
-#include "abut/run/report/plot.hpp"
 
 namespace abut::run {
 namespace {

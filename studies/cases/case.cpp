@@ -11,7 +11,7 @@
 #include "abut/base/error.hpp"
 #include "abut/base/stopwatch.hpp"
 #include "abut/contact/nodal_contact.hpp"
-#include "abut/run/result_files.hpp"
+#include "abut/run/report/result_files.hpp"
 #include "abut/run/simulation.hpp"
 
 namespace abut::studies {

@@ -1,6 +1,6 @@
 #include "studies/nodal/case_files.hpp"
 
-#include "abut/run/energy_picture.hpp"
+#include "abut/run/report/energy_picture.hpp"
 #include "abut/run/scene.hpp"
 
 namespace abut::studies::nodal {

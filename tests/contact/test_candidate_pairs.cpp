@@ -3,6 +3,7 @@
 #include <array>
 #include <catch2/catch.hpp>
 
+#include "abut/contact/search/candidate_search.hpp"
 #include "contact/reference.hpp"
 #include "contact/surfaces.hpp"
 

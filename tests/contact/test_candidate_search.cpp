@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 
+#include "abut/contact/search/candidate_search.hpp"
 #include "contact/surfaces.hpp"
 
 using namespace abut;

@@ -10,7 +10,7 @@
 
 #include "abut/base/error.hpp"
 #include "abut/contact/contact.hpp"
-#include "abut/contact/engine.hpp"
+#include "abut/contact/engine/engine.hpp"
 #include "abut/contact/facet_store.hpp"
 #include "abut/contact/law/node_law.hpp"
 #include "abut/contact/old_facets.hpp"

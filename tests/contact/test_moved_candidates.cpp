@@ -6,6 +6,7 @@
 #include <catch2/catch.hpp>
 
 #include "abut/contact/overlaps.hpp"
+#include "abut/contact/search/candidate_search.hpp"
 #include "contact/turning.hpp"
 
 using namespace abut;

@@ -1,5 +1,5 @@
 // Overlaps within a distance, for hosts that ask for them alone.
-#include "abut/contact/near_overlaps.hpp"
+#include "abut/contact/search/near_overlaps.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "abut/contact/overlaps.hpp"
+#include "abut/contact/search/candidate_search.hpp"
 #include "contact/turning.hpp"
 
 using namespace abut;

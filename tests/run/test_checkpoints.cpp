@@ -9,7 +9,7 @@
 
 #include "abut/base/error.hpp"
 #include "abut/run/checkpoint_file.hpp"
-#include "abut/run/result_files.hpp"
+#include "abut/run/report/result_files.hpp"
 #include "abut/run/simulation.hpp"
 #include "run/folder.hpp"
 #include "run/scenes.hpp"

@@ -11,7 +11,7 @@
 
 #include "abut/base/error.hpp"
 #include "abut/mesh/io/read_vtu.hpp"
-#include "abut/run/result_files.hpp"
+#include "abut/run/report/result_files.hpp"
 #include "abut/run/simulation.hpp"
 #include "run/folder.hpp"
 #include "run/scenes.hpp"

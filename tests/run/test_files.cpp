@@ -10,7 +10,7 @@
 #include "abut/base/error.hpp"
 #include "abut/mesh/io/read_surface.hpp"
 #include "abut/run/frames.hpp"
-#include "abut/run/result_files.hpp"
+#include "abut/run/report/result_files.hpp"
 #include "abut/run/simulation.hpp"
 #include "abut/run/summary.hpp"
 #include "run/folder.hpp"

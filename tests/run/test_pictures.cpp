@@ -11,9 +11,9 @@
 #include <string>
 #include <vector>
 
+#include "abut/run/drawing/raster.hpp"
 #include "abut/run/report/body_pictures.hpp"
-#include "abut/run/report/raster.hpp"
-#include "abut/run/result_files.hpp"
+#include "abut/run/report/result_files.hpp"
 #include "abut/run/simulation.hpp"
 #include "run/folder.hpp"
 #include "run/scenes.hpp"

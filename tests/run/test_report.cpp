@@ -10,13 +10,13 @@
 #include <sstream>
 #include <string>
 
-#include "abut/run/report/cell_map.hpp"
-#include "abut/run/report/markup.hpp"
-#include "abut/run/report/plot.hpp"
+#include "abut/run/drawing/cell_map.hpp"
+#include "abut/run/drawing/markup.hpp"
+#include "abut/run/drawing/plot.hpp"
+#include "abut/run/drawing/ticks.hpp"
 #include "abut/run/report/report.hpp"
-#include "abut/run/report/ticks.hpp"
+#include "abut/run/report/result_files.hpp"
 #include "abut/run/report/watched.hpp"
-#include "abut/run/result_files.hpp"
 #include "abut/run/simulation.hpp"
 #include "abut/run/summary.hpp"
 #include "abut/run/warnings.hpp"

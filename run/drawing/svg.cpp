@@ -1,4 +1,4 @@
-#include "abut/run/report/svg.hpp"
+#include "abut/run/drawing/svg.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "abut/run/energy_picture.hpp"
+#include "abut/run/report/energy_picture.hpp"
 
 #include "abut/run/files.hpp"
 #include "abut/run/report/curves.hpp"

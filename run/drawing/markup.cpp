@@ -1,4 +1,4 @@
-#include "abut/run/report/markup.hpp"
+#include "abut/run/drawing/markup.hpp"
 
 #include "abut/base/text.hpp"
 

@@ -1,4 +1,4 @@
-#include "abut/contact/saved_contact.hpp"
+#include "abut/contact/engine/saved_contact.hpp"
 
 #include <string>
 #include <type_traits>
@@ -7,7 +7,7 @@
 #include "abut/base/error.hpp"
 #include "abut/base/ids.hpp"
 #include "abut/base/state_bytes.hpp"
-#include "abut/contact/report_counters.hpp"
+#include "abut/contact/engine/report_counters.hpp"
 
 namespace abut::contact {
 namespace {

@@ -1,4 +1,4 @@
-#include "abut/run/report/cell_map.hpp"
+#include "abut/run/drawing/cell_map.hpp"
 
 #include <fmt/format.h>
 
@@ -9,8 +9,8 @@
 #include <limits>
 #include <utility>
 
-#include "abut/run/report/svg.hpp"
-#include "abut/run/report/ticks.hpp"
+#include "abut/run/drawing/svg.hpp"
+#include "abut/run/drawing/ticks.hpp"
 
 namespace abut::run {
 namespace {

@@ -1,4 +1,4 @@
-#include "abut/run/report/raster.hpp"
+#include "abut/run/drawing/raster.hpp"
 
 #include <zlib.h>
 
@@ -8,7 +8,7 @@
 #include <new>
 #include <string_view>
 
-#include "abut/run/report/base64.hpp"
+#include "abut/run/drawing/base64.hpp"
 
 namespace abut::run {
 namespace {

@@ -1,7 +1,7 @@
 #include "abut/contact/contact.hpp"
 
 #include "abut/base/error.hpp"
-#include "abut/contact/engine.hpp"
+#include "abut/contact/engine/engine.hpp"
 #include "abut/contact/host_checks.hpp"
 #include "abut/contact/law/face_law.hpp"
 

@@ -1,4 +1,4 @@
-#include "abut/run/report/base64.hpp"
+#include "abut/run/drawing/base64.hpp"
 
 #include <cstdint>
 

@@ -1,4 +1,4 @@
-#include "abut/run/result_files.hpp"
+#include "abut/run/report/result_files.hpp"
 
 #include <fmt/format.h>
 
@@ -6,11 +6,11 @@
 
 #include "abut/base/error.hpp"
 #include "abut/base/stopwatch.hpp"
-#include "abut/run/energy_picture.hpp"
 #include "abut/run/failure_files.hpp"
 #include "abut/run/files.hpp"
 #include "abut/run/frame_piece.hpp"
 #include "abut/run/paraview_script.hpp"
+#include "abut/run/report/energy_picture.hpp"
 #include "abut/run/scene.hpp"
 #include "abut/run/summary.hpp"
 #include "abut/run/table_line.hpp"

@@ -5,7 +5,7 @@
 
 #include "abut/base/error.hpp"
 #include "abut/base/messages.hpp"
-#include "abut/contact/engine.hpp"
+#include "abut/contact/engine/engine.hpp"
 #include "abut/contact/host_checks.hpp"
 #include "abut/contact/law/node_law.hpp"
 #include "abut/contact/nodal_stable_step.hpp"

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "abut/run/report/markup.hpp"
+#include "abut/run/drawing/markup.hpp"
 
 namespace abut::run {
 

@@ -1,8 +1,9 @@
-#include "abut/contact/near_overlaps.hpp"
+#include "abut/contact/search/near_overlaps.hpp"
 
 #include <cmath>
 #include <limits>
 
+#include "abut/contact/search/candidate_search.hpp"
 #include "abut/contact/search/face_boxes.hpp"
 
 namespace abut::contact {

@@ -1,4 +1,4 @@
-#include "abut/run/report/ticks.hpp"
+#include "abut/run/drawing/ticks.hpp"
 
 #include <fmt/format.h>
 

@@ -2,7 +2,7 @@
 // Private to the sources of run.
 #include <string>
 
-#include "abut/run/report/markup.hpp"
+#include "abut/run/drawing/markup.hpp"
 
 /// Parts of drawings, in units of the drawing, y downwards. Styles are classes of the style sheet around them.
 namespace abut::run {

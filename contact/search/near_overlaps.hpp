@@ -3,7 +3,7 @@
 
 #include "abut/contact/nodal_surface.hpp"
 #include "abut/contact/overlaps.hpp"
-#include "abut/contact/search/candidate_search.hpp"
+#include "abut/contact/report.hpp"
 
 namespace abut::contact {
 
