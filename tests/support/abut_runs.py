@@ -23,8 +23,9 @@ class Run:
         require(self.code == 0 and self.summary is not None and self.summary["complete"], f"it did not end:\n{self.said}")
         return self
 
-    def body(self, name):
-        return next(body for body in self.summary["bodies"] if body["name"] == name)
+    def body(self, name=None):
+        """That of this name, or the first one."""
+        return next(body for body in self.summary["bodies"] if name in (None, body["name"]))
 
     def rows(self, file="energy.csv"):
         return rows_of(self.out / file)
@@ -36,7 +37,14 @@ class Run:
 
 def rows_of(file):
     with open(file, newline="") as lines:
-        return [{key.split(" [")[0]: float(value) for key, value in row.items()} for row in csv.DictReader(lines)]
+        return [{key.split(" [")[0]: number(value) for key, value in row.items()} for row in csv.DictReader(lines)]
+
+
+def number(text):
+    try:
+        return float(text)
+    except ValueError:
+        return text
 
 
 def require(condition, otherwise):
