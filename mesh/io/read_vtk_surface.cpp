@@ -34,8 +34,8 @@ std::vector<Vector<3>> point_vectors(const std::string& file, const VtkGrid& gri
 /// Every face of one cell of the file; none, and counted, if it is no surface.
 class FaceCollector {
 public:
-    FaceCollector(SurfaceMesh& mesh, std::vector<std::int64_t> body_values)
-        : mesh_(mesh), body_values_(std::move(body_values)) {}
+    FaceCollector(SurfaceMesh& mesh, const VtkGrid& grid)
+        : mesh_(mesh), grid_(grid), body_values_(body_values(mesh.name, grid)) {}
 
     void add_cell(std::int64_t type, std::span<const std::int64_t> ids, std::size_t cell) {
         corners_.resize(ids.size());
@@ -51,7 +51,7 @@ public:
     }
     void name_bodies() {
         if (body_values_.empty()) return;
-        mesh_.body_names = names_of_bodies(bodies_);
+        mesh_.body_names = names_of_bodies(bodies_, grid_);
         for (const std::int64_t body : bodies_) mesh_.face_body.push_back(static_cast<std::int32_t>(body));
     }
 
@@ -71,6 +71,7 @@ private:
     }
 
     SurfaceMesh& mesh_;
+    const VtkGrid& grid_;
     std::vector<std::int64_t> body_values_, bodies_;
     std::vector<std::int32_t> corners_;
 };
@@ -106,7 +107,7 @@ SurfaceMesh surface_of(const std::filesystem::path& path, VtkGrid grid, std::vec
     mesh.name = path.string();
     mesh.displacement = std::move(displacement);
     mesh.vertices = std::move(grid.points);
-    FaceCollector faces(mesh, body_values(mesh.name, grid));
+    FaceCollector faces(mesh, grid);
     for (std::size_t cell = 0; cell < grid.n_cells(); ++cell)
         faces.add_cell(grid.cell_types[cell], grid.corners_of(cell), cell);
     faces.name_bodies();

@@ -6,6 +6,8 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Geometry>
@@ -110,16 +112,52 @@ void append_cell(CellSoup<Dim>& soup, const VtkShape& shape, std::span<const std
     soup.cell_label.push_back(static_cast<std::int64_t>(cell));
 }
 
+void check_points(const std::string& name, const VtkGrid& grid, std::size_t cell) {
+    for (const std::int64_t id : grid.corners_of(cell))
+        if (id < 0 || id >= std::ssize(grid.points))
+            throw MeshError(name + ": cell " + std::to_string(cell) + " has the point " + std::to_string(id) +
+                            ", the file has " + std::to_string(grid.points.size()) + ". Write the mesh again.");
+}
+
+/// Arrays of groups, whose names the soup gets.
+template <int Dim>
+std::vector<const VtkArray*> group_arrays(CellSoup<Dim>& soup, const VtkGrid& grid) {
+    std::vector<const VtkArray*> arrays;
+    for (const VtkArray& array : grid.cell_data)
+        if (array.n_components == 1 && array.name.starts_with(group_prefix)) {
+            arrays.push_back(&array);
+            soup.group_names.push_back(array.name.substr(std::string_view(group_prefix).size()));
+        }
+    return arrays;
+}
+
+/// Whether a cell of lower dimension is a face of a group.
+template <int Dim>
+bool read_group_face(CellSoup<Dim>& soup, const VtkGrid& grid, const std::vector<const VtkArray*>& groups,
+                     std::size_t cell) {
+    bool is_face = false;
+    for (std::size_t group = 0; group < groups.size(); ++group) {
+        if (groups[group]->values[cell] == 0.0) continue;
+        check_points(soup.name, grid, cell);
+        typename CellSoup<Dim>::NamedFace face{{}, static_cast<std::int32_t>(group)};
+        for (const std::int64_t id : grid.corners_of(cell)) face.vertices.push_back(static_cast<std::int32_t>(id));
+        soup.named_faces.push_back(std::move(face));
+        is_face = true;
+    }
+    return is_face;
+}
+
 template <int Dim>
 void read_cells(CellSoup<Dim>& soup, const VtkGrid& grid) {
     const auto values = body_values(soup.name, grid);
+    const auto groups = group_arrays(soup, grid);
     std::vector<std::int64_t> bodies;
     std::size_t n_curved = 0;
     for (std::size_t cell = 0; cell < grid.n_cells(); ++cell) {
         const std::int64_t type = grid.cell_types[cell];
         const auto shape = shape_of_vtk(type);
         if (has_lower_dimension(type, Dim)) {
-            ++soup.n_ignored_elements;
+            if (!read_group_face(soup, grid, groups, cell)) ++soup.n_ignored_elements;
             continue;
         }
         if (!shape || dimension(shape->shape) != Dim)
@@ -133,16 +171,13 @@ void read_cells(CellSoup<Dim>& soup, const VtkGrid& grid) {
             throw MeshError(soup.name + ": cell " + std::to_string(cell) + " has " + std::to_string(n_ids) + " points, a " +
                             std::string(name(shape->shape)) + " has " + std::to_string(n_vertices(shape->shape)) +
                             ". Write the mesh again.");
-        for (const std::int64_t id : ids)
-            if (id < 0 || id >= std::ssize(grid.points))
-                throw MeshError(soup.name + ": cell " + std::to_string(cell) + " has the point " + std::to_string(id) +
-                                ", the file has " + std::to_string(grid.points.size()) + ". Write the mesh again.");
+        check_points(soup.name, grid, cell);
         append_cell(soup, *shape, ids, cell);
         n_curved += shape->is_curved;
         if (!values.empty()) bodies.push_back(values[cell]);
     }
     if (n_curved > 0) soup.warnings.push_back(about_order_2(n_curved));
-    soup.body_names = names_of_bodies(bodies);
+    soup.body_names = names_of_bodies(bodies, grid);
     for (std::size_t cell = 0; cell < bodies.size(); ++cell) soup.cell_body[cell] = static_cast<std::int32_t>(bodies[cell]);
     name_connected_bodies(soup);
 }

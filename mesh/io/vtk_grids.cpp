@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <numeric>
 #include <utility>
 
+#include "abut/base/sort_unique.hpp"
 #include "abut/mesh/cell_shape.hpp"
 #include "abut/mesh/io/vtk_input.hpp"
 
@@ -32,7 +34,7 @@ template <int Dim>
 std::string numbers_of_bodies(const Mesh<Dim>& mesh) {
     std::string tags;
     for (std::int32_t body = 0; body < mesh.n_bodies(); ++body)
-        tags += field_number("body: " + mesh.body_names[static_cast<std::size_t>(body)], body);
+        tags += field_number(body_prefix + mesh.body_names[static_cast<std::size_t>(body)], body);
     return tags;
 }
 
@@ -55,9 +57,59 @@ std::vector<std::int64_t> numbers_among(std::size_t n, std::span<const std::int3
     return numbers;
 }
 
+template <int Dim>
+std::int32_t body_of_face(const Mesh<Dim>& mesh, std::int32_t face) {
+    return mesh.cell_body[static_cast<std::size_t>(mesh.face_cells[static_cast<std::size_t>(face)][0])];
+}
+
+/// Cells of an unstructured grid before they are packed.
+struct GridCells {
+    std::vector<std::int64_t> corners, ends;
+    std::vector<std::uint8_t> types;
+    std::vector<std::int32_t> bodies;
+
+    void end(std::uint8_t type, std::int32_t body) {
+        ends.push_back(std::ssize(corners));
+        types.push_back(type);
+        bodies.push_back(body);
+    }
+};
+
+template <int Dim>
+GridCells cells_among(const Mesh<Dim>& mesh, std::span<const std::int32_t> cells, std::span<const std::int32_t> vertices) {
+    const std::vector<std::int64_t> number = numbers_among(mesh.vertices.size(), vertices);
+    GridCells made;
+    for (const std::int32_t cell : cells) {
+        const CellShape shape = mesh.cell_shape[static_cast<std::size_t>(cell)];
+        const auto of_cell = mesh.cell_vertices[cell];
+        for (std::size_t i = 0; i < of_cell.size(); ++i)
+            made.corners.push_back(number[static_cast<std::size_t>(of_cell[vtk_place(shape, i)])]);
+        made.end(vtk_type(shape), mesh.cell_body[static_cast<std::size_t>(cell)]);
+    }
+    return made;
+}
+
+template <int Dim>
+OutputGrid packed(const Mesh<Dim>& mesh, const GridCells& cells, std::span<const std::int32_t> vertices) {
+    auto grid = output_grid<Dim>("UnstructuredGrid", "Cells", points_of(mesh, vertices), cells.corners, cells.ends);
+    grid.cells.push_back(output_array("types", cells.types));
+    grid.cell_data.push_back(output_array("body", cells.bodies));
+    grid.field_data = numbers_of_bodies(mesh);
+    return grid;
+}
+
+/// The boundary faces that are in groups.
+template <int Dim>
+std::vector<std::int32_t> faces_in_groups(const Mesh<Dim>& mesh) {
+    std::vector<std::int32_t> faces;
+    for (const BoundaryGroup& group : mesh.groups) faces.insert(faces.end(), group.faces.begin(), group.faces.end());
+    sort_unique(faces);
+    return faces;
+}
+
 }  // namespace
 
-std::string group_array(const std::string& group) { return "group: " + group; }
+std::string group_array(const std::string& group) { return group_prefix + group; }
 
 std::vector<std::int32_t> all_of(std::size_t n) {
     std::vector<std::int32_t> all(n);
@@ -78,23 +130,26 @@ std::vector<std::int32_t> surface_vertices(const Mesh<Dim>& mesh, std::span<cons
 template <int Dim>
 OutputGrid grid_of_cells(const Mesh<Dim>& mesh, std::span<const std::int32_t> cells,
                          std::span<const std::int32_t> vertices) {
-    const std::vector<std::int64_t> number = numbers_among(mesh.vertices.size(), vertices);
-    std::vector<std::int64_t> corners, ends;
-    std::vector<std::uint8_t> types;
-    std::vector<std::int32_t> bodies;
-    for (const std::int32_t cell : cells) {
-        const CellShape shape = mesh.cell_shape[static_cast<std::size_t>(cell)];
-        const auto of_cell = mesh.cell_vertices[cell];
-        for (std::size_t i = 0; i < of_cell.size(); ++i)
-            corners.push_back(number[static_cast<std::size_t>(of_cell[vtk_place(shape, i)])]);
-        ends.push_back(std::ssize(corners));
-        types.push_back(vtk_type(shape));
-        bodies.push_back(mesh.cell_body[static_cast<std::size_t>(cell)]);
+    return packed(mesh, cells_among(mesh, cells, vertices), vertices);
+}
+
+template <int Dim>
+OutputGrid grid_with_groups(const Mesh<Dim>& mesh) {
+    const std::vector<std::int32_t> vertices = all_of(mesh.vertices.size());
+    const auto n_cells = static_cast<std::size_t>(mesh.n_cells());
+    GridCells cells = cells_among(mesh, all_of(n_cells), vertices);
+    const std::vector<std::int32_t> faces = faces_in_groups(mesh);
+    for (const std::int32_t face : faces) {
+        const auto of_face = mesh.face_vertices[face];
+        cells.corners.insert(cells.corners.end(), of_face.begin(), of_face.end());
+        cells.end(of_face.size() == 2 ? vtk_line : of_face.size() == 3 ? vtk_triangle : vtk_quad, body_of_face(mesh, face));
     }
-    auto grid = output_grid<Dim>("UnstructuredGrid", "Cells", points_of(mesh, vertices), corners, ends);
-    grid.cells.push_back(output_array("types", types));
-    grid.cell_data.push_back(output_array("body", bodies));
-    grid.field_data = numbers_of_bodies(mesh);
+    OutputGrid grid = packed(mesh, cells, vertices);
+    for (const BoundaryGroup& group : mesh.groups) {
+        std::vector<std::uint8_t> is_in(n_cells, 0);
+        for (const std::int32_t face : faces) is_in.push_back(std::ranges::binary_search(group.faces, face) ? 1 : 0);
+        grid.cell_data.push_back(output_array(group_array(group.name), is_in));
+    }
     return grid;
 }
 
@@ -109,7 +164,7 @@ OutputGrid grid_of_surface(const Mesh<Dim>& mesh, std::span<const std::int32_t> 
         for (const std::int32_t vertex : mesh.face_vertices[face])
             corners.push_back(number[static_cast<std::size_t>(vertex)]);
         ends.push_back(std::ssize(corners));
-        bodies.push_back(mesh.cell_body[static_cast<std::size_t>(mesh.face_cells[static_cast<std::size_t>(face)][0])]);
+        bodies.push_back(body_of_face(mesh, face));
     }
     auto grid = output_grid<Dim>("PolyData", Dim == 2 ? "Lines" : "Polys", points_of(mesh, vertices), corners, ends);
     grid.cell_data.push_back(output_array("body", bodies));
@@ -120,6 +175,7 @@ OutputGrid grid_of_surface(const Mesh<Dim>& mesh, std::span<const std::int32_t> 
 }
 
 #define ABUT_INSTANTIATE(Dim)                                                                                               \
+    template OutputGrid grid_with_groups<Dim>(const Mesh<Dim>&);                                                            \
     template std::vector<std::int32_t> surface_vertices<Dim>(const Mesh<Dim>&, std::span<const std::int32_t>);              \
     template OutputGrid grid_of_cells<Dim>(const Mesh<Dim>&, std::span<const std::int32_t>, std::span<const std::int32_t>); \
     template OutputGrid grid_of_surface<Dim>(const Mesh<Dim>&, std::span<const std::int32_t>, std::span<const std::int32_t>);

@@ -60,8 +60,7 @@ public:
     VtkGrid read() {
         const Node grid = file_.grid();
         for (const Node field : grid.children("FieldData"))
-            for (const Node array : field.children("DataArray"))
-                static_cast<void>(file_.n_values(array, file_.count(array, "NumberOfTuples", 0.0)));
+            for (const Node array : field.children("DataArray")) read_number_of_body(array);
         const auto pieces = grid.children("Piece");
         has_one_piece_ = std::distance(pieces.begin(), pieces.end()) == 1;
         for (const Node piece : pieces) read_piece(piece);
@@ -78,6 +77,14 @@ private:
             file_.refuse_damage(
                 piece, "it promises " + count_text(n) + " as " + key + " in " + count_text(file_.n_bytes()) + " bytes");
         return static_cast<std::size_t>(n);
+    }
+
+    void read_number_of_body(Node array) {
+        const std::size_t n = file_.n_values(array, file_.count(array, "NumberOfTuples", 0.0));
+        const std::string name = array.attribute("Name").value();
+        if (n == 1 && name.starts_with(body_prefix))
+            grid_.body_numbers.push_back(
+                {name.substr(std::string_view(body_prefix).size()), 1, file_.values<double>(array, 1)});
     }
 
     void read_piece(Node piece) {
@@ -213,12 +220,17 @@ std::vector<std::int64_t> body_values(const std::string& name, const VtkGrid& gr
     return values;
 }
 
-std::vector<std::string> names_of_bodies(std::vector<std::int64_t>& values) {
+std::vector<std::string> names_of_bodies(std::vector<std::int64_t>& values, const VtkGrid& grid) {
+    const auto name_of = [&grid](std::int64_t value) {
+        for (const VtkArray& number : grid.body_numbers)
+            if (number.values[0] == static_cast<double>(value)) return number.name;
+        return std::string("body_") + std::to_string(value);
+    };
     std::vector<std::int64_t> distinct = values;
     sort_unique(distinct);
     for (std::int64_t& value : values) value = std::lower_bound(distinct.begin(), distinct.end(), value) - distinct.begin();
     std::vector<std::string> names;
-    for (const std::int64_t value : distinct) names.push_back(std::string("body_") + std::to_string(value));
+    for (const std::int64_t value : distinct) names.push_back(name_of(value));
     return names;
 }
 

@@ -41,6 +41,11 @@ enum VtkCell : std::uint8_t {
     vtk_biquadratic_triangle = 34
 };
 
+/// The array that says which faces are in a group, and the number of a body in the array "body", are called so, with the name of
+/// the group or body behind it.
+inline constexpr const char* group_prefix = "group: ";
+inline constexpr const char* body_prefix = "body: ";
+
 struct VtkArray {
     std::string name;
     std::size_t n_components = 1;
@@ -55,6 +60,7 @@ struct VtkGrid {
     std::vector<std::int64_t> cell_ends;          ///< end of the corners of each cell, never decreasing (n_cells)
     std::vector<std::int64_t> corners;            ///< point indices as they stand in the file, which may be out of range
     std::vector<VtkArray> point_data, cell_data;  ///< one tuple for each point or cell
+    std::vector<VtkArray> body_numbers;           ///< by the names of bodies: their value in the array "body"
 
     [[nodiscard]] std::size_t n_cells() const { return cell_types.size(); }
     [[nodiscard]] std::span<const std::int64_t> corners_of(std::size_t cell) const;
@@ -76,8 +82,9 @@ enum class VtkKind { unstructured_grid, poly_data };
 /// Value of the array "body" in each cell; empty without that array. Throws MeshError for a value that is no whole number.
 [[nodiscard]] std::vector<std::int64_t> body_values(const std::string& name, const VtkGrid& grid);
 
-/// Replaces values of the array "body" by indices into the names that are returned: "body_<value>" in increasing order.
-[[nodiscard]] std::vector<std::string> names_of_bodies(std::vector<std::int64_t>& values);
+/// Replaces values of the array "body" by indices into the names that are returned, in increasing order of the values: "ball" where
+/// the file has that value as its number "body: ball", else "body_<value>".
+[[nodiscard]] std::vector<std::string> names_of_bodies(std::vector<std::int64_t>& values, const VtkGrid& grid);
 
 /// The cells of dimension Dim; errors and the rest as told of `read_vtu`.
 template <int Dim>

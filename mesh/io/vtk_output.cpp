@@ -2,6 +2,7 @@
 
 #include <bit>
 #include <string_view>
+#include <utility>
 
 #include "abut/base/error.hpp"
 #include "abut/base/messages.hpp"
@@ -22,7 +23,8 @@ std::string field_tag(const char* type, const std::string& name, const std::stri
            "\" NumberOfTuples=\"1\" format=\"ascii\">" + value + "</DataArray>\n";
 }
 
-/// Puts tags one behind the other, and their data.
+/// Puts tags one behind the other, and their data in reverse: meshio 5 rewrites offsets as it goes through the data and looks each
+/// array up by its offset, which then is that of no array before it.
 class Document {
 public:
     Document(const OutputGrid& grid, const std::string& field_data) : text_(vtk_head(grid.type)) {
@@ -38,24 +40,29 @@ public:
         text_ += "<" + name + ">\n";
         for (const auto part : {arrays, more})
             for (const OutputArray& array : part) {
-                text_ +=
-                    "<DataArray " + array.attributes + " format=\"appended\" offset=\"" + std::to_string(offset_) + "\"/>\n";
-                data_.emplace_back(array.blocks);
-                offset_ += array.blocks.size();
+                heads_.push_back(std::exchange(text_, "\"/>\n") + "<DataArray " + array.attributes +
+                                 " format=\"appended\" offset=\"");
+                blocks_.emplace_back(array.blocks);
             }
         text_ += "</" + name + ">\n";
     }
     PreparedFile prepared(const std::filesystem::path& path, const std::string& type) {
         text_ += "</Piece>\n</" + type + ">\n<AppendedData encoding=\"raw\">\n_";
-        data_.front() = text_;
-        data_.emplace_back("\n</AppendedData>\n</VTKFile>\n");
-        return prepared_file(path, data_);
+        std::size_t offset = 0;
+        for (const std::string_view blocks : blocks_) offset += blocks.size();
+        std::string whole;
+        for (std::size_t i = 0; i < heads_.size(); ++i) whole += heads_[i] + std::to_string(offset -= blocks_[i].size());
+        whole += text_;
+        std::vector<std::string_view> data{whole};
+        data.insert(data.end(), blocks_.rbegin(), blocks_.rend());
+        data.emplace_back("\n</AppendedData>\n</VTKFile>\n");
+        return prepared_file(path, data);
     }
 
 private:
-    std::string text_;
-    std::vector<std::string_view> data_{""};
-    std::size_t offset_ = 0;
+    std::string text_;                ///< behind the last array
+    std::vector<std::string> heads_;  ///< up to the offset of each array
+    std::vector<std::string_view> blocks_;
 };
 
 }  // namespace

@@ -144,7 +144,7 @@ void VtuSeries<Dim>::write(const Frame<Dim>& frame) {
 
 template <int Dim>
 void write_vtu(const Mesh<Dim>& mesh, const Path& path) {
-    prepared_grid(grid_of_all(mesh), path).move_into_place();
+    prepared_grid(grid_with_groups(mesh), path).move_into_place();
 }
 
 template class VtuSeries<2>;

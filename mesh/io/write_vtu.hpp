@@ -71,7 +71,9 @@ private:
     std::unique_ptr<Files> files_;
 };
 
-/// The mesh alone, with the cell array "body", in one .vtu file. Throws MeshError if it cannot be written.
+/// The mesh alone in one .vtu file: its cells with the array "body", behind them the boundary faces that are in groups, and an
+/// array "group: <name>" for each group, 1 on its faces and 0 elsewhere, so that read_mesh gives the groups back. Throws
+/// MeshError if it cannot be written.
 template <int Dim>
 void write_vtu(const Mesh<Dim>& mesh, const std::filesystem::path& path);
 

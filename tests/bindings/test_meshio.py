@@ -87,6 +87,25 @@ class Meshes(unittest.TestCase):
         self.check_two_boxes(mesh, groups=("foot",))
         self.assertAlmostEqual(area_of(mesh, "wide"), 4.0, delta=1e-12)
 
+    def test_a_file_of_ours_gives_its_groups_back(self):
+        box = solid.structured_box((0, 0, 0), (1, 2, 3), (2, 2, 2), shape="wedge")
+        with tempfile.TemporaryDirectory() as folder:
+            box.write_vtu(f"{folder}/box.vtu")
+            again = solid.mesh(meshio.read(f"{folder}/box.vtu"))
+        self.assertEqual(set(again.groups), set(box.groups))
+        self.assertEqual(again.body_names, box.body_names)
+        for group, area in (("xmin", 6.0), ("ymax", 3.0), ("zmin", 2.0)):
+            self.assertAlmostEqual(area_of(again, group), area, delta=1e-12)
+        self.assertAlmostEqual(again.measures.sum(), 6.0, delta=1e-12)
+
+    def test_files_of_ours_of_any_size_are_read(self):
+        """meshio rewrites offsets of arrays while it looks arrays up by their offsets."""
+        with tempfile.TemporaryDirectory() as folder:
+            for n in range(2, 30):
+                box = solid.structured_box((0, 0), (1, 1), (n, 2))
+                box.write_vtu(f"{folder}/box.vtu")
+                self.assertEqual(len(solid.mesh(meshio.read(f"{folder}/box.vtu")).groups), len(box.groups))
+
     def test_numbers_of_gmsh_are_bodies_by_their_names(self):
         for name in ("card_house", "arch"):
             ours, theirs = solid.read_mesh(SCENES / f"{name}.msh", 2), solid.mesh(meshio.read(SCENES / f"{name}.msh"))

@@ -27,6 +27,12 @@ def falling(**options):
                 **options)
 
 
+def faces_by_group(mesh):
+    """The points of each face, whatever their order."""
+    faces, offsets = mesh.surface["faces"], mesh.surface["offsets"]
+    return {name: {frozenset(faces[offsets[f]:offsets[f + 1]].tolist()) for f in rows} for name, rows in mesh.groups.items()}
+
+
 class Meshes(unittest.TestCase):
     def test_arrays_in_and_out_keep_the_mesh(self):
         for given in (solid.structured_box(**ROD), two_boxes(), solid.sphere(size=0.5),
@@ -58,6 +64,8 @@ class Meshes(unittest.TestCase):
                 again = solid.read_mesh(path, dim)
                 np.testing.assert_array_equal(again.points, mesh.points)
                 np.testing.assert_array_equal(again.body, mesh.body)
+                self.assertEqual(again.body_names, mesh.body_names)
+                self.assertEqual(faces_by_group(again), faces_by_group(mesh))
 
     def test_the_surface_of_cells_is_that_of_the_mesh_they_make(self):
         for mesh in (two_boxes(), solid.sphere(size=0.5), *(solid.structured_box((0, 0, 0), (1, 2, 3), (2, 2, 2), shape=shape)

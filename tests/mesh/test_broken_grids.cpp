@@ -155,16 +155,16 @@ TEST_CASE("a VTU file whose compressed data promise more than it can hold is ref
     std::ifstream file(folder / "whole.vtu", std::ios::binary);
     const std::string whole{std::istreambuf_iterator<char>(file), {}};
     CHECK(said_of("a.vtu", whole) == "nothing");
-    const auto data = whole.find('_', whole.find("<AppendedData")) + 1;
-    for (const std::size_t number : {0, 1}) {  // of blocks; of bytes of a block
+    const auto data = whole.find('_', whole.find("<AppendedData")) + 1;  // the last array is stored first
+    for (const std::size_t number : {0, 1}) {                            // of blocks; of bytes of a block
         std::string damaged = whole;
         damaged.replace(data + 4 * number, 4, "\xF0\xF0\xF0\x70");
         CHECK_THAT(said_of("a.vtu", damaged),
-                   Contains("a.vtu: line ") && Contains("the file is damaged: the data of the array 'body' promise "));
+                   Contains("a.vtu: line ") && Contains("the file is damaged: the data of the array 'types' promise "));
     }
     std::string damaged = whole;
     damaged.replace(data + 12, 4, "\xF0\xF0\xF0\x70");  // the bytes of the first block as it is stored
-    CHECK_THAT(said_of("a.vtu", damaged), Contains("the file is damaged: the blocks of the array 'body' end behind the "));
+    CHECK_THAT(said_of("a.vtu", damaged), Contains("the file is damaged: the blocks of the array 'types' end behind the "));
     CHECK_THAT(said_of("a.vtu", replaced(whole, "raw\">", "raw\"><")),
                Contains("a.vtu: line ") && Contains("'_' does not follow <AppendedData>"));
 }
@@ -178,11 +178,14 @@ TEST_CASE("a VTP file whose arrays share their data is refused where all togethe
     write_vtp(mesh.soup(), folder / "whole.vtp");
     std::ifstream file(folder / "whole.vtp", std::ios::binary);
     const std::string whole{std::istreambuf_iterator<char>(file), {}};
+    const std::string before = " format=\"appended\" offset=\"";
+    const std::size_t begin = whole.find(before, whole.find("Name=\"Points\"")) + before.size();
+    const std::string offset = whole.substr(begin, whole.find('"', begin) - begin);
     const auto with_arrays = [&](int n) {
         std::string arrays;
         for (int i = 0; i < n; ++i)
             arrays += "<DataArray type=\"Float64\" Name=\"d" + std::to_string(i) +
-                      "\" NumberOfComponents=\"3\" format=\"appended\" offset=\"0\"/>";
+                      "\" NumberOfComponents=\"3\" format=\"appended\" offset=\"" + offset + "\"/>";
         return replaced(whole, "<PointData>", "<PointData>" + arrays);
     };
     CHECK(said_of("a.vtp", with_arrays(1)) == "nothing");

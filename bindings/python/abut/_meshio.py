@@ -66,12 +66,25 @@ def _sets(given):
     """{name: [rows of each block]}"""
     sets = {name: [np.asarray([] if rows is None else rows, int) for rows in chosen] for name, chosen in given.cell_sets.items()
             if not name.startswith("gmsh:")}
+    sets.update(_sets_of_abut(given))
     if sets:
         return sets
     for key in TAGS:
         if key in given.cell_data:
             return _sets_of_numbers(given, key)
     return {}
+
+
+def _sets_of_abut(given):
+    """As _sets, of the arrays that VTU files of Abut have: bodies by their numbers, groups by flags."""
+    dimension = [DIMENSIONS[_base(block.type)] for block in given.cells]
+    sets = {key[len("group: "):]: [np.flatnonzero(np.asarray(flags) != 0) for flags in arrays]
+            for key, arrays in given.cell_data.items() if key.startswith("group: ")}
+    for key, value in given.field_data.items():
+        if key.startswith("body: ") and "body" in given.cell_data:
+            sets[key[len("body: "):]] = [np.flatnonzero(np.asarray(body) == np.ravel(value)[0]) if d == max(dimension)
+                                         else np.array([], int) for d, body in zip(dimension, given.cell_data["body"])]
+    return sets
 
 
 def _sets_of_numbers(given, key):
