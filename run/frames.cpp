@@ -11,6 +11,7 @@
 #include "abut/run/frame_piece.hpp"
 #include "abut/run/obstacle_frames.hpp"
 #include "abut/run/scene.hpp"
+#include "abut/run/xdmf_series.hpp"
 #include "abut/solid/boundary_face.hpp"
 
 namespace abut::run {
@@ -166,8 +167,12 @@ double von_mises(const Matrix<Dim>& stress, double out_of_plane_stress) {
 }
 
 template <int Dim>
-Frames<Dim>::Frames(std::filesystem::path directory, std::string series, int n_frames, bool in_pieces)
-    : directory_(std::move(directory)), name_(std::move(series)), n_frames_(n_frames), in_pieces_(in_pieces) {}
+Frames<Dim>::Frames(std::filesystem::path directory, std::string series, int n_frames, FrameFormat format, bool in_pieces)
+    : directory_(std::move(directory)),
+      name_(std::move(series)),
+      n_frames_(n_frames),
+      format_(format),
+      in_pieces_(in_pieces) {}
 
 template <int Dim>
 Frames<Dim>::~Frames() = default;
@@ -176,6 +181,8 @@ template <int Dim>
 void Frames<Dim>::begin(const Scene<Dim>& scene, const RunResult<Dim>& result) {
     if (in_pieces_)
         pieces_.emplace(directory_, name_);
+    else if (format_ == FrameFormat::xdmf)
+        xdmf_ = std::make_unique<XdmfSeries<Dim>>(directory_, name_, scene.mesh);
     else
         series_.emplace(directory_, name_, scene.mesh);
     fields_ = scene.outputs.fields;
@@ -202,7 +209,7 @@ std::int64_t Frames<Dim>::due(std::int64_t step, std::int64_t n_written) const {
 
 template <int Dim>
 bool Frames<Dim>::wants_look(std::int64_t step) const {
-    if (!in_pieces_) return due(step, series_->n_frames()) >= 0;
+    if (!in_pieces_) return due(step, std::ssize(times())) >= 0;
     return pairs_ && due(step, static_cast<std::int64_t>(pairs_->times().size())) >= 0;
 }
 
@@ -212,9 +219,23 @@ std::int64_t Frames<Dim>::wants_piece(std::int64_t step) const {
 }
 
 template <int Dim>
+const std::vector<double>& Frames<Dim>::times() const {
+    if (in_pieces_) return pieces_->times();
+    return xdmf_ ? xdmf_->times() : series_->times();
+}
+
+template <int Dim>
+void Frames<Dim>::write_whole_frame(const mesh::Frame<Dim>& frame) {
+    if (xdmf_)
+        xdmf_->write(frame);
+    else
+        series_->write(frame);
+}
+
+template <int Dim>
 void Frames<Dim>::save(StateWriter& state) {
     state.put(n_spread_);
-    state.put_all(std::span(in_pieces_ ? pieces_->times() : series_->times()));
+    state.put_all(std::span(times()));
 }
 
 template <int Dim>
@@ -224,6 +245,8 @@ void Frames<Dim>::resume(const Scene<Dim>& scene, const RunResult<Dim>& result, 
     const auto times = state.get_all<double>();
     if (in_pieces_)
         pieces_->go_on_after(times);
+    else if (xdmf_)
+        xdmf_->go_on_after(times);
     else
         series_->go_on_after(times);
     if (pairs_) pairs_->go_on_after(times);
@@ -246,7 +269,7 @@ void Frames<Dim>::write(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& so
         frame.boundary_fields = boundary_fields<Dim>(fields_, gap, contact);
         if (pairs_) write_pairs(run, solid, displacement, of_vertices);
         if (obstacles_) obstacles_->write(run.time);
-        series_->write(frame);
+        write_whole_frame(frame);
     } else {
         write_pairs(run, solid, displacement, of_vertices);
     }

@@ -12,12 +12,15 @@
 #include "abut/mesh/io/write_pieces.hpp"
 #include "abut/mesh/io/write_vtu.hpp"
 #include "abut/run/observer.hpp"
+#include "abut/run/options.hpp"
 #include "abut/run/outputs.hpp"
 
 namespace abut::run {
 
 template <int Dim>
 class ObstacleFrames;
+template <int Dim>
+class XdmfSeries;
 
 /// A run as a series for ParaView: displacement [m], velocity [m/s], stress and von Mises stress [Pa] on cells, contact
 /// pressure [Pa] and gap [m] on boundary faces (NaN on faces that are not in contact); and, as points of a series of
@@ -28,13 +31,17 @@ class ObstacleFrames;
 /// Outputs::fields may leave fields out. `series` is what the files are called by, see mesh::VtuSeries, which also says what they
 /// throw if they cannot be written.
 ///
+/// With FrameFormat::xdmf cells and boundary faces are in one file (SERIES.h5, beside SERIES.xmf and SERIES_surface.xmf) in
+/// place of the .vtu and .vtp files.
+///
 /// In pieces the same, but each rank writes its own cells and their boundary faces (mesh::PieceSeries; on ranks other than 0 by
 /// PieceFiles). Pairs are not in pieces: rank 0 writes them, and brings the whole together for them unless they are left out.
 template <int Dim>
 class Frames : public Observer<Dim> {
 public:
     /// Nothing is written before the run begins; `n_frames` > 0.
-    Frames(std::filesystem::path directory, std::string series, int n_frames, bool in_pieces = false);
+    Frames(std::filesystem::path directory, std::string series, int n_frames, FrameFormat format = FrameFormat::vtu,
+           bool in_pieces = false);
     ~Frames() override;
     Frames(const Frames&) = delete;
     Frames& operator=(const Frames&) = delete;
@@ -47,6 +54,8 @@ public:
     void piece(const FramePiece<Dim>& piece) override;
     void all_pieces(const FramePiece<Dim>& piece) override;
     void save(StateWriter& state) override;
+    /// Of the files that list the frames of cells and boundary faces.
+    [[nodiscard]] std::string list_extension() const { return format_ == FrameFormat::xdmf ? ".xmf" : ".pvd"; }
     [[nodiscard]] bool has_pairs() const { return pairs_.has_value(); }         ///< whether SERIES_pairs is written
     [[nodiscard]] bool has_obstacles() const { return obstacles_ != nullptr; }  ///< whether SERIES_obstacles is written
     /// Throws BadInput if frames that were written are gone.
@@ -58,14 +67,19 @@ private:
                      std::span<const Vector<Dim>> of_vertices);
     [[nodiscard]] std::int64_t due(std::int64_t step, std::int64_t n_written) const;
 
+    [[nodiscard]] const std::vector<double>& times() const;
+    void write_whole_frame(const mesh::Frame<Dim>& frame);
+
     std::filesystem::path directory_;
     std::string name_;
     std::int64_t n_frames_;
+    FrameFormat format_;
     bool in_pieces_;
     std::int64_t n_steps_ = 0;
     std::int64_t n_spread_ = 0;  // steps that the frames are spread over: those of the run, or of the one it goes on from
     FrameFields fields_;
     std::optional<mesh::VtuSeries<Dim>> series_;  // of the whole, or
+    std::unique_ptr<XdmfSeries<Dim>> xdmf_;       // in one file, or
     std::optional<mesh::PieceSeries> pieces_;     // in pieces
     std::optional<mesh::PointSeries<Dim>> pairs_;
     std::vector<mesh::NamedNumber> bodies_;  // of pairs

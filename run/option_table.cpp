@@ -143,6 +143,10 @@ List of_output() {
         option("interval", &Of::interval,
                {.help = "steps between two records of the energies; 0: as many as make about 2,000, in 3D at least 10"}),
         option("frames", &Of::frames, {.help = "frames for ParaView, first and last included; 0: none"}),
+        choice(
+            "format", &Of::format, format_words,
+            {.help = "of frames: vtu, a file for each, or xdmf, one .h5 file for all with .xmf beside it (not with pieces)",
+             .named = Named::changed}),
         option("animation", &Of::animation,
                {.help = "frames of animation.html, the run as a film in a browser, first and last included; 0: no film",
                 .named = Named::changed}),

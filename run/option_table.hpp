@@ -17,6 +17,7 @@ inline constexpr std::array<Word<BodyKinematics>, 6> kinematics_words{{{"scene",
                                                                        {"floating", BodyKinematics::floating},
                                                                        {"finite", BodyKinematics::finite},
                                                                        {"rigid", BodyKinematics::rigid}}};
+inline constexpr std::array<Word<FrameFormat>, 2> format_words{{{"vtu", FrameFormat::vtu}, {"xdmf", FrameFormat::xdmf}}};
 inline constexpr std::array<Word<bool>, 2> filter_words{{{"none", false}, {"neutral", true}}};
 
 /// All options of a run, in the order of help texts, keys and summaries: command lines, the tables [run], [contact] and

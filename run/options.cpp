@@ -126,6 +126,10 @@ void check_together(const RunOptions& options) {
         if (option.name != "cfl") check_value("", as_flag, value, by_default);  // choose_step judges the step of a cfl
         check_scheme(option, value, by_default, name_of(options.integrator));
     }
+    if (options.format == FrameFormat::xdmf && options.pieces)
+        throw BadInput(
+            "--pieces: ranks write pieces of frames as vtu alone. Leave --pieces out: rank 0 then writes the whole as "
+            "xdmf; or leave --format xdmf out.");
     if (const auto& [full, none] = options.facing; !(full < none))
         throw BadInput(
             fmt::format("--facing-full, --facing-none: pairs of faces fade out from {:g} to {:g}; -1 <= facing_full < "

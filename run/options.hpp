@@ -28,6 +28,9 @@ using SolidIntegrator = dynamics::Scheme;
 /// cheapest one that a pilot run allows (run/pilot.hpp).
 enum class BodyKinematics { scene, automatic, small, floating, finite, rigid };
 
+/// Files of frames for ParaView: a .vtu and a .vtp file for each, or one .h5 file for all with XDMF beside it.
+enum class FrameFormat : std::uint8_t { vtu, xdmf };
+
 /// How a scene is run. Where a message of an error or a warning names an option, it does so in the words of the programs'
 /// command lines: --contact-margin is `contact_margin`.
 struct RunOptions {
@@ -62,9 +65,10 @@ struct RunOptions {
     double rebalance_above = 1.05;      ///< cells are shared out again where the costliest rank costs so many times the mean
     std::filesystem::path out;          ///< folder of ResultFiles; a simulation alone writes nothing
     int interval = 0;                   ///< steps between ledger records; 0: see records_interval
-    int frames = 21;                    ///< of the VTU series of ResultFiles, the first and the last included; 0: none
+    int frames = 21;                    ///< of the series of ResultFiles, the first and the last included; 0: none
+    FrameFormat format = FrameFormat::vtu;
     int animation = 0;                  ///< frames of animation.html of ResultFiles, first and last included; 0: none
-    bool pieces = false;                ///< each rank writes its own cells of the frames of the VTU series
+    bool pieces = false;                ///< each rank writes its own cells of these frames
     bool keep_last_checkpoint = false;  ///< of a run that comes to its end, too: another one may go on from there
     bool other_end = false;             ///< a run that goes on may end at another time than the one it goes on from
     double checkpoint = 10.0;  ///< minutes from one checkpoint of ResultFiles to the next; 0: none, not even at a signal

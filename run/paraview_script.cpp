@@ -18,11 +18,13 @@ from paraview import simple
 
 FOLDER = os.path.dirname(os.path.abspath(__file__))
 SERIES = {}
+LISTS = {}
 
 
 def show(view, file_name, field):
     """Shows a series, warped by its displacement and coloured by a field of its cells."""
-    reader = simple.PVDReader(FileName=os.path.join(FOLDER, file_name))
+    path = os.path.join(FOLDER, file_name)
+    reader = simple.PVDReader(FileName=path) if LISTS == ".pvd" else simple.Xdmf3ReaderS(FileName=[path])
     moved = simple.WarpByVector(Input=reader, Vectors=["POINTS", "displacement"], ScaleFactor=1.0)
     display = simple.Show(moved, view)
     simple.ColorBy(display, ("CELLS", field))
@@ -54,8 +56,8 @@ pressure = simple.CreateView("RenderView")
 simple.AssignViewToLayout(view=stress, layout=layout)
 layout.SplitViewHorizontal(stress, 0.5)
 simple.AssignViewToLayout(view=pressure, layout=layout)
-show(stress, SERIES + ".pvd", "von Mises [Pa]")
-show(pressure, SERIES + "_surface.pvd", "contact pressure [Pa]")
+show(stress, SERIES + LISTS, "von Mises [Pa]")
+show(pressure, SERIES + "_surface" + LISTS, "contact pressure [Pa]")
 show_pairs(pressure, SERIES + "_pairs.pvd")
 for view in (stress, pressure):
     simple.ResetCamera(view)  # on the bodies
@@ -67,11 +69,16 @@ simple.RenderAllViews()
 
 }  // namespace
 
-std::string paraview_script(const std::string& series) {
+std::string paraview_script(const std::string& series, const std::string& extension) {
     std::string text = script;
-    const std::string empty = "SERIES = {}";
-    return text.replace(text.find(empty), empty.size(),
-                        "SERIES = " + nlohmann::json(series).dump(-1, ' ', true, nlohmann::json::error_handler_t::replace));
+    const auto put = [&text](const std::string& name, const std::string& value) {
+        const std::string empty = name + " = {}";
+        text.replace(text.find(empty), empty.size(),
+                     name + " = " + nlohmann::json(value).dump(-1, ' ', true, nlohmann::json::error_handler_t::replace));
+    };
+    put("SERIES", series);
+    put("LISTS", extension);
+    return text;
 }
 
 }  // namespace abut::run

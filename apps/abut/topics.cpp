@@ -85,7 +85,8 @@ const Topic output{"output", "Results",
   energy.svg           their picture
   animation.html       the run as a film, in any browser (--animation 100)
   bodies.pvd           cells over time for ParaView (--frames), bodies_surface.pvd boundary faces,
-                       bodies_pairs.pvd pairs of faces in contact
+                       bodies_pairs.pvd pairs of faces in contact; with --format xdmf
+                       bodies.xmf and bodies_surface.xmf, all frames in bodies.h5
   view_in_paraview.py  opens them with sensible views: paraview --script=...
 
 `abut info FOLDER` says what is in one. While a run goes on, and after one that failed, energy.csv is called

@@ -54,10 +54,14 @@ struct OutputArray {
 [[nodiscard]] OutputArray output_array(const std::string& name, std::span<const double> values, std::size_t n_components);
 
 template <class Value>
+[[nodiscard]] FieldTuples tuples_of(std::span<const Value> values) {
+    FieldTuples tuples{n_components<Value>, std::vector<double>(n_components<Value> * values.size())};
+    for (std::size_t i = 0; i < values.size(); ++i) fill(tuples.values.data() + n_components<Value> * i, values[i]);
+    return tuples;
+}
+template <class Value>
 [[nodiscard]] OutputArray field_array(const std::string& name, std::span<const Value> values) {
-    std::vector<double> tuples(n_components<Value> * values.size());
-    for (std::size_t i = 0; i < values.size(); ++i) fill(tuples.data() + n_components<Value> * i, values[i]);
-    return output_array(name, tuples, n_components<Value>);
+    return output_array(name, tuples_of(values).values, n_components<Value>);
 }
 
 /// The tag of a number that a file has as a whole. Text would end meshio: names are those of numbers.

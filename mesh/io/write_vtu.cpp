@@ -18,21 +18,6 @@ OutputGrid grid_of_all(const Mesh<Dim>& mesh) {
     return grid_of_cells(mesh, all_of(static_cast<std::size_t>(mesh.n_cells())), all_of(mesh.vertices.size()));
 }
 
-/// Mean over the cells around each vertex. Bodies share no vertex, so nothing mixes between them.
-template <int Dim>
-std::vector<Vector<Dim>> vertex_means(std::span<const Vector<Dim>> of_cells, const Rows& cell_vertices,
-                                      std::size_t n_vertices) {
-    std::vector<Vector<Dim>> mean(n_vertices, Vector<Dim>::Zero());
-    std::vector<int> count(n_vertices, 0);
-    for (std::int32_t cell = 0; cell < cell_vertices.size(); ++cell)
-        for (const std::int32_t vertex : cell_vertices[cell]) {
-            mean[static_cast<std::size_t>(vertex)] += of_cells[static_cast<std::size_t>(cell)];
-            ++count[static_cast<std::size_t>(vertex)];
-        }
-    for (std::size_t vertex = 0; vertex < n_vertices; ++vertex) mean[vertex] /= count[vertex];
-    return mean;
-}
-
 }  // namespace
 
 template <int Dim>
@@ -78,7 +63,7 @@ void VtuSeries<Dim>::Files::add_displacement(const Frame<Dim>& frame, FrameData&
     if (!frame.vertex_displacement.empty())
         add_vertex_displacement(frame.vertex_displacement, data);
     else if (!frame.displacement.empty())
-        add_vertex_displacement(vertex_means(frame.displacement, cell_vertices, cells.n_points), data);
+        add_vertex_displacement(vertex_means<Dim>(frame.displacement, cell_vertices, cells.n_points), data);
 }
 
 template <int Dim>
@@ -147,6 +132,29 @@ void write_vtu(const Mesh<Dim>& mesh, const Path& path) {
     prepared_grid(grid_with_groups(mesh), path).move_into_place();
 }
 
+template <int Dim>
+FieldTuples field_tuples(const FieldValues<Dim>& values) {
+    return std::visit([](const auto& v) { return tuples_of(v); }, values);
+}
+
+template <int Dim>
+std::vector<Vector<Dim>> vertex_means(std::span<const Vector<Dim>> of_cells, const Rows& cell_vertices,
+                                      std::size_t n_vertices) {
+    std::vector<Vector<Dim>> mean(n_vertices, Vector<Dim>::Zero());
+    std::vector<int> count(n_vertices, 0);
+    for (std::int32_t cell = 0; cell < cell_vertices.size(); ++cell)
+        for (const std::int32_t vertex : cell_vertices[cell]) {
+            mean[static_cast<std::size_t>(vertex)] += of_cells[static_cast<std::size_t>(cell)];
+            ++count[static_cast<std::size_t>(vertex)];
+        }
+    for (std::size_t vertex = 0; vertex < n_vertices; ++vertex) mean[vertex] /= count[vertex];
+    return mean;
+}
+
+template FieldTuples field_tuples<2>(const FieldValues<2>&);
+template FieldTuples field_tuples<3>(const FieldValues<3>&);
+template std::vector<Vector<2>> vertex_means<2>(std::span<const Vector<2>>, const Rows&, std::size_t);
+template std::vector<Vector<3>> vertex_means<3>(std::span<const Vector<3>>, const Rows&, std::size_t);
 template class VtuSeries<2>;
 template class VtuSeries<3>;
 template void write_vtu<2>(const Mesh<2>&, const Path&);

@@ -71,6 +71,19 @@ private:
     std::unique_ptr<Files> files_;
 };
 
+/// A field as files hold it: vectors with a third component 0 in 2D, tensors as their six components.
+struct FieldTuples {
+    std::size_t n_components;
+    std::vector<double> values;  ///< (n, n_components)
+};
+template <int Dim>
+[[nodiscard]] FieldTuples field_tuples(const FieldValues<Dim>& values);
+
+/// The mean over the cells around each vertex, of which each needs one. Bodies share no vertex, so nothing mixes between them.
+template <int Dim>
+[[nodiscard]] std::vector<Vector<Dim>> vertex_means(std::span<const Vector<Dim>> of_cells, const Rows& cell_vertices,
+                                                    std::size_t n_vertices);
+
 /// The mesh alone in one .vtu file: its cells with the array "body", behind them the boundary faces that are in groups, and an
 /// array "group: <name>" for each group, 1 on its faces and 0 elsewhere, so that read_mesh gives the groups back. Throws
 /// MeshError if it cannot be written.

@@ -44,7 +44,7 @@ ResultFiles<Dim>::ResultFiles(const RunOptions& options, std::string program, st
         remove_earlier_results(out_, name_);  // refuses a folder that holds files of the user under these names
         checkpoints_.remove(texts_beside);
     }
-    if (options.frames > 0) frames_.emplace(out_, name_, options.frames, options.pieces);
+    if (options.frames > 0) frames_.emplace(out_, name_, options.frames, options.format, options.pieces);
     if (options.animation > 0) animation_.emplace(out_ / animation_name, program_, options.animation);
 }
 
@@ -193,7 +193,7 @@ void ResultFiles<Dim>::finish(const Scene<Dim>& scene, RunResult<Dim>& result) {
     }
     result.seconds.output += seconds_ + seconds;
     result.seconds.total += seconds;
-    if (frames_) write_whole(out_ / paraview_script_name, paraview_script(name_));
+    if (frames_) write_whole(out_ / paraview_script_name, paraview_script(name_, frames_->list_extension()));
     const BodyPictures pictures = snapshots_.pictures();
     const ReportSources sources{.pictures = &pictures,
                                 .forces = forces_ ? out_ / "forces.csv" : std::filesystem::path(),
@@ -213,8 +213,8 @@ std::vector<ReportFile> ResultFiles<Dim>::files_of_report() const {
     if (probes_) files.push_back({"probes.csv", "what probes see over time"});
     if (animation_) files.push_back({animation_name, "the run as a film, in this browser"});
     if (frames_) {
-        files.push_back({name_ + ".pvd", "cells over time, for ParaView"});
-        files.push_back({name_ + "_surface.pvd", "boundary faces over time, for ParaView"});
+        files.push_back({name_ + frames_->list_extension(), "cells over time, for ParaView"});
+        files.push_back({name_ + "_surface" + frames_->list_extension(), "boundary faces over time, for ParaView"});
         if (frames_->has_pairs())
             files.push_back({pairs_series(name_) + ".pvd", "pairs of faces in contact over time, for ParaView"});
         if (frames_->has_obstacles())
@@ -232,7 +232,10 @@ std::string ResultFiles<Dim>::table() const {
     if (probes_) text += table_line("probes", path("probes.csv"));
     if (forces_) text += table_line("forces", path("forces.csv"));
     if (animation_) text += table_line("animation", path(animation_name));
-    if (frames_) text += table_line("for ParaView", path(name_ + ".pvd") + ", " + path(name_ + "_surface.pvd"));
+    if (frames_) {
+        const std::string extension = frames_->list_extension();
+        text += table_line("for ParaView", path(name_ + extension) + ", " + path(name_ + "_surface" + extension));
+    }
     if (frames_ && frames_->has_pairs()) text += table_line("", path(pairs_series(name_) + ".pvd"));
     if (frames_ && frames_->has_obstacles()) text += table_line("", path(obstacles_series(name_) + ".pvd"));
     return text + table_line("picture", path("energy.svg"));

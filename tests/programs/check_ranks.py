@@ -1,6 +1,6 @@
 """check_ranks.py PROGRAM OTHER_PROGRAM SCENE: runs a scene alone and on 2 and 3 ranks, also with two threads each, started by
 mpirun, with cells that are shared out again, and with bodies that turn and bend, with the filter and with neutral restarts, and compares all files that are left, byte by byte (report and summary without
-times). Then a run on two ranks is ended in its midst and goes on alone, one that began alone goes on on two ranks, and one of
+times). Frames in one file of HDF5 are the same file. Then a run on two ranks is ended in its midst and goes on alone, one that began alone goes on on two ranks, and one of
 which a rank was killed ends on all ranks and goes on: the energies are those of the run that nobody stopped. What ranks cannot
 do is refused once, and an error of one rank that the others wait for ends all of them."""
 import json
@@ -99,6 +99,15 @@ def check_pieces(program, scene, folder, expected):
     require_same(expected, files_of(pieces), "after frames in pieces")
 
 
+def check_one_file(program, scene, folder):
+    """Frames in one file of HDF5, which the first rank writes."""
+    subprocess.run(command(program, scene, folder / "one", "--format", "xdmf"), check=True)
+    subprocess.run(command(program, scene, folder / "one_on_2", "--format", "xdmf", "--ranks", "2"), check=True)
+    files = files_of(folder / "one")
+    assert "bodies.h5" in files and "bodies.xmf" in files, sorted(files)
+    require_same(files, files_of(folder / "one_on_2"), "frames in one file")
+
+
 def check_choices(program, scene, folder):
     """Bodies that turn in a frame, that bend, and that are rigid, under the other law of contact; the filter; neutral restarts."""
     for choice in (("--kinematics", "floating", "--law", "pair_potential"), ("--kinematics", "finite", "--law", "pair_potential"), ("--kinematics", "rigid", "--law", "pair_potential"), ("--filter", "neutral"), ("--restart", "5")):
@@ -164,6 +173,7 @@ def main():
         require_same(expected, files_of(folder / "mpirun"), "mpirun -n 1")
         check_rebalancing(program, scene, folder, ("rebuilds", "candidates"))
         check_pieces(program, scene, folder, expected)
+        check_one_file(program, scene, folder)
         check_choices(program, scene, folder)
 
         subprocess.run(command(program, scene, folder / "whole", **LONG), check=True)

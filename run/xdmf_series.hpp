@@ -1,0 +1,52 @@
+#pragma once
+// Private to the layer.
+#include <array>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "abut/mesh/io/write_vtu.hpp"
+
+namespace abut::run {
+
+/// The same as mesh::VtuSeries in one file of HDF5, BASENAME.h5, with BASENAME.xmf and BASENAME_surface.xmf (XDMF 3, temporal
+/// collections), which ParaView opens. Values are bitwise those of the VTU files; tensors are matrices of their six
+/// components in the order of VTK; the surface shares the vertices of the cells.
+///
+/// BASENAME.h5 has `points`, `cells`, `body` (its attribute `names` has those of the bodies), `faces`, `face_body`,
+/// `groups/NAME`, and `frames/000012` with the attribute `time` and an array for each field: `points/displacement`,
+/// `cells/NAME`, `faces/NAME`, where a slash in a name is written " per ".
+///
+/// A frame is appended to the .h5 file, in space that is taken for it before; then the .xmf files, which are written beside their
+/// places and moved, list it. A full disc leaves the frames before it alone. HDF5 writes what it knows of its arrays when it closes
+/// the file: a process that is killed in that moment can leave one that cannot be opened.
+template <int Dim>
+class XdmfSeries {
+public:
+    /// Makes the folder if needed. Nothing is written before the first frame, which replaces a file of that name.
+    XdmfSeries(std::filesystem::path directory, std::string basename, const mesh::Mesh<Dim>& mesh);
+
+    /// Throws BadInput naming a field whose size is wrong, or the file that cannot be written.
+    void write(const mesh::Frame<Dim>& frame);
+    [[nodiscard]] const std::vector<double>& times() const { return times_; }  ///< of the frames [s]
+    /// Goes on after frames of these times: later ones are removed. Where the file is not there a new one begins with the next
+    /// frame. Throws BadInput if the file cannot be opened, or if a frame is missing in it.
+    void go_on_after(std::vector<double> times);
+
+private:
+    /// Elements of XDMF, for cells and for boundary faces.
+    using Lists = std::array<std::string, 2>;
+
+    [[nodiscard]] std::filesystem::path file() const;
+    void write_lists() const;
+
+    std::filesystem::path directory_;
+    std::string basename_;
+    mesh::Mesh<Dim> mesh_;
+    Lists of_mesh_;
+    std::vector<double> times_;
+    bool is_begun_ = false;      // a file with the mesh is there
+    std::vector<Lists> frames_;  // that are in it
+};
+
+}  // namespace abut::run
