@@ -308,8 +308,8 @@ ABUT_API int abut_get_report(const abut_contact* contact, abut_report* report, a
 ABUT_API int abut_stable_step(const abut_contact* contact, const double* mass, int64_t n, double omega_free, abut_stable* stable,
                               abut_error* error);
 
-/* All that the next steps depend on, as bytes: after `abut_restore` into a contact of the same surface and options they have the
-   same bits. `n` gets the size, also where `capacity` is too small; then nothing is written. */
+/* All that the next steps depend on, as bytes: after `abut_restore` into a contact of the same surface and options they are bitwise
+   identical. `n` gets the size, also where `capacity` is too small; then nothing is written. */
 ABUT_API int abut_save(const abut_contact* contact, void* bytes, int64_t capacity, int64_t* n, abut_error* error);
 ABUT_API int abut_restore(abut_contact* contact, const void* bytes, int64_t n, abut_error* error);
 

@@ -411,7 +411,7 @@ PYBIND11_MODULE(_contact, module) {
              "How long a step may be, by estimate: mass of each node, highest frequency without contact [rad/s].")
         .def("state", &NodalContact::state, "All that the next steps depend on, as bytes.")
         .def("restore", &NodalContact::restore, "state"_a,
-             "Goes on from state() of a contact of the same surface and options: the next steps have the same bits.")
+             "Goes on from state() of a contact of the same surface and options: the next steps are bitwise identical.")
         .def("surface_replaced", &NodalContact::surface_replaced, "nodes"_a, "faces"_a, "body"_a, "depth"_a, "stiffness"_a,
              "old_face_of"_a, "offsets"_a = py::none(), py::kw_only(), "shear_stiffness"_a = py::none(),
              "Goes on with other faces, between two steps: the old number of each that was there before, else -1.");
