@@ -55,16 +55,19 @@ public:
             }
     }
 
+    /// Of the position of a vertex of the mesh.
+    std::int32_t number(std::int32_t vertex) {
+        std::int32_t& number = number_[static_cast<std::size_t>(vertex)];
+        if (number < 0) {
+            number = static_cast<std::int32_t>(polygons_.vertex.size());
+            polygons_.vertex.push_back(vertex);
+        }
+        return number;
+    }
+
 private:
     void add(std::span<const std::int32_t> vertices, std::int32_t cell) {
-        for (const std::int32_t vertex : vertices) {
-            std::int32_t& number = number_[static_cast<std::size_t>(vertex)];
-            if (number < 0) {
-                number = static_cast<std::int32_t>(polygons_.vertex.size());
-                polygons_.vertex.push_back(vertex);
-            }
-            polygons_.corners.push_back(number);
-        }
+        for (const std::int32_t vertex : vertices) polygons_.corners.push_back(number(vertex));
         polygons_.offsets.push_back(polygons_.corners.size());
         polygons_.cell.push_back(cell);
         polygons_.body.push_back(mesh_.cell_body[static_cast<std::size_t>(cell)]);
@@ -106,7 +109,8 @@ SnapshotMaker<Dim>::SnapshotMaker(const Scene<Dim>& scene, const RunResult<Dim>&
             if (is_rigid_[body] == 0)
                 polygons_.least_end = std::min(polygons_.least_end, strain_of_rounding * scene.solid.materials[body].young);
     }
-    PolygonMaker<Dim>(scene.mesh, edges_of_faces<Dim>(scene.mesh, scene.solid.boundary), polygons_);
+    PolygonMaker<Dim> maker(scene.mesh, edges_of_faces<Dim>(scene.mesh, scene.solid.boundary), polygons_);
+    polygons_.marks = marks_of<Dim>(scene, [&](std::int32_t vertex) { return maker.number(vertex); });
 }
 
 template <int Dim>

@@ -6,6 +6,7 @@
 
 #include "abut/base/vector.hpp"
 #include "abut/run/forward.hpp"
+#include "abut/run/picture_marks.hpp"
 
 namespace abut::run {
 
@@ -43,6 +44,7 @@ struct BodyPolygons {
     std::vector<std::int32_t> cell;       ///< whose value a polygon has
     std::vector<std::int32_t> body;       ///< of a polygon; empty: all of one
     std::vector<std::string> body_names;
+    PictureMarks marks;
 };
 
 /// Takes snapshots of the bodies of a scene: von Mises stress, or the speed where all bodies are rigid.

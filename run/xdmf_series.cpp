@@ -19,7 +19,7 @@
 #include "abut/base/messages.hpp"
 #include "abut/mesh/cell_shape.hpp"
 #include "abut/run/files.hpp"
-#include "abut/run/report/markup.hpp"
+#include "abut/run/drawing/markup.hpp"
 
 namespace abut::run {
 namespace {

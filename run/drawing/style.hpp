@@ -44,6 +44,10 @@ svg text.name { paint-order: stroke; stroke: var(--paper); stroke-width: 3px; st
 .teal { stroke: var(--teal); }
 .grey { stroke: var(--grey); stroke-width: 4; }
 .ink { stroke: var(--ink); }
+.load { stroke: #db2680; fill: #db2680; stroke-width: 1.5; }
+.spring { stroke: var(--ink); fill: none; stroke-width: 1.5; stroke-linejoin: round; }
+.gravity { stroke: var(--ink); fill: var(--ink); stroke-width: 1.2; }
+.halo { stroke: var(--paper); fill: none; stroke-width: 4; stroke-linejoin: round; }
 .bar { display: inline-block; height: 0.7em; background: var(--blue); print-color-adjust: exact; }
 @media (max-width: 40em) { body { font-size: 14px; } th, td { padding-right: 0.8em; } }
 summary { cursor: pointer; color: var(--faint); }

@@ -12,6 +12,7 @@
 #include "abut/run/drawing/raster.hpp"
 #include "abut/run/drawing/svg.hpp"
 #include "abut/run/drawing/ticks.hpp"
+#include "abut/run/report/mark_drawing.hpp"
 
 namespace abut::run {
 namespace {
@@ -24,8 +25,9 @@ constexpr double image_width = image_right - image_left;
 constexpr double least_image_height = 130.0, most_image_height = 400.0;
 constexpr double value_bar_gap = 14.0, value_bar_width = 12.0, axis_length = 16.0;
 constexpr int value_levels = 32, most_values = 6;
-constexpr double width_of_letter = 7.5, height_of_letter = 16.0;  // about
 constexpr std::size_t most_names = 12;
+constexpr double below_a_spring = 14.0;  // a name that would hide it
+constexpr double room_of_name = 12.0;    // around the name of an obstacle
 
 constexpr double points_per_unit = 2.0;
 constexpr double margin_of_bodies = 0.06;          // around the bodies, of their size
@@ -147,6 +149,19 @@ double largest_value(const std::vector<double>& values) {
     return most;
 }
 
+double largest_load_of(const BodyPictures& pictures) {
+    double largest = 0.0;
+    for (const Snapshot& snapshot : pictures.snapshots)
+        for (const PictureMarks::Load& load : loads_at(pictures.polygons.marks, snapshot.time, snapshot.position))
+            largest = std::max(largest, std::sqrt(dot(load.traction, load.traction)));
+    return largest;
+}
+
+/// In units of the drawing, to the right and downwards.
+struct OnPage {
+    double x, y;
+};
+
 /// What all pictures of a run have in common.
 class BodySheet {
 public:
@@ -154,7 +169,8 @@ public:
         : in_space_(pictures.polygons.in_space),
           view_(in_space_ ? EyeView::of_space() : EyeView()),
           box_(box_of(pictures)),
-          upper_(end_of_colours(pictures)) {
+          upper_(end_of_colours(pictures)),
+          largest_load_(largest_load_of(pictures)) {
         BodyBox seen;
         if (in_space_)
             for (const Snapshot& snapshot : pictures.snapshots)
@@ -173,6 +189,7 @@ public:
     [[nodiscard]] const EyeView& view() const { return view_; }
     [[nodiscard]] const BodyBox& box() const { return box_; }
     [[nodiscard]] double upper() const { return upper_; }
+    [[nodiscard]] double largest_load() const { return largest_load_; }  ///< [Pa]
     [[nodiscard]] double height() const { return height_; }
     [[nodiscard]] double lower_edge() const { return image_top + height_; }
     /// Units of the drawing per metre.
@@ -193,6 +210,7 @@ private:
     EyeView view_;
     BodyBox box_;
     double upper_;
+    double largest_load_;
     double height_ = 0.0;
     double scale_ = 1.0;
     std::array<double, 2> middle_{};
@@ -362,32 +380,88 @@ std::vector<Position> middles(const BodyPolygons& polygons, const Snapshot& snap
     return sum;
 }
 
-/// Where there are several bodies, but few: as many of their names as do not lie on each other or leave the image.
-Markup names_of_bodies(const BodySheet& sheet, const BodyPolygons& polygons, const Snapshot& snapshot) {
-    const std::vector<std::string>& names = polygons.body_names;
-    if (names.size() < 2 || names.size() > most_names) return {};
-    struct Placed {
-        double x, y, half;
-    };
-    std::vector<Placed> placed;
-    Markup result;
-    const std::vector<Position> middle = middles(polygons, snapshot);
-    for (std::size_t body = 0; body < names.size(); ++body) {
-        const Raster::Corner at = sheet.corner(middle[body]);
-        const Placed here{image_left + at[0] / points_per_unit, image_top + at[1] / points_per_unit,
-                          0.5 * width_of_letter * static_cast<double>(names[body].size())};
-        const bool is_inside = here.x - here.half > image_left && here.x + here.half < image_right &&
-                               here.y - height_of_letter > image_top && here.y < sheet.lower_edge();
-        const bool is_free = std::ranges::none_of(placed, [&](const Placed& other) {
-            return std::abs(other.x - here.x) < other.half + here.half && std::abs(other.y - here.y) < height_of_letter;
-        });
-        if (!is_inside || !is_free) continue;
-        placed.push_back(here);
-        result +=
-            element("text", {{"class", "name"}, {"x", shown(here.x)}, {"y", shown(here.y + 4.0)}, {"text-anchor", "middle"}},
-                    names[body]);
+OnPage on_page(const BodySheet& sheet, const Position& x) {
+    const Raster::Corner seen = sheet.corner(x);
+    return {image_left + seen[0] / points_per_unit, image_top + seen[1] / points_per_unit};
+}
+
+Projection projection_of(const BodySheet& sheet) {
+    return {[&sheet](const Position& x) -> Position {
+                const auto [right, down] = on_page(sheet, x);
+                return {right, down, sheet.view()(x)[2]};
+            },
+            sheet.scale()};
+}
+
+/// From the middle of some corners towards the lowest one in the picture, where it is less often hidden by bodies: as far as a
+/// name has room.
+Position before_bodies(const BodySheet& sheet, const std::vector<Position>& corners, const Position& middle) {
+    const auto height = [&](const Position& x) { return on_page(sheet, x).y; };
+    const Position& lowest = *std::ranges::max_element(corners, {}, height);
+    for (double share = 0.8; share > 0.1; share -= 0.1) {
+        Position x = middle;
+        for (std::size_t i = 0; i < 3; ++i) x[i] += share * (lowest[i] - middle[i]);
+        const OnPage at = on_page(sheet, x);
+        if (at.y < sheet.lower_edge() - room_of_name && at.x > image_left + 2.0 * room_of_name &&
+            at.x < image_right - 2.0 * room_of_name)
+            return x;
     }
-    return result;
+    return middle;
+}
+
+/// Where the name of each obstacle is; not finite where nothing of it is seen.
+std::vector<Position> places_of_obstacles(const BodySheet& sheet, const PictureMarks& marks, const Snapshot& snapshot) {
+    std::vector<std::vector<Position>> seen(marks.obstacle_names.size());
+    for (std::size_t face = 0; face < std::min(snapshot.obstacles.size(), marks.obstacle.size()); ++face) {
+        const std::vector<Position> corners = clipped(snapshot.obstacles[face], sheet.box());
+        if (corners.empty() || (sheet.in_space() && !(normal_of(seen_from(sheet, corners))[2] > 0.0))) continue;
+        auto& of_obstacle = seen[static_cast<std::size_t>(marks.obstacle[face])];
+        of_obstacle.insert(of_obstacle.end(), corners.begin(), corners.end());
+    }
+    std::vector<Position> places;
+    for (const std::vector<Position>& corners : seen) {
+        Position middle{};
+        for (const Position& corner : corners)
+            for (std::size_t axis = 0; axis < 3; ++axis) middle[axis] += corner[axis];
+        for (double& x : middle) x /= static_cast<double>(corners.size());
+        places.push_back(sheet.in_space() && !corners.empty() ? before_bodies(sheet, corners, middle) : middle);
+    }
+    return places;
+}
+
+/// Whether an end of a spring is so near that a name would hide it.
+bool is_on_a_spring(const BodySheet& sheet, const PictureMarks& marks, const Snapshot& snapshot, OnPage at) {
+    return std::ranges::any_of(marks.springs, [&](const auto& spring) {
+        return std::ranges::any_of(spring, [&](const PictureMarks::SpringEnd& end) {
+            const auto [x, y] = on_page(sheet, place_of(end, snapshot.position));
+            return std::hypot(x - at.x, y - at.y) < below_a_spring;
+        });
+    });
+}
+
+/// Where there are several bodies and obstacles, but few: their names.
+Markup names_of_all(const BodySheet& sheet, const BodyPolygons& polygons, const Snapshot& snapshot) {
+    std::vector<std::string> names = polygons.body_names;
+    names.insert(names.end(), polygons.marks.obstacle_names.begin(), polygons.marks.obstacle_names.end());
+    if (names.size() < 2 || names.size() > most_names) return {};
+    std::vector<Position> middle = middles(polygons, snapshot);
+    const std::vector<Position> of_obstacles = places_of_obstacles(sheet, polygons.marks, snapshot);
+    middle.insert(middle.end(), of_obstacles.begin(), of_obstacles.end());
+    std::vector<PlacedName> placed;
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        const OnPage at = on_page(sheet, middle[i]);
+        placed.push_back(
+            {names[i], at.x, at.y + (is_on_a_spring(sheet, polygons.marks, snapshot, at) ? below_a_spring : 0.0)});
+    }
+    return drawn_names(placed, image_left, image_right, image_top, sheet.lower_edge());
+}
+
+Markup marks_on(const BodySheet& sheet, const PictureMarks& marks, const Snapshot& snapshot) {
+    const Projection projection = projection_of(sheet);
+    Markup drawn = drawn_loads(loads_at(marks, snapshot.time, snapshot.position), sheet.largest_load(), projection);
+    for (const auto& [first, second] : marks.springs)
+        drawn += drawn_spring({place_of(first, snapshot.position), place_of(second, snapshot.position)}, projection);
+    return drawn + drawn_gravity(marks.gravity, image_left + 16.0, image_top + 16.0, projection);
 }
 
 Markup picture_of(const BodySheet& sheet, const BodyPolygons& polygons, const Snapshot& snapshot) {
@@ -407,7 +481,7 @@ Markup picture_of(const BodySheet& sheet, const BodyPolygons& polygons, const Sn
                  {"fill", "none"},
                  {"d", fmt::format("M{0},{1}H{2}V{3}H{0}Z", image_left, image_top, image_left + wide, shown(lower))}}) +
         value_bar(sheet, fmt::format("{} [{}]", polygons.value_name, polygons.value_unit)) + length_scale(sheet) +
-        directions(sheet) + names_of_bodies(sheet, polygons, snapshot);
+        directions(sheet) + marks_on(sheet, polygons.marks, snapshot) + names_of_all(sheet, polygons, snapshot);
     return element("svg",
                    {{"xmlns", "http://www.w3.org/2000/svg"},
                     {"viewBox", fmt::format("0 0 {:.0f} {:.1f}", sheet_width, lower + below_image)},

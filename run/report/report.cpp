@@ -66,7 +66,8 @@ Markup pictures_part(const BodyPictures& pictures) {
         drawn + element("p", {{"class", "faint"}},
                         "Bodies are where they were, displacements to scale, all in the same view and the same colours; "
                         "what is above the end of the colours has the last one. Obstacles, and rigid bodies among others, "
-                        "are grey. Faces that are held have orange edges, those under a traction pink ones."));
+                        "are grey. Faces that are held have orange edges; those under a traction have pink ones, and arrows "
+                        "whose length shows how large it is. Springs are zigzags, hinges rings."));
 }
 
 /// A row of a table of figures with units.

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdint>
 #include <memory>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -287,6 +288,129 @@ TEST_CASE("bodies have their names in a picture where there are several, each on
     };
     CHECK(names({0.0, 2.0}) == std::pair(true, true));
     CHECK(names({0.0, 0.01}) == std::pair(true, false));
+}
+
+namespace {
+
+/// How often a text is there.
+std::size_t count_of(const std::string& text, const std::string& part) {
+    std::size_t n = 0;
+    for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + part.size())) ++n;
+    return n;
+}
+
+/// The numbers of a path of a style, the first of a page.
+std::vector<double> path_numbers(const std::string& html, const std::string& style) {
+    const std::string before = "class=\"" + style + "\" d=\"";
+    const std::size_t begin = html.find(before);
+    REQUIRE(begin != std::string::npos);
+    std::string path = html.substr(begin + before.size(), html.find('"', begin + before.size()) - begin - before.size());
+    for (char& c : path)
+        if (std::string("MLZ,").find(c) != std::string::npos) c = ' ';
+    std::istringstream words(path);
+    std::vector<double> numbers;
+    for (double number = 0.0; words >> number;) numbers.push_back(number);
+    return numbers;
+}
+
+}  // namespace
+
+TEST_CASE(
+    "an arrow shows a traction at its face: it presses on it or pulls at it, turns with it where it follows, and half the "
+    "traction is half as long",
+    "[run][report]") {
+    run::BodyPictures pictures = squares(false, {1.0}, {{0.0}});
+    // The left edge, from (0, 1) to (0, 0).
+    run::PictureMarks::LoadedFace face{.corners = {3, 0},
+                                       .at_rest = {{0.0, 1.0, 0.0}, {0.0, 0.0, 0.0}},
+                                       .normal = {-1.0, 0.0, 0.0},
+                                       .traction = [](double) {
+                                           return run::PictureMarks::Position{2.0, 0.0, 0.0};
+                                       }};
+    const auto ends = [&] {  // tail, neck and tip
+        pictures.polygons.marks.loaded = {face};
+        return path_numbers(run::body_pictures(pictures).html(), "load");
+    };
+    const std::vector<double> pressing = ends();
+    CHECK(pressing[0] < pressing[4]);
+    CHECK(pressing[1] == pressing[5]);
+    face.traction = [](double) { return run::PictureMarks::Position{-2.0, 0.0, 0.0}; };
+    const std::vector<double> pulling = ends();
+    CHECK(pulling[0] == pressing[4]);
+    CHECK(pulling[4] == pressing[0]);
+
+    // The square has turned by a quarter, counter-clockwise: its left edge is below, and the arrow points down.
+    pictures.snapshots[0].position = {{0, 0, 0}, {0, 1, 0}, {-1, 1, 0}, {-1, 0, 0}};
+    const std::vector<double> fixed = ends();
+    CHECK(fixed[1] == fixed[5]);
+    face.follows = true;
+    const std::vector<double> followed = ends();
+    CHECK(followed[0] == Approx(followed[4]));
+    CHECK(followed[5] > followed[1] + 10.0);
+
+    face.follows = false;
+    pictures.snapshots = squares(false, {1.0}, {{0.0}, {0.0}}).snapshots;
+    pictures.snapshots[1].time = 1.0;
+    face.traction = [](double time) { return run::PictureMarks::Position{time > 0.0 ? 4.0 : 2.0, 0.0, 0.0}; };
+    const std::vector<double> half = ends();
+    CHECK(half[4] - half[0] == Approx(0.5 * (pressing[4] - pressing[0])).margin(0.2));
+}
+
+TEST_CASE("in space an arrow on a face that is not seen is left out", "[run][report]") {
+    for (const double side : {-1.0, 1.0}) {
+        run::BodyPictures pictures = squares(true, {1.0}, {{0.0}});
+        pictures.polygons.marks.loaded = {{.corners = {0, 1, 2, 3},
+                                           .at_rest = {{0, 0, 0}, {1, 0, 0}, {1, 0, 1}, {0, 0, 1}},
+                                           .normal = {0.0, side, 0.0},
+                                           .traction = [](double) {
+                                               return run::PictureMarks::Position{0.0, 1.0, 0.0};
+                                           }}};
+        const std::string html = run::body_pictures(pictures).html();
+        CHECK(count_of(html, "class=\"load\"") == (side < 0.0 ? 1 : 0));  // the viewer stands in front, where y < 0
+    }
+}
+
+TEST_CASE("springs are zigzags between places of bodies and of the ground, and hinges rings", "[run][report]") {
+    run::BodyPictures pictures = squares(false, {1.0}, {{0.0}});
+    const run::PictureMarks::SpringEnd ground{.fixed = {3.0, 0.5, 0.0}};
+    const run::PictureMarks::SpringEnd middle_of_right{.held = {{1, 0.5}, {2, 0.5}}};
+    pictures.polygons.marks.springs = {{middle_of_right, ground}};
+    pictures.snapshots[0].obstacles = {{{3.0, 0.0, 0.0}, {3.0, 1.0, 0.0}}};  // so that the ground is in the picture
+    const std::vector<double> zigzag = path_numbers(run::body_pictures(pictures).html(), "spring");
+    const std::size_t n = zigzag.size();
+    const double scale = zigzag[n - 2] - zigzag[0];  // of 2 m
+    CHECK(zigzag[1] == zigzag[n - 1]);
+    CHECK(scale > 100.0);
+    pictures.snapshots[0].position[1][0] = pictures.snapshots[0].position[2][0] = 2.0;  // of 1 m now
+    const std::vector<double> shorter = path_numbers(run::body_pictures(pictures).html(), "spring");
+    CHECK(shorter[shorter.size() - 2] - shorter[0] == Approx(0.5 * scale).margin(0.2));
+    pictures.polygons.marks.springs = {{middle_of_right, middle_of_right}};
+    const std::string hinge = run::body_pictures(pictures).html();
+    require_well_formed(hinge);
+    CHECK(count_of(hinge, "<circle class=\"spring\"") == 1);
+}
+
+TEST_CASE("the pictures of a scene have its tractions, springs, gravity and names of obstacles", "[run][report]") {
+    const test::Folder folder;
+    const run::RunOptions options{.steps = 3, .out = folder.path() / "out", .frames = 0};
+    run::Scene<2> scene = test::block_on_plane(0.05);
+    scene.solid.boundary.traction.push_back({.group = "ymax", .value = {0.0, -1e-4}});
+    scene.solid.springs.push_back(
+        {.first = {.body = 0, .position = {0.5, 0.5}}, .second = {.position = {0.5, 0.9}}, .stiffness = 1e-3});
+    scene.solid.acceleration = {{0.0, -1e-4}};
+    scene.outputs.obstacles = {"a < b"};
+    run::ResultFiles<2> files(options, "mine", "block");
+    run::RunResult<2> result = run::simulate<2>(scene, options, files);
+    files.finish(scene, result);
+    const std::string report = test::read_text(options.out / "report.html");
+    require_well_formed(report);
+    const std::size_t n_pictures = images(report).size();
+    CHECK(n_pictures >= 2);
+    CHECK(count_of(report, "class=\"load\"") % n_pictures == 0);
+    CHECK(count_of(report, "class=\"load\"") > 0);
+    CHECK(count_of(report, "class=\"spring\"") == n_pictures);
+    CHECK(count_of(report, ">gravity</text>") == n_pictures);
+    CHECK(count_of(report, ">a &lt; b</text>") == n_pictures);
 }
 
 TEST_CASE(
