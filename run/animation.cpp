@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <span>
 #include <string_view>
@@ -13,6 +15,7 @@
 #include "abut/contact/obstacle_side.hpp"
 #include "abut/run/body_names.hpp"
 #include "abut/run/drawing/animation_page.hpp"
+#include "abut/run/drawing/animation_script.hpp"
 #include "abut/run/drawing/base64.hpp"
 #include "abut/run/drawing/colours.hpp"
 #include "abut/run/drawing/markup.hpp"
@@ -175,9 +178,10 @@ void Animation<Dim>::begin(const Scene<Dim>& scene, const RunResult<Dim>& result
     look_up(scene, result);
     const std::string title = scene.title.empty() ? program_ : scene.title;
     const BodyPolygons& polygons = maker_->polygons();
-    const double common =
-        static_cast<double>(text_of(common_part(title, scene, polygons, "")).size() + animation_page.size());
-    const double fit = (limit_ - common) / bytes_per_frame<Dim>(polygons, obstacles_.size());
+    const std::array page{animation_head, animation_script, animation_body};
+    std::size_t common = text_of(common_part(title, scene, polygons, "")).size();
+    for (const std::string_view part : page) common += part.size();
+    const double fit = (limit_ - static_cast<double>(common)) / bytes_per_frame<Dim>(polygons, obstacles_.size());
     n_kept_ = std::min(n_frames_, std::max<std::int64_t>(2, static_cast<std::int64_t>(fit)));
     const std::string note = n_kept_ == n_frames_
                                  ? ""
@@ -185,7 +189,7 @@ void Animation<Dim>::begin(const Scene<Dim>& scene, const RunResult<Dim>& result
                                                n_frames_, n_kept_, 1e-6 * limit_);
     file_.open();
     file_.write("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n" + element("title", title + ": animation").html());
-    file_.write(animation_page);
+    for (const std::string_view part : page) file_.write(part);
     file_.write("<script type=\"application/json\" id=\"common\">" + for_script(common_part(title, scene, polygons, note)) +
                 "</script>\n");
 }

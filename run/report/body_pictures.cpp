@@ -12,6 +12,7 @@
 #include "abut/run/drawing/raster.hpp"
 #include "abut/run/drawing/svg.hpp"
 #include "abut/run/drawing/ticks.hpp"
+#include "abut/run/report/body_sheet.hpp"
 #include "abut/run/report/mark_drawing.hpp"
 
 namespace abut::run {
@@ -20,84 +21,18 @@ namespace {
 using Position = Snapshot::Position;
 
 // All in units of the drawing.
-constexpr double sheet_width = 480.0, image_left = 8.0, image_right = 384.0, image_top = 26.0, below_image = 42.0;
-constexpr double image_width = image_right - image_left;
-constexpr double least_image_height = 130.0, most_image_height = 400.0;
+constexpr double below_image = 42.0;
 constexpr double value_bar_gap = 14.0, value_bar_width = 12.0, axis_length = 16.0;
 constexpr int value_levels = 32, most_values = 6;
 constexpr std::size_t most_names = 12;
 constexpr double below_a_spring = 14.0;  // a name that would hide it
 constexpr double room_of_name = 12.0;    // around the name of an obstacle
 
-constexpr double points_per_unit = 2.0;
-constexpr double margin_of_bodies = 0.06;          // around the bodies, of their size
-constexpr double strip_thickness = 8.0;            // of an obstacle in 2D [points]
+constexpr double strip_thickness = 8.0;                               // of an obstacle in 2D [points]
 constexpr double rim_line = 1.2, cell_line = 0.5, marked_line = 3.0;  // half the thickness of lines [points]
-constexpr double few_cells = 14.0;                 // size of cells from which their edges are drawn [points]
+constexpr double few_cells = 14.0;  // size of cells from which their edges are drawn [points]
 constexpr Raster::Colour grey{150, 150, 146, 255}, obstacle_grey{128, 128, 124, 200}, faint_grey{128, 128, 124, 70},
     held_orange{217, 89, 31, 255}, loaded_pink{219, 38, 128, 255};
-
-double dot(const Position& a, const Position& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
-/// The directions to the right, upwards and to the eye.
-struct EyeView {
-    std::array<Position, 3> axes{{{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}}};
-
-    static EyeView of_space() {
-        const double turn = 0.45, rise = 0.42;  // [rad]
-        const double c = std::cos(turn), s = std::sin(turn), level = std::cos(rise), up = std::sin(rise);
-        return {{{{c, s, 0.0}, {-s * up, c * up, level}, {s * level, -c * level, up}}}};
-    }
-    [[nodiscard]] Position operator()(const Position& x) const {
-        return {dot(axes[0], x), dot(axes[1], x), dot(axes[2], x)};
-    }
-};
-
-struct BodyBox {
-    static constexpr double far = std::numeric_limits<double>::infinity();
-    Position low{far, far, far};
-    Position high{-far, -far, -far};
-
-    void add(const Position& x) {
-        for (std::size_t i = 0; i < 3; ++i)
-            if (std::isfinite(x[i])) {
-                low[i] = std::min(low[i], x[i]);
-                high[i] = std::max(high[i], x[i]);
-            }
-    }
-    [[nodiscard]] double size() const {
-        return std::max({high[0] - low[0], high[1] - low[1], high[2] - low[2], std::numeric_limits<double>::min()});
-    }
-};
-
-BodyBox box_of(const std::vector<Position>& positions) {
-    BodyBox box;
-    for (const Position& x : positions) box.add(x);
-    return box;
-}
-
-/// Bodies at all times, with obstacles that are not larger than they.
-BodyBox box_of(const BodyPictures& pictures) {
-    BodyBox box;
-    for (const Snapshot& snapshot : pictures.snapshots)
-        for (const Position& x : snapshot.position) box.add(x);
-    const double size = box.size();
-    BodyBox whole = box;
-    for (const Snapshot& snapshot : pictures.snapshots) {
-        BodyBox obstacles;
-        for (const auto& face : snapshot.obstacles)
-            for (const Position& x : face) obstacles.add(x);
-        if (obstacles.size() > size) continue;
-        whole.add(obstacles.low);
-        whole.add(obstacles.high);
-    }
-    const double more = margin_of_bodies * whole.size();
-    for (std::size_t i = 0; i < 3; ++i) {
-        whole.low[i] -= more;
-        whole.high[i] += more;
-    }
-    return whole;
-}
 
 /// The part of a polygon within a box.
 std::vector<Position> clipped(std::vector<Position> corners, const BodyBox& box) {
@@ -135,13 +70,6 @@ Raster::Colour lit(Raster::Colour colour, double light) {
     return colour;
 }
 
-/// Where the colours end.
-double end_of_colours(const BodyPictures& pictures) {
-    double end = pictures.polygons.least_end;
-    for (const Snapshot& snapshot : pictures.snapshots) end = std::max(end, upper_end(snapshot.value));
-    return end > 0.0 ? end : 1.0;
-}
-
 double largest_value(const std::vector<double>& values) {
     double most = 0.0;
     for (const double value : values)
@@ -149,71 +77,9 @@ double largest_value(const std::vector<double>& values) {
     return most;
 }
 
-double largest_load_of(const BodyPictures& pictures) {
-    double largest = 0.0;
-    for (const Snapshot& snapshot : pictures.snapshots)
-        for (const PictureMarks::Load& load : loads_at(pictures.polygons.marks, snapshot.time, snapshot.position))
-            largest = std::max(largest, std::sqrt(dot(load.traction, load.traction)));
-    return largest;
-}
-
 /// In units of the drawing, to the right and downwards.
 struct OnPage {
     double x, y;
-};
-
-/// What all pictures of a run have in common.
-class BodySheet {
-public:
-    explicit BodySheet(const BodyPictures& pictures)
-        : in_space_(pictures.polygons.in_space),
-          view_(in_space_ ? EyeView::of_space() : EyeView()),
-          box_(box_of(pictures)),
-          upper_(end_of_colours(pictures)),
-          largest_load_(largest_load_of(pictures)) {
-        BodyBox seen;
-        if (in_space_)
-            for (const Snapshot& snapshot : pictures.snapshots)
-                for (const Position& x : snapshot.position) seen.add(view_(x));
-        else
-            seen.add(box_.low), seen.add(box_.high);
-        const double more = in_space_ ? margin_of_bodies * seen.size() : 0.0;
-        const std::array<double, 2> length{seen.high[0] - seen.low[0] + 2.0 * more, seen.high[1] - seen.low[1] + 2.0 * more};
-        const double wide = image_width;
-        height_ = std::clamp(wide * length[1] / length[0], least_image_height, most_image_height);
-        scale_ = std::min(wide / length[0], height_ / length[1]);
-        for (std::size_t i = 0; i < 2; ++i) middle_[i] = 0.5 * (seen.low[i] + seen.high[i]);
-    }
-
-    [[nodiscard]] bool in_space() const { return in_space_; }
-    [[nodiscard]] const EyeView& view() const { return view_; }
-    [[nodiscard]] const BodyBox& box() const { return box_; }
-    [[nodiscard]] double upper() const { return upper_; }
-    [[nodiscard]] double largest_load() const { return largest_load_; }  ///< [Pa]
-    [[nodiscard]] double height() const { return height_; }
-    [[nodiscard]] double lower_edge() const { return image_top + height_; }
-    /// Units of the drawing per metre.
-    [[nodiscard]] double scale() const { return scale_; }
-    /// In points of the image.
-    [[nodiscard]] Raster::Corner corner(const Position& x) const {
-        const Position seen = view_(x);
-        const double points = points_per_unit * scale_;
-        return {points_per_unit * 0.5 * image_width + points * (seen[0] - middle_[0]),
-                points_per_unit * 0.5 * height_ - points * (seen[1] - middle_[1]), points * seen[2]};
-    }
-    [[nodiscard]] Raster image() const {
-        return {static_cast<int>(points_per_unit * image_width), static_cast<int>(std::ceil(points_per_unit * height_))};
-    }
-
-private:
-    bool in_space_;
-    EyeView view_;
-    BodyBox box_;
-    double upper_;
-    double largest_load_;
-    double height_ = 0.0;
-    double scale_ = 1.0;
-    std::array<double, 2> middle_{};
 };
 
 std::vector<Raster::Corner> seen_from(const BodySheet& sheet, const std::vector<Position>& corners) {
@@ -277,7 +143,8 @@ double size_of_cells(const BodySheet& sheet, const BodyPolygons& polygons, const
                    &b = snapshot.position[static_cast<std::size_t>(polygons.corners[polygons.offsets[i] + 1])];
         sum += std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
     }
-    return points_per_unit * sheet.scale() * sum / static_cast<double>(std::max<std::size_t>(1, polygons.cell.size()));
+    return BodySheet::points_per_unit * sheet.scale() * sum /
+           static_cast<double>(std::max<std::size_t>(1, polygons.cell.size()));
 }
 
 /// Lines along the edges of a polygon of some colour.
@@ -322,7 +189,7 @@ void draw_bodies(Raster& image, const BodySheet& sheet, const BodyPolygons& poly
 
 /// The colours beside the picture_of, with their values.
 Markup value_bar(const BodySheet& sheet, const std::string& name) {
-    const double x = image_right + value_bar_gap, step = sheet.height() / value_levels;
+    const double x = BodySheet::image_right + value_bar_gap, step = sheet.height() / value_levels;
     Markup result;
     for (int level = 0; level < value_levels; ++level) {
         const Raster::Colour c = colour_of_value((level + 0.5) / value_levels);
@@ -336,22 +203,23 @@ Markup value_bar(const BodySheet& sheet, const std::string& name) {
     for (const Tick& tick : axis.ticks)
         result += label(tick.label, x + value_bar_width + 5.0,
                         sheet.lower_edge() - axis.share(tick.at) * sheet.height() + 4.0, "start");
-    return result + label(name, sheet_width - 4.0, image_top - 12.0, "end");
+    return result + label(name, BodySheet::width - 4.0, BodySheet::image_top - 12.0, "end");
 }
 
 /// A length of 1, 2 or 5 times a power of ten below the picture_of.
 Markup length_scale(const BodySheet& sheet) {
-    const Axis axis = linear_axis(0.0, image_width / sheet.scale(), 5);
-    const double length = axis.ticks[1].at - axis.ticks[0].at, end = image_left + length * sheet.scale(),
+    const Axis axis = linear_axis(0.0, BodySheet::image_width / sheet.scale(), 5);
+    const double length = axis.ticks[1].at - axis.ticks[0].at, end = BodySheet::image_left + length * sheet.scale(),
                  y = sheet.lower_edge() + 14.0;
-    return line("axis", image_left, y, end, y) + line("axis", image_left, y - 4.0, image_left, y + 4.0) +
+    return line("axis", BodySheet::image_left, y, end, y) +
+           line("axis", BodySheet::image_left, y - 4.0, BodySheet::image_left, y + 4.0) +
            line("axis", end, y - 4.0, end, y + 4.0) + label(fmt::format("{:g} m", length), end + 6.0, y + 4.0, "start");
 }
 
 /// The directions of the axes, in 3D.
 Markup directions(const BodySheet& sheet) {
     if (!sheet.in_space()) return {};
-    const double x = image_right - 46.0, y = sheet.lower_edge() + 30.0;
+    const double x = BodySheet::image_right - 46.0, y = sheet.lower_edge() + 30.0;
     Markup result;
     constexpr std::array<const char*, 3> names{"x", "y", "z"};
     for (std::size_t i = 0; i < 3; ++i) {
@@ -382,7 +250,8 @@ std::vector<Position> middles(const BodyPolygons& polygons, const Snapshot& snap
 
 OnPage on_page(const BodySheet& sheet, const Position& x) {
     const Raster::Corner seen = sheet.corner(x);
-    return {image_left + seen[0] / points_per_unit, image_top + seen[1] / points_per_unit};
+    return {BodySheet::image_left + seen[0] / BodySheet::points_per_unit,
+            BodySheet::image_top + seen[1] / BodySheet::points_per_unit};
 }
 
 Projection projection_of(const BodySheet& sheet) {
@@ -402,8 +271,8 @@ Position before_bodies(const BodySheet& sheet, const std::vector<Position>& corn
         Position x = middle;
         for (std::size_t i = 0; i < 3; ++i) x[i] += share * (lowest[i] - middle[i]);
         const OnPage at = on_page(sheet, x);
-        if (at.y < sheet.lower_edge() - room_of_name && at.x > image_left + 2.0 * room_of_name &&
-            at.x < image_right - 2.0 * room_of_name)
+        if (at.y < sheet.lower_edge() - room_of_name && at.x > BodySheet::image_left + 2.0 * room_of_name &&
+            at.x < BodySheet::image_right - 2.0 * room_of_name)
             return x;
     }
     return middle;
@@ -453,7 +322,7 @@ Markup names_of_all(const BodySheet& sheet, const BodyPolygons& polygons, const 
         placed.push_back(
             {names[i], at.x, at.y + (is_on_a_spring(sheet, polygons.marks, snapshot, at) ? below_a_spring : 0.0)});
     }
-    return drawn_names(placed, image_left, image_right, image_top, sheet.lower_edge());
+    return drawn_names(placed, BodySheet::image_left, BodySheet::image_right, BodySheet::image_top, sheet.lower_edge());
 }
 
 Markup marks_on(const BodySheet& sheet, const PictureMarks& marks, const Snapshot& snapshot) {
@@ -461,30 +330,30 @@ Markup marks_on(const BodySheet& sheet, const PictureMarks& marks, const Snapsho
     Markup drawn = drawn_loads(loads_at(marks, snapshot.time, snapshot.position), sheet.largest_load(), projection);
     for (const auto& [first, second] : marks.springs)
         drawn += drawn_spring({place_of(first, snapshot.position), place_of(second, snapshot.position)}, projection);
-    return drawn + drawn_gravity(marks.gravity, image_left + 16.0, image_top + 16.0, projection);
+    return drawn + drawn_gravity(marks.gravity, BodySheet::image_left + 16.0, BodySheet::image_top + 16.0, projection);
 }
 
 Markup picture_of(const BodySheet& sheet, const BodyPolygons& polygons, const Snapshot& snapshot) {
     Raster image = sheet.image();
     draw_obstacles(image, sheet, snapshot);
     draw_bodies(image, sheet, polygons, snapshot);
-    const double wide = image_width, lower = sheet.lower_edge();
+    const double wide = BodySheet::image_width, lower = sheet.lower_edge();
     const Markup content =
         element("title", snapshot.what) +
-        element("image", {{"x", shown(image_left)},
-                          {"y", shown(image_top)},
+        element("image", {{"x", shown(BodySheet::image_left)},
+                          {"y", shown(BodySheet::image_top)},
                           {"width", shown(wide)},
                           {"height", shown(sheet.height())},
                           {"href", data_address(image.png())}}) +
-        element("path",
-                {{"class", "grid"},
-                 {"fill", "none"},
-                 {"d", fmt::format("M{0},{1}H{2}V{3}H{0}Z", image_left, image_top, image_left + wide, shown(lower))}}) +
+        element("path", {{"class", "grid"},
+                         {"fill", "none"},
+                         {"d", fmt::format("M{0},{1}H{2}V{3}H{0}Z", BodySheet::image_left, BodySheet::image_top,
+                                           BodySheet::image_left + wide, shown(lower))}}) +
         value_bar(sheet, fmt::format("{} [{}]", polygons.value_name, polygons.value_unit)) + length_scale(sheet) +
         directions(sheet) + marks_on(sheet, polygons.marks, snapshot) + names_of_all(sheet, polygons, snapshot);
     return element("svg",
                    {{"xmlns", "http://www.w3.org/2000/svg"},
-                    {"viewBox", fmt::format("0 0 {:.0f} {:.1f}", sheet_width, lower + below_image)},
+                    {"viewBox", fmt::format("0 0 {:.0f} {:.1f}", BodySheet::width, lower + below_image)},
                     {"role", "img"}},
                    content);
 }
