@@ -1,5 +1,4 @@
 #pragma once
-// Private to the layer.
 #include <array>
 #include <cstdint>
 #include <functional>
