@@ -52,7 +52,7 @@ mesh::NonPlanarFaces non_planar_of(const std::string& word) {
     throw py::value_error("non_planar is '" + word + "'; 'fail' and 'split' are allowed");
 }
 
-Packed<std::int32_t> table_of(const py::handle& given, const std::string& name, int columns) {
+Packed<std::int32_t> index_table(const py::handle& given, const std::string& name, int columns) {
     const auto table = integers_of(py::reinterpret_borrow<py::object>(given), name);
     if (table.ndim() != 2 || (columns > 0 && table.shape(1) != columns)) {
         PyErr_Clear();
@@ -95,7 +95,7 @@ Mesh<Dim> mesh_of(const py::handle& points, const py::object& cells, const py::o
     soup.vertices = vectors_of<Dim>(points, "points");
     for (const auto& [type, data] : blocks_of(cells)) {
         const ShapeName& shape = shape_of(type, Dim);
-        const auto table = table_of(data, "cells['" + type + "']", shape.corners);
+        const auto table = index_table(data, "cells['" + type + "']", shape.corners);
         for (py::ssize_t c = 0; c < table.shape(0); ++c) {
             soup.cell_shape.push_back(shape.shape);
             soup.cell_vertices.append({table.data(c, 0), static_cast<std::size_t>(shape.corners)});
@@ -120,7 +120,7 @@ Mesh<Dim> mesh_of(const py::handle& points, const py::object& cells, const py::o
     for (const auto& [group, faces] : groups) {
         const auto index = static_cast<std::int32_t>(soup.group_names.size());
         for (const py::handle one : tables_of_faces(faces)) {
-            const auto table = table_of(one, "groups['" + group + "']", 0);
+            const auto table = index_table(one, "groups['" + group + "']", 0);
             for (py::ssize_t f = 0; f < table.shape(0); ++f)
                 soup.named_faces.push_back({{table.data(f, 0), table.data(f, 0) + table.shape(1)}, index});
         }
