@@ -88,38 +88,93 @@ void check_apart(const mesh::Mesh<Dim>& mesh, const Settings& settings, mesh::Ig
     }
 }
 
-/// Pairs of bodies by their number, and obstacles behind them. Those that are not there because of a fault are left out.
+/// What pairs of a scene name, by their number: bodies, obstacles behind them, and then groups of boundary faces. Nothing, and
+/// a fault, for a name that is none.
+template <int Dim>
+class PairSides {
+public:
+    using Numbers = std::array<std::int32_t, 2>;
+
+    PairSides(const run::Scene<Dim>& scene, const Settings& settings, std::vector<Fault>& faults)
+        : mesh_(scene.mesh), settings_(settings), names_(scene.mesh, settings.bodies, faults) {}
+
+    [[nodiscard]] std::optional<std::int32_t> body_or_obstacle(const std::string& name, const std::string& where,
+                                                               const std::string& key) const {
+        const auto found = std::ranges::find(settings_.obstacles, name, &ObstacleSettings::name);
+        if (names_.has_body(name) || found == settings_.obstacles.end()) return names_.body(name, where, key);
+        return mesh_.n_bodies() + static_cast<std::int32_t>(found - settings_.obstacles.begin());
+    }
+    [[nodiscard]] std::optional<std::int32_t> group(const std::string& name, const std::string& where,
+                                                    const std::string& key) const {
+        if (!names_.has_group(name, where, key)) return std::nullopt;
+        const auto found = std::ranges::find(mesh_.groups, name, &mesh::BoundaryGroup::name);
+        return n_bodies_and_obstacles() + static_cast<std::int32_t>(found - mesh_.groups.begin());
+    }
+    /// Whether faces of both may be listed as a pair.
+    [[nodiscard]] bool may_touch(const Numbers& sides, const std::vector<Numbers>& ignored) const {
+        for (const std::int32_t a : bodies_of(sides[0]))
+            for (const std::int32_t b : bodies_of(sides[1])) {
+                const bool are_obstacles = std::min(a, b) >= mesh_.n_bodies();
+                const bool are_one = a == b && !settings_.options.contact.search.self_contact;
+                const bool are_ignored = std::ranges::any_of(ignored, [&](const Numbers& pair) {
+                    return pair == Numbers{a, b} || pair == Numbers{b, a};
+                });
+                if (!are_obstacles && !are_one && !are_ignored) return true;
+            }
+        return false;
+    }
+
+private:
+    [[nodiscard]] std::int32_t n_bodies_and_obstacles() const {
+        return mesh_.n_bodies() + static_cast<std::int32_t>(settings_.obstacles.size());
+    }
+    [[nodiscard]] std::set<std::int32_t> bodies_of(std::int32_t side) const {
+        if (side < n_bodies_and_obstacles()) return {side};
+        std::set<std::int32_t> bodies;
+        for (const std::int32_t face : mesh_.groups[static_cast<std::size_t>(side - n_bodies_and_obstacles())].faces)
+            bodies.insert(mesh_.cell_body[mesh_.face_cells[face][0]]);
+        return bodies;
+    }
+
+    const mesh::Mesh<Dim>& mesh_;
+    const Settings& settings_;
+    Names<Dim> names_;
+};
+
+/// Pairs by their numbers (PairSides). Those that are not there because of a fault are left out.
 template <int Dim>
 void add_pairs(run::Scene<Dim>& scene, const Settings& settings, std::vector<Fault>& faults) {
-    const Names<Dim> names(scene.mesh, settings.bodies, faults);
-    const auto obstacle = [&](const std::string& name) -> std::optional<std::int32_t> {
-        const auto found = std::ranges::find(settings.obstacles, name, &ObstacleSettings::name);
-        if (found == settings.obstacles.end()) return std::nullopt;
-        return scene.mesh.n_bodies() + static_cast<std::int32_t>(found - settings.obstacles.begin());
-    };
-    const auto numbers_of = [&](const std::array<std::string, 2>& of, const std::string& where,
-                                const std::string& key) -> std::optional<std::array<std::int32_t, 2>> {
-        std::array<std::optional<std::int32_t>, 2> numbers;
-        for (std::size_t i = 0; i < 2; ++i) {
-            numbers[i] = names.has_body(of[i]) ? std::nullopt : obstacle(of[i]);
-            if (!numbers[i]) numbers[i] = names.body(of[i], where, key);
-        }
-        if (!numbers[0] || !numbers[1]) return std::nullopt;
-        return std::array{*numbers[0], *numbers[1]};
-    };
-    for (const IgnoredPair& pair : settings.ignored_pairs)
-        if (const auto numbers = numbers_of(pair.names, pair.where, "contact.ignored_pairs"))
-            scene.solid.ignored_pairs.push_back(*numbers);
+    using Numbers = typename PairSides<Dim>::Numbers;
+    const PairSides<Dim> sides(scene, settings, faults);
+    for (const IgnoredPair& pair : settings.ignored_pairs) {
+        const auto first = sides.body_or_obstacle(pair.names[0], pair.where, "contact.ignored_pairs");
+        const auto second = sides.body_or_obstacle(pair.names[1], pair.where, "contact.ignored_pairs");
+        if (first && second) scene.solid.ignored_pairs.push_back({*first, *second});
+    }
     for (const PairSettings& pair : settings.pairs) {
-        const auto numbers = numbers_of(pair.names, pair.where, "contact.pairs.bodies");
-        if (!numbers) continue;
+        std::vector<std::int32_t> numbers;
+        std::vector<std::string> names = pair.bodies;
+        names.insert(names.end(), pair.groups.begin(), pair.groups.end());
+        for (const std::string& name : pair.bodies)
+            if (const auto number = sides.body_or_obstacle(name, pair.where, "contact.pairs.bodies"))
+                numbers.push_back(*number);
+        for (const std::string& name : pair.groups)
+            if (const auto number = sides.group(name, pair.where, "contact.pairs.groups")) numbers.push_back(*number);
+        if (numbers.size() != 2) continue;
+        const Numbers both{numbers[0], numbers[1]};
         const auto is_same_pair = [&](const solid::BodyFriction& other) {
-            return other.bodies == *numbers || other.bodies == std::array{(*numbers)[1], (*numbers)[0]};
+            return other.bodies == both || other.bodies == Numbers{both[1], both[0]};
         };
         if (std::ranges::any_of(scene.solid.body_friction, is_same_pair))
             faults.push_back({pair.where, fmt::format("contact.pairs: '{}' and '{}' have two laws of friction; give one.",
-                                                      pair.names[0], pair.names[1])});
-        scene.solid.body_friction.push_back({*numbers, pair.friction});
+                                                      names[0], names[1])});
+        else if (!sides.may_touch(both, scene.solid.ignored_pairs))
+            faults.push_back(
+                {pair.where, fmt::format("contact.pairs: '{}' and '{}' have a law of friction and never touch: they "
+                                         "are of bodies in ignored_pairs, of one body without self = true, or "
+                                         "obstacles. Leave the law out, or let them touch.",
+                                         names[0], names[1])});
+        scene.solid.body_friction.push_back({both, pair.friction});
     }
 }
 

@@ -125,7 +125,8 @@ struct Elsewhere {
     std::string_view text;
 };
 constexpr std::string_view friction =
-    " Friction is contact.friction = 0.3 for all, or a table [[contact.pairs]] with bodies = [\"a\", \"b\"] for two.";
+    " Friction is contact.friction = 0.3 for all, or a table [[contact.pairs]] with bodies = [\"a\", \"b\"] or groups for "
+    "two.";
 constexpr std::array elsewhere = std::to_array<Elsewhere>(
     {{"friction", friction}, {"friction_coefficient", friction}, {"coefficient_of_friction", friction}, {"mu", friction}});
 

@@ -39,13 +39,16 @@ Key<TractionSettings> follows() {
     return key;
 }
 
-std::optional<std::array<std::string, 2>> two_names(Reader& reader, const Node& node, const std::string& key) {
-    if (node.type != Node::Type::array || node.items.size() != 2 ||
+/// One name or two.
+std::optional<std::vector<std::string>> names(Reader& reader, const Node& node, const std::string& key) {
+    if (node.type != Node::Type::array || node.items.empty() || node.items.size() > 2 ||
         std::ranges::any_of(node.items, [](const Node& name) { return name.type != Node::Type::text; })) {
         reader.wrong_type(node, key, "two names such as [\"left\", \"floor\"]");
         return std::nullopt;
     }
-    return std::array{node.items[0].text, node.items[1].text};
+    std::vector<std::string> all;
+    for (const Node& name : node.items) all.push_back(name.text);
+    return all;
 }
 
 Key<Settings> pairs() {
@@ -56,13 +59,21 @@ Key<Settings> pairs() {
             if (!reader.is_table(node.items[i], path)) continue;
             PairSettings pair;
             pair.where = node.items[i].where;
+            const std::size_t n_faults = reader.faults().size();
             read_table(pair, node.items[i], path, pair_keys(), reader);
-            settings.pairs.push_back(std::move(pair));
+            const std::size_t n_sides = pair.bodies.size() + pair.groups.size();
+            if (n_sides == 2)
+                settings.pairs.push_back(std::move(pair));
+            else if (reader.faults().size() == n_faults)
+                reader.fault(node.items[i],
+                             path + ": bodies and groups name " + std::to_string(n_sides) +
+                                 " together, 2 are needed: bodies = [\"left\", \"floor\"], groups = [\"left.xmin\", "
+                                 "\"right.xmax\"], or one of each.");
         }
     };
     return {.name = "pairs",
             .value = "tables",
-            .help = "two bodies, or a body and an obstacle, with a law of friction of their own, [[contact.pairs]]",
+            .help = "two bodies, obstacles or groups of faces with a law of friction of their own, [[contact.pairs]]",
             .take = take};
 }
 
@@ -101,8 +112,15 @@ const Keys<Settings>& contact_keys() {
 
 const Keys<PairSettings>& pair_keys() {
     static const Keys<PairSettings> keys = [] {
-        Keys<PairSettings> all{required(key_of<PairSettings>("bodies", "two names", "bodies, or a body and an obstacle",
-                                                             &PairSettings::names, two_names))};
+        Keys<PairSettings> all{
+            key_of<PairSettings>("bodies", "names",
+                                 "two bodies, or a body and an obstacle; one of them beside one of `groups`",
+                                 &PairSettings::bodies, names),
+            key_of<PairSettings>(
+                "groups", "names",
+                "two groups of boundary faces, \"<body>.<group>\"; one of them beside one of `bodies`. A law "
+                "with more groups goes before one with fewer, then that which comes first",
+                &PairSettings::groups, names)};
         const Keys<PairSettings> of_friction = keys_of_options<PairSettings>(
             contact::friction_options(), "", [](PairSettings& pair) -> contact::Friction& { return pair.friction; });
         all.insert(all.end(), of_friction.begin(), of_friction.end());

@@ -149,9 +149,10 @@ struct IgnoredPair {
     std::string where;  ///< Fault::where
 };
 
-/// A law of friction between two bodies or obstacles.
+/// A law of friction between two bodies, obstacles or groups of boundary faces: `bodies` and `groups` together name two.
 struct PairSettings {
-    std::array<std::string, 2> names;
+    std::vector<std::string> bodies;  // or obstacles
+    std::vector<std::string> groups;
     std::string where;  ///< Fault::where
     contact::Friction friction;
 };

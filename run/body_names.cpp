@@ -17,9 +17,16 @@ std::string quoted_name(const Scene<Dim>& scene, std::int32_t body) {
                  : fmt::format("obstacle '{}'", name_of_obstacle(scene, i - n));
 }
 
+template <int Dim>
+std::string quoted_side(const Scene<Dim>& scene, std::int32_t side) {
+    const std::size_t i = static_cast<std::size_t>(side), n = scene.mesh.body_names.size() + scene.solid.obstacles.size();
+    return i < n ? quoted_name(scene, side) : fmt::format("'{}'", scene.mesh.groups[i - n].name);
+}
+
 #define ABUT_INSTANTIATE(Dim)                                                                  \
     template std::string name_of_obstacle<Dim>(const Scene<Dim>& scene, std::size_t obstacle); \
-    template std::string quoted_name<Dim>(const Scene<Dim>& scene, std::int32_t body);
+    template std::string quoted_name<Dim>(const Scene<Dim>& scene, std::int32_t body);         \
+    template std::string quoted_side<Dim>(const Scene<Dim>& scene, std::int32_t side);
 ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)
 #undef ABUT_INSTANTIATE

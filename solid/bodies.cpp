@@ -175,7 +175,7 @@ void Bodies<Dim>::check() const {
         throw BadInput(mesh_.name +
                        ": contact is to be ignored by bodies of its surface, which a solid numbers as it likes. Give "
                        "SolidOptions::ignored_pairs instead.");
-    const std::int64_t n_all = mesh_.n_bodies() + std::ssize(options_.obstacles);
+    const std::int64_t n_all = mesh_.n_bodies() + std::ssize(options_.obstacles), n_sides = n_all + std::ssize(mesh_.groups);
     if (options_.contact && options_.contact->friction.any())
         throw BadInput(mesh_.name +
                        ": friction is given by faces of the surface of contact, which a solid numbers as it likes. Give "
@@ -186,15 +186,15 @@ void Bodies<Dim>::check() const {
         contact::check(contact::FrictionOptions{.laws = {one.law}});
         for (std::size_t j = 0; j < i; ++j)
             if (std::ranges::is_permutation(one.bodies, options_.body_friction[j].bodies))
-                throw BadInput(mesh_.name + ": bodies " + std::to_string(one.bodies[0]) + " and " +
+                throw BadInput(mesh_.name + ": bodies or groups " + std::to_string(one.bodies[0]) + " and " +
                                std::to_string(one.bodies[1]) +
                                " have two laws of friction. Give one in SolidOptions::body_friction.");
         for (const std::int32_t body : one.bodies)
-            if (body < 0 || body >= n_all)
-                throw BadInput(mesh_.name + ": friction is given for body " + std::to_string(body) +
-                                   "; bodies and obstacles are counted from 0 to " + std::to_string(n_all - 1) +
+            if (body < 0 || body >= n_sides)
+                throw BadInput(mesh_.name + ": friction is given for body or group " + std::to_string(body) +
+                                   "; bodies, obstacles and groups are counted from 0 to " + std::to_string(n_sides - 1) +
                                    ". Correct SolidOptions::body_friction.",
-                               {.value = static_cast<double>(body), .allowed = static_cast<double>(n_all - 1)});
+                               {.value = static_cast<double>(body), .allowed = static_cast<double>(n_sides - 1)});
     }
     for (const auto& pair : options_.ignored_pairs)
         for (const std::int32_t body : pair)

@@ -7,6 +7,7 @@
 
 #include "abut/base/parallel.hpp"
 #include "abut/base/sort_unique.hpp"
+#include "abut/solid/friction.hpp"
 
 namespace abut::solid {
 
@@ -143,6 +144,11 @@ std::vector<std::int32_t> CornerSurface<Dim>::bodies_of_faces() const {
     std::vector<std::int32_t> bodies;
     for (const std::int32_t body : faces_.body) bodies.push_back(bodies_.mesh_body(body));
     return bodies;
+}
+
+template <int Dim>
+std::vector<bool> CornerSurface<Dim>::faces_in_group(std::size_t group) const {
+    return solid::faces_in_group(bodies_.mesh(), group, *shared_, mesh_boundary_, faces_.body.size());
 }
 
 template <int Dim>

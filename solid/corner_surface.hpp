@@ -49,6 +49,8 @@ public:
     [[nodiscard]] contact::Sharing* sharing() { return shared_->sharing(); }
     /// Body of each face, by its number in the mesh; obstacles count behind.
     [[nodiscard]] std::vector<std::int32_t> bodies_of_faces() const;
+    /// Of each face, whether it is in a group of the mesh of all bodies. A call of all ranks.
+    [[nodiscard]] std::vector<bool> faces_in_group(std::size_t group) const;
     /// How far a corner of these faces moves in its frame at most when no cell does by more than 1.
     [[nodiscard]] double amplification(const Listed& listed) const;
 

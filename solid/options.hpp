@@ -19,9 +19,9 @@
 
 namespace abut::solid {
 
-/// Friction between two bodies.
+/// Friction between two bodies, obstacles or groups. Of several for two faces, that with more groups counts, then the first.
 struct BodyFriction {
-    std::array<std::int32_t, 2> bodies;  ///< in either order; obstacle i is body n_bodies + i
+    std::array<std::int32_t, 2> bodies;  ///< either order; obstacle i: n_bodies + i; group g of the mesh: behind them
     contact::Friction law;
 };
 

@@ -44,7 +44,8 @@ contact::NodalOptions nodal_options(const Bodies<Dim>& bodies, const CornerSurfa
             .events = contact.events,
             .compression_warning = contact.compression_warning,
             .compression_limit = contact.compression_limit,
-            .friction = friction_between(options, corners.bodies_of_faces()),
+            .friction = friction_between(options, bodies.mesh().n_bodies(), corners.bodies_of_faces(),
+                                         [&](std::size_t group) { return corners.faces_in_group(group); }),
             .wanted = {}};
 }
 

@@ -40,7 +40,9 @@ ReconstructionDriver<Dim>::ReconstructionDriver(const mesh::Mesh<Dim>& mesh, con
       faces_(shared_faces(part, mesh, ccg)),
       watch_(ccg, part.ranks()) {
     build_surface(options);
-    options_.friction = friction_between(options, surface_.body);
+    options_.friction = friction_between(options, mesh.n_bodies(), surface_.body, [&](std::size_t group) {
+        return faces_in_group(mesh, group, *faces_, boundary_of_surface_, surface_.body.size());
+    });
     make_contact();
 }
 

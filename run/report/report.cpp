@@ -197,7 +197,7 @@ Markup friction_laws(const Scene<Dim>& scene, const RunResult<Dim>& result) {
     std::vector<Markup> rows;
     for (const solid::BodyFriction& pair : scene.solid.body_friction)
         rows.push_back(
-            row({quoted_name(scene, pair.bodies[0]) + ", " + quoted_name(scene, pair.bodies[1]), in_words(pair.law)}));
+            row({quoted_side(scene, pair.bodies[0]) + ", " + quoted_side(scene, pair.bodies[1]), in_words(pair.law)}));
     if (of_all.acts()) rows.push_back(row({rows.empty() ? "all" : "all others", in_words(of_all)}));
     return table({"between", "friction"}, rows);
 }

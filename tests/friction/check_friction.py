@@ -210,6 +210,105 @@ def a_pair_without_friction_is_bitwise_identical(programs):
         near(after / before, 1.0, 1e-8, f"{law}: momentum along the floor")
 
 
+def block_of_halves(folder):
+    """A mesh file of the block of block.toml, 8 x 4 cells; the sole has the groups "left" and "right", and "sole", all of it."""
+    nodes = [(0.1 * i, 0.1 * j) for j in range(5) for i in range(9)]
+    edges = [(group, i + 1, i + 2) for i in range(8) for group in (1 if i < 4 else 2, 3)]
+    cells = [(9 * j + i + 1, 9 * j + i + 2, 9 * j + i + 11, 9 * j + i + 10) for j in range(4) for i in range(8)]
+    elements = [f"1 2 {group} {group} {a} {b}" for group, a, b in edges] + [f"3 2 4 4 {' '.join(map(str, cell))}" for cell in cells]
+    path = pathlib.Path(folder) / "halves.msh"
+    path.write_text("\n".join(
+        ["$MeshFormat", "2.2 0 8", "$EndMeshFormat", "$PhysicalNames", "4", '1 1 "left"', '1 2 "right"', '1 3 "sole"', '2 4 "block"',
+         "$EndPhysicalNames", "$Nodes", str(len(nodes)), *(f"{i + 1} {x!r} {y!r} 0" for i, (x, y) in enumerate(nodes)), "$EndNodes",
+         "$Elements", str(len(elements)), *(f"{i + 1} {text}" for i, text in enumerate(elements)), "$EndElements", ""]))
+    return path
+
+
+def halves(folder, *pairs):
+    """The scene block.toml with that mesh, and with laws of friction of groups and bodies."""
+    text = (INPUTS / "block.toml").read_text()
+    begin, end = text.index('shape = "structured_box"'), text.index("young")
+    path = pathlib.Path(folder) / "halves.toml"
+    path.write_text(text[:begin] + f'mesh = "{block_of_halves(folder).name}"\n' + text[end:] +
+                    "".join(f"[[contact.pairs]]\n{pair}\n" for pair in pairs))
+    return path
+
+
+def of_group(group, friction):
+    return f'groups = ["block.{group}"]\nbodies = ["floor"]\nfriction = {friction}'
+
+
+@claim
+def groups_of_faces_have_their_own_friction(programs):
+    """A rigid block, L long with its centre at the height h, slides on two halves of its sole with mu_1 behind and mu_2 in front.
+    The pressure is linear along the sole: N_2 - N_1 = 3 h F/L, N_1 + N_2 = m g, so that F = mu_1 N_1 + mu_2 N_2 is
+    m g (mu_1 + mu_2)/2/(1 - 3 h (mu_2 - mu_1)/(2 L))."""
+    length, height = 0.8, 0.2
+    for behind, ahead in ((0.1, 0.4), (0.4, 0.1)):
+        right = G * (behind + ahead) / 2 / (1 - 1.5 * height * (ahead - behind) / length)
+        with tempfile.TemporaryDirectory() as folder:
+            scene = halves(folder, of_group("left", behind), of_group("right", ahead))
+            done = run(programs, scene, *with_law("pair_potential", "rigid"), "--settle",
+                       *keys(bodies__block__velocity="[4, 0]")).require_end()
+            near(-acceleration(done.rows(), done.body("block")["mass"]), right, 0.005 * G, f"mu {behind}, {ahead}: the deceleration")
+            require(balance(done.rows()) <= 1e-11, "the balance is open")
+
+
+@claim
+def laws_of_groups_go_before_those_of_bodies(programs):
+    """Two halves with one law are a whole; more groups go before fewer, and then the law that comes first: bitwise identical."""
+    for law, kinematics in LAWS_AND_KINEMATICS:
+        with tempfile.TemporaryDirectory() as folder:
+            def energies(*pairs):
+                options = [*with_law(law, kinematics), *keys(run__time=0.1, contact__friction=0.7)]
+                done = run(programs, halves(folder, *pairs), *options).require_end()
+                return (done.out / "energy.csv").read_bytes()
+            body = 'bodies = ["block", "floor"]\nfriction = '
+            whole = energies(body + "0.3")
+            require(energies(of_group("left", 0.3), of_group("right", 0.3)) == whole, f"{law}, {kinematics}: halves are no whole")
+            require(energies(body + "0.1", of_group("sole", 0.3), of_group("left", 0.2)) == whole,
+                    f"{law}, {kinematics}: the order of laws is another")
+            require(energies(body + "0.1", of_group("left", 0.2), of_group("sole", 0.3)) != whole,
+                    f"{law}, {kinematics}: the first law of a face does not count")
+
+
+@claim
+def groups_are_bitwise_identical_on_ranks_and_after_a_restart(programs):
+    for law, kinematics in LAWS_AND_KINEMATICS:
+        with tempfile.TemporaryDirectory() as folder:
+            scene = halves(folder, of_group("left", 0.1), of_group("right", 0.5))
+            options = [*with_law(law, kinematics), "--interval", 7]
+            whole = run(programs, scene, *options, *keys(run__time=0.04)).require_end()
+            energies = (whole.out / "energy.csv").read_bytes()
+            for ranks in (2, 3) if kinematics != "rigid" else ():
+                shared = run(programs, scene, *options, *keys(run__time=0.04), "--ranks", ranks).require_end()
+                require((shared.out / "energy.csv").read_bytes() == energies, f"{law}, {kinematics}: {ranks} ranks have other bits")
+            part = pathlib.Path(folder) / "part"
+            for command in ([programs / "abut", "run", scene, "--frames", "0", *options, *keys(run__time=0.02), "--out", part,
+                             "--keep-last-checkpoint"], [programs / "abut", "restart", part, "--until", "0.04"]):
+                done = subprocess.run(list(map(str, command)), capture_output=True, text=True)
+                require(done.returncode == 0, done.stdout + done.stderr)
+            expected, got = whole.rows()[-1], list(abut_runs.rows_of(part / "energy.csv"))[-1]
+            require(expected == got, f"{law}, {kinematics}: {expected} became {got}")
+
+
+@claim
+def laws_that_cannot_act_are_refused(programs):
+    body = 'bodies = ["block", "floor"]\nfriction = 0.1'
+    for pairs, options, words in (
+            ([of_group("lefd", 0.1)], [], ["'block.lefd', which is no group", "Did you mean 'block.left'?"]),
+            ([of_group("left", 0.1)] * 2, [], ["'floor' and 'block.left' have two laws"]),
+            (['groups = ["block.left"]\nfriction = 0.1'], [], ["name 1 together, 2 are needed"]),
+            (['groups = ["block.left", "block.right"]\nbodies = ["floor"]\nfriction = 0.1'], [], ["name 3 together"]),
+            (['groups = ["block.left", "block.right"]\nfriction = 0.1'], [], ["never touch"]),
+            ([body], keys(contact__ignored_pairs='[["floor", "block"]]'), ["'block' and 'floor'", "never touch", "ignored_pairs"]),
+            ([of_group("left", 0.1)], keys(contact__ignored_pairs='[["floor", "block"]]'), ["never touch"])):
+        with tempfile.TemporaryDirectory() as folder:
+            done = run(programs, halves(folder, *pairs), *options)
+            said = " ".join(done.said.split())
+            require(done.code == 1 and all(word in said for word in words), f"{pairs}, {options}: {done.said}")
+
+
 @claim
 def tresca_takes_a_stress(programs):
     """The force is c A, whatever presses: a = c A/m. The block stands on its whole side, 0.8 m."""
