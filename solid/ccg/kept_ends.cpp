@@ -113,7 +113,10 @@ void KeptEnds<Dim>::set_defect(std::int32_t c, bool flows) {
         const double of_jumps =
             finite_.has_law(c) ? product<Dim>(pulled, g_1 - g_0) - product<Dim>(jumps, free_1.gradient() - free_0.gradient())
                                : product<Dim>(pulled - step_of(c, g_0, g_1).pull_back(jumps), g_1 - g_0);
-        (flows ? loss.on_faces : energy) += flows ? measure * of_jumps : of_jumps;
+        if (flows)
+            loss.on_faces = measure * of_jumps;
+        else
+            energy += of_jumps;
     }
     if (inelastic >= 0) {
         losses_[static_cast<std::size_t>(inelastic)] = loss;

@@ -80,7 +80,7 @@ void check_pieces(const run::Scene<Dim>& scene, int steps, const fs::path& folde
     if (all.rank() == 0) fs::remove_all(folder);
     all.agree(nullptr);
     const test::SharedMesh<Dim> mesh(all, scene.mesh, test::odd(all, scene.mesh), scene.solid.kinematics);
-    run::Frames<Dim> of_first(folder / "pieces", "bodies", 4, true);
+    run::Frames<Dim> of_first(folder / "pieces", "bodies", 4, run::FrameFormat::vtu, true);
     run::PieceFiles<Dim> of_others(folder / "pieces", "bodies", scene.outputs.fields);
     run::Observer<Dim>& mine = all.rank() == 0 ? static_cast<run::Observer<Dim>&>(of_first) : of_others;
     static_cast<void>(run::simulate<Dim>(scene, options, mine, nullptr, mesh.share()));
