@@ -123,7 +123,8 @@ TEST_CASE("energy.csv holds a row for every record and what the summary says", "
                                                     "dissipated",
                                                     "friction_energy",
                                                     "sticking_faces",
-                                                    "sliding_faces"});
+                                                    "sliding_faces",
+                                                    "material_dissipated"});
     for (const auto& row : table.rows) CHECK(row.size() == table.columns.size());
     CHECK(table.rows.back().front() == static_cast<double>(steps));
 
