@@ -196,7 +196,8 @@ void Solid<Dim>::book_losses() {
 template <int Dim>
 void Solid<Dim>::refuse_inelastic(const char* why) const {
     if (any_inelastic())
-        throw BadInput(mesh_.name + ": a material remembers what happens to it (MaterialLaw::j2), which is not made " + why +
+        throw BadInput(mesh_.name +
+                       ": a material remembers what happens to it, as one of the law j2 does, which is not made " + why +
                        ". Take the scheme memm.");
 }
 
