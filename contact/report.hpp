@@ -31,7 +31,7 @@ struct ContactReport {
     std::int64_t sliding_faces_max = 0;
 };
 
-/// What a search did, for the reader of a run.
+/// Figures of a search, for the reader of a run.
 struct CandidateReport {
     std::int64_t searches = 0;         ///< lists made
     std::int64_t orderings = 0;        ///< of them, how many put the faces into a new spatial order first

@@ -88,7 +88,7 @@ void check_apart(const mesh::Mesh<Dim>& mesh, const Settings& settings, mesh::Ig
     }
 }
 
-/// What pairs of a scene name, by their number: bodies, obstacles behind them, and then groups of boundary faces. Nothing, and
+/// Names of the sides of pairs in a scene, by their number: bodies, obstacles behind them, and then groups of boundary faces. Nothing, and
 /// a fault, for a name that is none.
 template <int Dim>
 class PairSides {

@@ -11,7 +11,7 @@
 
 namespace abut::run {
 
-/// What pictures show of a scene beside its bodies: loads, springs and names of obstacles. Corners and points of bodies are numbers
+/// Marks in pictures of a scene beside its bodies: loads, springs and names of obstacles. Corners and points of bodies are numbers
 /// of positions of a Snapshot.
 struct PictureMarks {
     using Position = std::array<double, 3>;  ///< in 2D the third is 0 [m]

@@ -342,6 +342,14 @@ std::vector<Warning> warnings_after(const RunResult<Dim>& result) {
                         "Venant and Kirchhoff's material is one of small strains, and weak in compression. Look at H - H~: "
                         "if noise grows, take {}",
                         result.finite.strain, large_strain, result.finite.determinant, calming_choices(result.options)));
+    const solid::StepLoss& loss = result.dissipated;
+    if (const double share = std::abs(loss.on_faces) / loss.in_cells; share > large_face_loss)
+        add(WarningKind::face_loss, share, large_face_loss,
+            fmt::format(
+                "free faces that flow along with their cells take {:.2g} of what plastic flow dissipates out of contact "
+                "and of jumps between cells, {:g} is safe: cells at the surface are too large for what happens "
+                "there, though the balance of energy holds. Take smaller cells",
+                share, large_face_loss));
     add_sightings(counts, result);
     counts.add(WarningKind::missed_contacts, Severity::warning, contact.missed_contacts,
                fmt::format("{} contacts were missed, 0 are allowed: the energy is not exact", contact.missed_contacts));

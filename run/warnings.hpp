@@ -22,6 +22,10 @@ inline constexpr double enough_inertia = 0.98;
 /// |E| above which the strain of a finite body is worth a word [-]: its material is one of small strains. docs/limits.md.
 inline constexpr double large_strain = 0.2;
 
+/// |StepLoss::on_faces| over `in_cells` above which free faces that flow along take more than they should [-]: a bar eight cells
+/// across has 0.02, boxes three cells across that collide 0.16. docs/limits.md.
+inline constexpr double large_face_loss = 0.1;
+
 /// Force of sliding faces over the limit at which they slide: far below it their slip alternates from step to step [-].
 inline constexpr double least_sliding_share = 0.7;
 /// (H - H~) over the energy in play above which the motion swings from step to step by more than belongs to it [-].
@@ -68,10 +72,11 @@ enum class WarningKind {
     rotation,        ///< Ledger::rotation [rad] where a body is small; threshold: far_rotation
     local_rotation,  ///< the largest of RunResult::local_rotations [rad] where none is; threshold: far_rotation
     finite_strain,   ///< FiniteExtremes::strain [-] of bodies of Kinematics::finite; threshold: large_strain
-    alternating_slip,  ///< force of sliding faces over its limit [-]; threshold: least_sliding_share
-    energy_excess,   ///< Ledger::energy_excess over the energy in play [-]; threshold: large_energy_excess
-    parasitic,       ///< Ledger::parasitic over Accounts::speed [-]; threshold: large_parasitic_share
-    moment_drift,    ///< of J~ where it is conserved [-]; threshold: large_moment_drift
+    alternating_slip,       ///< force of sliding faces over its limit [-]; threshold: least_sliding_share
+    face_loss,              ///< |RunResult::dissipated.on_faces| over that of cells [-]; threshold: large_face_loss
+    energy_excess,          ///< Ledger::energy_excess over the energy in play [-]; threshold: large_energy_excess
+    parasitic,              ///< Ledger::parasitic over Accounts::speed [-]; threshold: large_parasitic_share
+    moment_drift,           ///< of J~ where it is conserved [-]; threshold: large_moment_drift
     interpenetration,       ///< SurfaceLooks::deepest [-]; threshold: deep_interpenetration
     remote_contact,         ///< SurfaceLooks::remote [-]; threshold: contact_from_afar
     sliding_pressure,       ///< note: SurfaceLooks::pressed [-]; threshold: high_sliding_pressure
@@ -86,7 +91,8 @@ struct Warning {
     Severity severity;
     std::string text;  ///< a sentence without its full stop: what, how much, how much is safe, what to do
     double value;      ///< see WarningKind; NaN: none
-    double threshold;  ///< above which (unseen_edges, missing_inertia, alternating_slip: below which) `value` is worth a word
+    double
+        threshold;  ///< above which (unseen_edges, missing_inertia, alternating_slip: below which) `value` is worth a word
 };
 
 /// Known once all is set up, before the first step: of the mesh, the reconstruction, the surface. For Observer::begin.

@@ -9,7 +9,7 @@
 
 namespace abut::run {
 
-/// The same as mesh::VtuSeries in one file of HDF5, BASENAME.h5, with BASENAME.xmf and BASENAME_surface.xmf (XDMF 3, temporal
+/// Frames as mesh::VtuSeries writes them, in one file of HDF5, BASENAME.h5, with BASENAME.xmf and BASENAME_surface.xmf (XDMF 3, temporal
 /// collections), which ParaView opens. Values are bitwise those of the VTU files; tensors are matrices of their six
 /// components in the order of VTK; the surface shares the vertices of the cells.
 ///

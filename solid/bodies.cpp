@@ -10,7 +10,7 @@
 #include "abut/mesh/extract.hpp"
 #include "abut/solid/body_cells.hpp"
 #include "abut/solid/law_options.hpp"
-#include "abut/solid/material/require_stored_energy.hpp"
+#include "abut/solid/material/law_check.hpp"
 #include "abut/solid/obstacles.hpp"
 #include "abut/solid/rank_part.hpp"
 
@@ -150,108 +150,6 @@ void Bodies<Dim>::keep_groups() {
 }
 
 template <int Dim>
-void Bodies<Dim>::check() const {
-    const auto n_bodies = static_cast<std::size_t>(mesh_.n_bodies());
-    const auto require_one_each = [&](std::size_t given, const std::string& what) {
-        if (given != n_bodies)
-            throw BadInput(mesh_.name + ": " + std::to_string(given) + " " + what + " are given for " +
-                               std::to_string(n_bodies) + " bodies. Give one per body" +
-                               (what == "materials" ? "." : ", or none."),
-                           {.value = static_cast<double>(given), .allowed = static_cast<double>(n_bodies)});
-    };
-    require_one_each(options_.materials.size(), "materials");
-    for (std::size_t body = 0; body < n_bodies; ++body) solid::check(options_.materials[body], static_cast<int>(body));
-    if (!options_.acceleration.empty()) require_one_each(options_.acceleration.size(), "accelerations");
-    if (!options_.kinematics.empty()) require_one_each(options_.kinematics.size(), "kinematics");
-    for (std::size_t body = 0; body < options_.acceleration.size(); ++body)
-        if (!options_.acceleration[body].allFinite())
-            throw BadInput(mesh_.name + ": the acceleration of body " + std::to_string(body) + " ('" +
-                           mesh_.body_names[body] + "') is not finite. Correct SolidOptions::acceleration.");
-    if (!options_.obstacles.empty() && !options_.contact)
-        throw BadInput(mesh_.name + ": " + std::to_string(options_.obstacles.size()) +
-                       " obstacles are given without contact, so nothing would feel them. Give "
-                       "SolidOptions::contact, or no obstacles.");
-    if (options_.contact && !options_.contact->search.ignored_bodies.empty())
-        throw BadInput(mesh_.name +
-                       ": contact is to be ignored by bodies of its surface, which a solid numbers as it likes. Give "
-                       "SolidOptions::ignored_pairs instead.");
-    const std::int64_t n_all = mesh_.n_bodies() + std::ssize(options_.obstacles), n_sides = n_all + std::ssize(mesh_.groups);
-    if (options_.contact && options_.contact->friction.any())
-        throw BadInput(mesh_.name +
-                       ": friction is given by faces of the surface of contact, which a solid numbers as it likes. Give "
-                       "SolidOptions::friction and body_friction instead.");
-    contact::check(contact::FrictionOptions{.laws = {options_.friction}});
-    for (std::size_t i = 0; i < options_.body_friction.size(); ++i) {
-        const BodyFriction& one = options_.body_friction[i];
-        contact::check(contact::FrictionOptions{.laws = {one.law}});
-        for (std::size_t j = 0; j < i; ++j)
-            if (std::ranges::is_permutation(one.bodies, options_.body_friction[j].bodies))
-                throw BadInput(mesh_.name + ": bodies or groups " + std::to_string(one.bodies[0]) + " and " +
-                               std::to_string(one.bodies[1]) +
-                               " have two laws of friction. Give one in SolidOptions::body_friction.");
-        for (const std::int32_t body : one.bodies)
-            if (body < 0 || body >= n_sides)
-                throw BadInput(mesh_.name + ": friction is given for body or group " + std::to_string(body) +
-                                   "; bodies, obstacles and groups are counted from 0 to " + std::to_string(n_sides - 1) +
-                                   ". Correct SolidOptions::body_friction.",
-                               {.value = static_cast<double>(body), .allowed = static_cast<double>(n_sides - 1)});
-    }
-    for (const auto& pair : options_.ignored_pairs)
-        for (const std::int32_t body : pair)
-            if (body < 0 || body >= n_all)
-                throw BadInput(mesh_.name + ": contact is to be ignored of body " + std::to_string(body) +
-                                   "; bodies and obstacles are counted from 0 to " + std::to_string(n_all - 1) +
-                                   ". Correct SolidOptions::ignored_pairs.",
-                               {.value = static_cast<double>(body), .allowed = static_cast<double>(n_all - 1)});
-    for (const auto& condition : options_.boundary.dirichlet) refuse_on_turning_bodies(condition);
-    for (const auto& condition : options_.boundary.traction) {
-        refuse_following(condition);
-        if (condition.from_outside) check_outside(condition);
-    }
-}
-
-/// A frame that turns has no place for a displacement that is given in space; a body of Kinematics::finite has no frame.
-template <int Dim>
-void Bodies<Dim>::refuse_on_turning_bodies(const DirichletCondition<Dim>& condition) const {
-    for (const std::int32_t face : mesh_.group(condition.group).faces) {
-        const std::int32_t body = mesh_.cell_body[mesh_.face_cells[face][0]];
-        if (!turns(body)) continue;
-        const std::string who = mesh_.name + ": body '" + mesh_.body_names[body] + "'";
-        if (!is_finite(body))
-            throw BadInput(who + " may turn, and has a prescribed displacement ('" + condition.group +
-                           "'), which only bodies of Kinematics::small and ::finite can have. Hold it by "
-                           "SolidOptions::springs.");
-        if (condition.constraint != Constraint::full || condition.history)
-            throw BadInput(who + " is of Kinematics::finite, and the displacement prescribed on '" + condition.group +
-                           (condition.history ? "' varies." : "' leaves directions free.") +
-                           " Such a body can be clamped (Constraint::full without a history), or held by "
-                           "SolidOptions::springs.");
-    }
-}
-
-/// What turns with a face of a body of Kinematics::finite is what acts along its normal; a program outside knows normals.
-template <int Dim>
-void Bodies<Dim>::refuse_following(const TractionCondition<Dim>& condition) const {
-    if (!condition.follows || !condition.from_outside) return;
-    for (const std::int32_t face : mesh_.group(condition.group).faces)
-        if (const std::int32_t body = mesh_.cell_body[mesh_.face_cells[face][0]]; is_finite(body))
-            throw BadInput(mesh_.name + ": body '" + mesh_.body_names[body] +
-                           "' is of Kinematics::finite, and the traction from outside on '" + condition.group +
-                           "' follows. Give one that keeps its direction in space.");
-}
-
-template <int Dim>
-void Bodies<Dim>::check_outside(const TractionCondition<Dim>& condition) const {
-    const auto refuse = [&](const std::string& why) {
-        throw BadInput(mesh_.name + ": the traction on '" + condition.group + "' is from outside, and " + why);
-    };
-    if (condition.history) refuse("has a history. Give one or the other.");
-    if (!condition.value.allFinite()) refuse("its value at the start is not finite. Correct TractionCondition::value.");
-    const auto is_same = [&](const auto& other) { return other.from_outside && other.group == condition.group; };
-    if (std::ranges::count_if(options_.boundary.traction, is_same) > 1) refuse("is given twice. Leave one out.");
-}
-
-template <int Dim>
 Kinematics Bodies<Dim>::kinematics(std::int32_t body) const {
     return options_.kinematics.empty() ? Kinematics::small : options_.kinematics[static_cast<std::size_t>(body)];
 }
@@ -283,12 +181,11 @@ void Bodies<Dim>::set_laws() {
                            "has a law of large strains, for which there is no MeanForce::discrete_gradient. Take "
                            "MeanForce::closed_trapezoid (--mean-force closed_trapezoid).");
         if (stored[i] && inelastic[i]) throw BadInput(who + "is given an elastic law and an inelastic one. Leave one out.");
-        if (stored[i]) {
-            require_stored_energy(*stored[i], material, who);
-        } else {
-            const std::vector<double> memory = inelastic[i]->initial_memory();
-            require_stored_energy<Dim>(FrozenLaw<Dim>(*inelastic[i], memory), material, who);
-        }
+        const LawCheck<Dim> check(material, who);
+        if (stored[i])
+            check.require(*stored[i]);
+        else
+            check.require(*inelastic[i]);
     }
 }
 

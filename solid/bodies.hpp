@@ -111,6 +111,7 @@ public:
 
 private:
     void check() const;
+    void check_pairs() const;
     void keep_groups();
     void set_laws();
     void refuse_on_turning_bodies(const DirichletCondition<Dim>& condition) const;

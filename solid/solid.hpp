@@ -143,7 +143,7 @@ public:
     [[nodiscard]] double potential(std::span<const double> q);
     /// Work of prescribed displacements, of changing tractions and of moving obstacles so far [J].
     [[nodiscard]] double work() const { return work_; }
-    /// What materials have dissipated so far, friction not counted [J].
+    /// Energy that materials have dissipated so far, friction not counted [J].
     [[nodiscard]] StepLoss dissipated() const { return dissipated_; }
     /// The linear part alone, without loads and contact: K q [N]; for the stable step.
     void stiffness_product(std::span<const double> q, std::span<double> product);

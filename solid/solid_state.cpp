@@ -125,7 +125,7 @@ void Solid<Dim>::begin_run() {
     contact_->restore_impulses({});
 }
 
-/// What inelastic cells remember: how many numbers each cell has, and all of them, in the order of the cells of all ranks.
+/// Writes how many numbers each cell remembers, and all of them, in the order of the cells of all ranks.
 template <int Dim>
 void Solid<Dim>::save_memory(StateWriter& state) const {
     state.put(dissipated_.in_cells);

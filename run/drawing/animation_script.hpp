@@ -4,7 +4,7 @@
 
 namespace abut::run {
 
-/// What the page of an animation does, between `animation_head` and `animation_body`.
+/// Script of the page of an animation, between `animation_head` and `animation_body`.
 inline constexpr std::string_view animation_script = R"html(<script>
 "use strict";
 const element = id => document.getElementById(id);

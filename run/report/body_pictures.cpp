@@ -278,7 +278,7 @@ Position before_bodies(const BodySheet& sheet, const std::vector<Position>& corn
     return middle;
 }
 
-/// Where the name of each obstacle is; not finite where nothing of it is seen.
+/// The place of the name of each obstacle; not finite where nothing of it is seen.
 std::vector<Position> places_of_obstacles(const BodySheet& sheet, const PictureMarks& marks, const Snapshot& snapshot) {
     std::vector<std::vector<Position>> seen(marks.obstacle_names.size());
     for (std::size_t face = 0; face < std::min(snapshot.obstacles.size(), marks.obstacle.size()); ++face) {

@@ -35,14 +35,14 @@ BodyBox box_of(const BodyPictures& pictures) {
     return whole;
 }
 
-/// Where the colours end.
+/// The value at which the colours end.
 double end_of_colours(const BodyPictures& pictures) {
     double end = pictures.polygons.least_end;
     for (const Snapshot& snapshot : pictures.snapshots) end = std::max(end, upper_end(snapshot.value));
     return end > 0.0 ? end : 1.0;
 }
 
-/// Of all times [Pa].
+/// The largest load of all times [Pa].
 double largest_load_of(const BodyPictures& pictures) {
     double largest = 0.0;
     for (const Snapshot& snapshot : pictures.snapshots)

@@ -31,7 +31,7 @@ struct BodyBox {
 
 [[nodiscard]] BodyBox box_of(const std::vector<Snapshot::Position>& positions);
 
-/// What all pictures of a run have in common: where a position lies on the sheet, and where the colours end. All constants are
+/// Properties that all pictures of a run share: where a position lies on the sheet, and where the colours end. All constants are
 /// in units of the drawing.
 class BodySheet {
 public:

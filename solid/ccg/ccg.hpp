@@ -164,7 +164,7 @@ public:
     [[nodiscard]] bool any_inelastic() const;
     void begin_step(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load);
     void end_step();
-    /// What a cell has dissipated in the last step; nothing where its material is elastic.
+    /// Energy that a cell has dissipated in the last step; none where its material is elastic.
     [[nodiscard]] StepLoss step_loss(std::int32_t cell) const;
     /// Equivalent plastic strain of a cell [-]; 0 where its material has none.
     [[nodiscard]] double plastic_strain(std::int32_t cell) const;

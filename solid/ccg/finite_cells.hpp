@@ -29,9 +29,9 @@ public:
     [[nodiscard]] bool takes_ends() const { return takes_ends_; }
     /// Whether a body has a StoredEnergy or an InelasticLaw.
     [[nodiscard]] bool any_law() const { return !laws_.empty() || any_inelastic(); }
-    /// Of a cell: false where its material is St. Venant and Kirchhoff's.
+    /// Whether a cell has one of these; false: its material is St. Venant and Kirchhoff's.
     [[nodiscard]] bool has_law(std::ptrdiff_t cell) const { return elastic_law(cell) || inelastic(cell) >= 0; }
-    /// Of a cell; null where it has another material.
+    /// The stored energy of a cell; null where its material is inelastic or St. Venant and Kirchhoff's.
     [[nodiscard]] const StoredEnergy<Dim>* elastic_law(std::ptrdiff_t cell) const {
         return laws_.empty() ? nullptr : law_[static_cast<std::size_t>(cell)];
     }

@@ -68,7 +68,7 @@ void CcgSweeps<Dim, Real>::set_finite_displacement_gradient(std::int32_t c) {
     element_.set_traces(c, free.has_one_normal() ? load_packed<Dim>(state.gradient()) : g);
 }
 
-/// What an inelastic cell remembers at the end of the step, `g` of affine faces. Its free faces are where the step costs least: where
+/// Sets what an inelastic cell remembers at the end of the step, `g` of affine faces. Its free faces are where the step costs least: where
 /// they would be if the cell remembered what it did before, unless that makes it remember something else.
 template <int Dim, class Real>
 void CcgSweeps<Dim, Real>::advance(std::int32_t c, std::int32_t inelastic, const Matrix<Dim>& g) {
@@ -143,7 +143,7 @@ void CcgSweeps<Dim, Real>::take_ends(const StepEnds<Dim>& ends) {
     keeps_ = &kept_.end;
 }
 
-/// What is at `start` is taken from where the last step ended, if that is there, and from memory the same wherever it is.
+/// Takes the start from where the last step ended, if that is here; what materials remember goes on wherever the step begins.
 template <int Dim, class Real>
 void CcgSweeps<Dim, Real>::begin_step(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load) {
     if (finite_.any_inelastic()) {

@@ -28,11 +28,11 @@ struct FreeEnd {
     }
 };
 
-/// What the cells of inelastic materials remember in one state.
+/// The memory of the cells of inelastic materials in one state.
 template <int Dim>
 class CellMemory {
 public:
-    /// Of cells that nothing has happened to; none where no material remembers.
+    /// Makes that of cells that nothing has happened to; empty where no material remembers.
     explicit CellMemory(const FiniteCells<Dim>& finite);
 
     [[nodiscard]] std::span<const double> values() const { return values_; }
@@ -82,7 +82,7 @@ public:
 
     /// Both ends of this cell are set. `flows`: its material may have dissipated energy in the step.
     void set_defect(std::int32_t c, bool flows);
-    /// What this cell has dissipated in the step from `start` to `end` [J].
+    /// Energy that this cell has dissipated in the step from `start` to `end` [J].
     [[nodiscard]] StepLoss loss(std::int32_t c) const;
     /// Of the step from `start` to `end`, less the moment of `direct`.
     [[nodiscard]] StepDefect<Dim> defect(std::int32_t c) const;

@@ -15,7 +15,7 @@ public:
     LeastEnergy() = default;
     /// `g`: F - I with affine faces, `shape`: what the search begins with. `law` must outlive it.
     LeastEnergy(const FreeCell<Dim>& free, const StoredEnergy<Dim>& law, const Matrix<Dim>& g, const Matrix<Dim>& shape);
-    /// What the linear material would take for `shape`.
+    /// `shape` as the linear material has it.
     [[nodiscard]] static Matrix<Dim> linear_shape(const FreeCell<Dim>& free, double contraction, const Matrix<Dim>& g);
 
     /// F - I at the minimum.

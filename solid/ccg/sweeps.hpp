@@ -125,9 +125,9 @@ private:
     void answer_to_corrections(std::int32_t c);
 
     // One element of a finite body
-    /// What inelastic materials remember in the state that is looked at.
+    /// The end whose memory is looked at.
     [[nodiscard]] const KeptEnd<Dim>& here() const { return looks_at_end_ ? kept_.end : kept_.start; }
-    /// Of a cell; null: its material is St. Venant and Kirchhoff's.
+    /// The stored energy of a cell; null: its material is St. Venant and Kirchhoff's.
     [[nodiscard]] const StoredEnergy<Dim>* law(std::ptrdiff_t cell) const {
         const std::int32_t inelastic = finite_.inelastic(cell);
         return inelastic < 0 ? finite_.elastic_law(cell) : &here().memory->law(inelastic);

@@ -9,7 +9,7 @@
 
 namespace abut::solid {
 
-/// What a step leaves behind in a cell.
+/// The result of a step in a cell.
 template <int Dim>
 struct Advance {
     Response<Dim> response;   ///< the least of W + what the step dissipates, as a function of G, and its slope: P at the end
@@ -37,14 +37,14 @@ public:
     [[nodiscard]] virtual Response<Dim> at(const Matrix<Dim>& g, std::span<const double> memory) const = 0;
     /// Changes z by a step that ends at G. Afterwards `at` has the stress that is returned, up to rounding.
     [[nodiscard]] virtual Advance<Dim> advance(const Matrix<Dim>& g, std::span<double> memory) const = 0;
-    /// Where it is known in closed form: changes of the stress of `at` for changes of F at G; false: it is not, and differences are
+    /// Sets `results` to the changes of the stress of `at` for changes of F at G. False: there is no closed form, and differences are
     /// taken. Free faces of cells ask for it.
     [[nodiscard]] virtual bool stress_changes(const Matrix<Dim>& g, std::span<const double> memory,
                                               std::span<const Matrix<Dim>> changes, std::span<Matrix<Dim>> results) const {
         (void)g, (void)memory, (void)changes, (void)results;
         return false;
     }
-    /// The same of the stress at the end of a step that begins with this memory.
+    /// Like `stress_changes`, for the stress at the end of a step that begins with this memory.
     [[nodiscard]] virtual bool advanced_changes(const Matrix<Dim>& g, std::span<const double> memory,
                                                 std::span<const Matrix<Dim>> changes, std::span<Matrix<Dim>> results) const {
         (void)g, (void)memory, (void)changes, (void)results;
@@ -56,7 +56,7 @@ public:
         (void)g, (void)memory;
         return std::nullopt;
     }
-    /// What of z is shown: equivalent plastic strain [-], or 0.
+    /// The equivalent plastic strain that z holds [-], or 0.
     [[nodiscard]] virtual double plastic_strain(std::span<const double> memory) const {
         (void)memory;
         return 0.0;

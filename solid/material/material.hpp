@@ -53,10 +53,11 @@ struct Material {
 /// Throws BadInput naming the body, the value, the limit and the remedy.
 void check(const Material& material, int body);
 
-/// Of its law; null of St. Venant and Kirchhoff's, which the operators know by themselves, and of inelastic ones.
+/// Makes the stored energy of a material; null for St. Venant and Kirchhoff's, which the operators know by themselves, and for inelastic
+/// ones.
 template <int Dim>
 [[nodiscard]] std::shared_ptr<const StoredEnergy<Dim>> stored_energy(const Material& material);
-/// Of its law; null of elastic ones.
+/// Makes the law of an inelastic material; null for an elastic one.
 template <int Dim>
 [[nodiscard]] std::shared_ptr<const InelasticLaw<Dim>> inelastic_law(const Material& material);
 

@@ -30,7 +30,7 @@ public:
     [[nodiscard]] virtual Response<Dim> at(const Matrix<Dim>& g) const = 0;
     /// dP for a change dF at G [Pa]; by central differences unless it is overridden. Free faces of cells ask for it.
     [[nodiscard]] virtual Matrix<Dim> stress_change(const Matrix<Dim>& g, const Matrix<Dim>& change) const;
-    /// The same for several changes at once, of which `results` has as many.
+    /// Sets `results` to `stress_change` of each of several changes.
     virtual void stress_changes(const Matrix<Dim>& g, std::span<const Matrix<Dim>> changes,
                                 std::span<Matrix<Dim>> results) const {
         for (std::size_t i = 0; i < changes.size(); ++i) results[i] = stress_change(g, changes[i]);

@@ -72,6 +72,22 @@ TEST_CASE("a finite body that is strained too far is told of, with how near a ce
     CHECK(warnings.front().text.find("0.43") != std::string::npos);
 }
 
+TEST_CASE("free faces that take much of what plastic flow dissipates are told of, whatever the sign", "[run][warnings]") {
+    const auto result_with = [](double share) {
+        run::RunResult<2> result;
+        result.dt = result.finest_dt = 1.0;
+        result.dissipated = {.in_cells = 2.0, .on_faces = 2.0 * share};
+        return run::warnings_after(result);
+    };
+    CHECK(result_with(run::large_face_loss).empty());
+    for (const double share : {0.16, -0.16}) {
+        const auto warnings = result_with(share);
+        REQUIRE(kinds(warnings) == std::vector{WarningKind::face_loss});
+        CHECK(warnings.front().value == Approx(0.16));
+        CHECK_THAT(warnings.front().text, Catch::Contains("0.16") && Catch::Contains("smaller cells"));
+    }
+}
+
 TEST_CASE("a body that turns is told of from 0.1 rad on, with what it has grown by", "[run][warnings]") {
     for (const double angle : {0.09, 0.2}) {
         run::RunResult<2> result;

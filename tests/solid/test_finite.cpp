@@ -4,7 +4,7 @@
 
 #include "abut/base/error.hpp"
 #include "abut/solid/statics.hpp"
-#include "solid/turning_scenes.hpp"
+#include "solid/finite_scenes.hpp"
 
 using namespace abut;
 using namespace abut::test;
@@ -19,45 +19,6 @@ solid::SolidOptions<Dim> apart(std::vector<Kinematics> kinematics) {
     options.kinematics = std::move(kinematics);
     return options;
 }
-
-/// Displacements of all cells under a rigid motion, with noise.
-template <int Dim>
-std::vector<double> turned_state(const mesh::Mesh<Dim>& mesh, double angle, unsigned seed, double noise) {
-    std::vector<double> q = sampled<Dim>(mesh, [&](const Vector<Dim>& x) -> Vector<Dim> {
-        return turned_by<Dim>(angle) * x - x + Vector<Dim>::Constant(0.3);
-    });
-    const auto added = random_state(q.size(), seed, noise);
-    for (std::size_t i = 0; i < q.size(); ++i) q[i] += added[i];
-    return q;
-}
-
-/// What one step leaves of energy, momentum and moment about the mean positions, over sums of absolute values.
-template <int Dim>
-struct StepErrors {
-    double energy = 0.0, momentum = 0.0, angular = 0.0;
-
-    StepErrors(solid::Solid<Dim>& solid, const std::vector<double>& q_0, const std::vector<double>& q_1) {
-        std::vector<double> force_on(q_0.size());
-        solid.mean_force(q_0, q_1, 0.0, 1.0, force_on);
-        double work = 0.0, of_work = 0.0, of_moment = 0.0, of_force = 0.0;
-        Vector<Dim> sum = Vector<Dim>::Zero();
-        AxialVector<Dim> turning = AxialVector<Dim>::Zero();
-        for (std::size_t i = 0; i < q_0.size() / Dim; ++i) {
-            const Vector<Dim> f = vectors<Dim>(force_on)[i], u_0 = vectors<Dim>(q_0)[i], u_1 = vectors<Dim>(q_1)[i];
-            const Vector<Dim> x = solid.rest_positions()[i] + 0.5 * (u_0 + u_1);
-            work += f.dot(u_1 - u_0);
-            of_work += std::abs(f.dot(u_1 - u_0));
-            sum += f;
-            of_force += f.norm();
-            turning += moment<Dim>(x, f);
-            of_moment += x.norm() * f.norm();
-        }
-        const double v_0 = solid.potential(q_0), v_1 = solid.potential(q_1);
-        energy = std::abs(v_1 - v_0 + work) / (of_work + v_0 + v_1);
-        momentum = sum.norm() / of_force;
-        angular = turning.norm() / of_moment;
-    }
-};
 
 }  // namespace
 
@@ -80,18 +41,7 @@ TEMPLATE_TEST_CASE_SIG("forces on finite bodies are minus the gradient of their 
     for (const auto& [name, mesh] : boxes<Dim>()) {
         CAPTURE(name);
         solid::Solid<Dim> solid(mesh, apart<Dim>({Kinematics::finite}));
-        const auto q = turned_state<Dim>(mesh, 0.7, 1, 0.01), d = random_state(q.size(), 3);
-        std::vector<double> force(q.size());
-        solid.force(q, force);
-        double power = 0.0;
-        for (std::size_t i = 0; i < q.size(); ++i) power -= force[i] * d[i];
-        const auto at = [&](double s) {
-            auto x = q;
-            for (std::size_t i = 0; i < q.size(); ++i) x[i] += s * d[i];
-            return solid.potential(x);
-        };
-        const double h = 1e-6;
-        CHECK(std::abs((at(h) - at(-h)) / (2.0 * h) - power) <= 1e-8 * std::abs(power));
+        CHECK(slope_error<Dim>(solid, turned_state<Dim>(mesh, 0.7, 1, 0.01)) <= 1e-8);
     }
 }
 
@@ -234,24 +184,10 @@ TEMPLATE_TEST_CASE_SIG("finite bodies that spin collide, and keep H~, momentum a
                        2, 3) {
     const Kinematics other = GENERATE(Kinematics::finite, Kinematics::floating, Kinematics::rigid);
     CAPTURE(int(other));
-    const auto& mesh = [] {
-        if constexpr (Dim == 2)
-            return two_discs(0.5);
-        else
-            return two_boxes(3);
-    }();
-    std::vector<Motion<Dim>> motion(2);
-    for (int body = 0; body < 2; ++body) {
-        if constexpr (Dim == 2)
-            motion[body].velocity = disc_velocities[body];
-        else
-            motion[body].velocity = box_velocities[body];
-        motion[body].spin = some_spin<Dim>(body == 0 ? 0.02 : -0.03);
-    }
-    TurningScene<Dim> scene(mesh, bodies<Dim>(2), motion, 0.6, std::vector{Kinematics::finite, other});
-    scene.run(Dim == 2 ? 600 : 250);
-    check_collision<Dim>(scene);
-    CHECK(scene.drifts().energy_excess <= 1e-2);
+    const auto scene = spinning_collision<Dim>(bodies<Dim>(2), other);
+    scene->run(steps_of_collision<Dim>);
+    check_collision<Dim>(*scene);
+    CHECK(scene->drifts().energy_excess <= 1e-2);
 }
 
 TEST_CASE("a cantilever bends as the elastica does", "[solid][finite]") {

@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "solid/turning_scenes.hpp"
+#include "solid/finite_scenes.hpp"
 
 using namespace abut;
 using namespace abut::test;
@@ -18,17 +18,6 @@ solid::SolidOptions<Dim> finite_with(MeanForce mean_force) {
     options.kinematics = {Kinematics::finite};
     options.finite.mean_force = mean_force;
     return options;
-}
-
-/// A mesh that is turned, and noise.
-template <int Dim>
-std::vector<double> deformed(const mesh::Mesh<Dim>& mesh, double angle, unsigned seed) {
-    std::vector<double> q = sampled<Dim>(mesh, [&](const Vector<Dim>& x) -> Vector<Dim> {
-        return turned_by<Dim>(angle) * x - x + Vector<Dim>::Constant(0.3);
-    });
-    const auto noise = random_state(q.size(), seed, 0.01);
-    for (std::size_t i = 0; i < q.size(); ++i) q[i] += noise[i];
-    return q;
 }
 
 template <int Dim>
@@ -54,7 +43,7 @@ TEMPLATE_TEST_CASE_SIG("the trapezoid is the mean of the forces at both ends", "
     for (const auto& [name, mesh] : boxes<Dim>()) {
         CAPTURE(name);
         solid::Solid<Dim> solid(mesh, finite_with<Dim>(MeanForce::trapezoid));
-        const auto q_0 = deformed<Dim>(mesh, 0.7, 1), q_1 = deformed<Dim>(mesh, 0.9, 2);
+        const auto q_0 = turned_state<Dim>(mesh, 0.7, 1, 0.01), q_1 = turned_state<Dim>(mesh, 0.9, 2, 0.01);
         std::vector<double> at_0(q_0.size()), at_1(q_0.size());
         const auto mean = mean_force(solid, q_0, q_1);
         solid.force(q_0, at_0);
@@ -69,7 +58,8 @@ TEMPLATE_TEST_CASE_SIG("what a step keeps of its ends is no memory: other steps 
                        "[solid][finite]", ((int Dim), Dim), 2, 3) {
     const auto mean = GENERATE(MeanForce::trapezoid, MeanForce::closed_trapezoid);
     const auto mesh = boxes<Dim>()[0].mesh;
-    const auto q_0 = deformed<Dim>(mesh, 0.7, 1), q_1 = deformed<Dim>(mesh, 0.9, 2), q_2 = deformed<Dim>(mesh, 0.8, 3);
+    const auto q_0 = turned_state<Dim>(mesh, 0.7, 1, 0.01), q_1 = turned_state<Dim>(mesh, 0.9, 2, 0.01),
+               q_2 = turned_state<Dim>(mesh, 0.8, 3, 0.01);
     const auto fresh = [&](const std::vector<double>& from, const std::vector<double>& to) {
         solid::Solid<Dim> solid(mesh, finite_with<Dim>(mean));
         return mean_force(solid, from, to);
