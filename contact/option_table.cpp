@@ -39,7 +39,7 @@ OptionList<CandidateOptions> make_search_options() {
     using Of = CandidateOptions;
     return {
         choice("broad_phase", &Of::broad_phase, broad_phase_words(),
-               {.help = "what finds faces that are near; all give the same bits", .of_build = true}),
+               {.help = "what finds faces that are near; results are the same to the last digit", .of_build = true}),
         option("self_contact", &Of::self_contact,
                {.help = "contact acts between parts of one body, too, by the modified reconstruction",
                 .key = "self",

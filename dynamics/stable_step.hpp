@@ -1,4 +1,5 @@
 #pragma once
+#include <cmath>
 #include <limits>
 
 #include "abut/dynamics/highest_mode.hpp"
@@ -7,7 +8,7 @@ namespace abut::dynamics {
 
 struct StableStep {
     double omega_max;  ///< highest frequency without contact [rad/s]: that of the largest Rayleigh quotient, times 1.02
-    double dt;         ///< 2 / omega_max times the margin of the system [s]
+    double dt;         ///< 2 / omega_max times the margin of the system, less where it is damped [s]
     int iterations;
     double change;  ///< relative change of the last iteration
 };
@@ -22,10 +23,23 @@ template <StiffnessProductSystem S>
         return 1.0;
 }
 
-/// The stable step of degrees of freedom whose highest frequency is omega [rad/s], with the margin of their system [s].
+/// The part of 2/omega that a mode of this frequency [rad/s] allows for a step where forces act on the mean of two rates [-]: with
+/// z = `damping_ratio(omega)` of the system, its damping over what is critical, sqrt(1 + z^2) - z; 1 if it has none.
+template <StiffnessProductSystem S>
+[[nodiscard]] double damped_part(const S& system, double omega) {
+    if constexpr (requires { system.damping_ratio(omega); }) {
+        const double ratio = system.damping_ratio(omega);
+        return ratio > 0.0 ? std::sqrt(1.0 + ratio * ratio) - ratio : 1.0;
+    } else {
+        return 1.0;
+    }
+}
+
+/// The stable step of degrees of freedom whose highest frequency is omega [rad/s], with the margin and the damping of their
+/// system [s].
 template <StiffnessProductSystem S>
 [[nodiscard]] double stable_step_of(const S& system, double omega) {
-    return step_margin(system) * 2.0 / omega;
+    return step_margin(system) * damped_part(system, omega) * 2.0 / omega;
 }
 
 namespace detail {

@@ -1,8 +1,12 @@
+#include <algorithm>
 #include <array>
 #include <filesystem>
+#include <string>
+#include <utility>
 
 #include "abut/input/keys.hpp"
 #include "abut/run/option_table.hpp"
+#include "abut/solid/material/material_numbers.hpp"
 #include "abut/solid/option_words.hpp"
 
 namespace abut::input {
@@ -70,30 +74,19 @@ std::vector<Word<solid::MaterialLaw>> material_laws() {
 template <class Section>
 Keys<Section> material_values() {
     using From = Make<Section>;
-    const auto value = [](double solid::Material::*member) {
-        return [member](Section& section) -> double& { return section.material.*member; };
-    };
-    return {
-        required(From::number("young", value(&solid::Material::young), {.unit = "Pa", .above = 0.0}, "Young's modulus E")),
-        From::number("poisson", value(&solid::Material::poisson), {.above = -1.0, .below = 0.5}, "Poisson's ratio nu"),
-        required(From::number("density", value(&solid::Material::density), {.unit = "kg/m^3", .above = 0.0}, "density rho")),
-        From::number("eta", value(&solid::Material::eta), {.unit = "Pa", .above = 0.0, .zero = true},
-                     "stabilisation of jumps between cells; 0: Young's modulus"),
-        From::word(
-            "law", [](Section& section) -> solid::MaterialLaw& { return section.material.law; }, material_laws(),
-            "at large strains, of finite bodies: st_venant_kirchhoff up to strains of 0.1, neo_hookean and mooney_rivlin "
-            "(rubber) beyond, j2: metal that yields"),
-        From::number("second_share", value(&solid::Material::second_share),
-                     {.above = 0.0, .below = 1.0, .closed = true, .zero = true},
-                     "of mooney_rivlin: shear modulus of the second invariant over all of it, at most lambda/(2 mu)"),
-        From::number("yield_stress", value(&solid::Material::yield_stress), {.unit = "Pa", .above = 0.0, .zero = true},
-                     "of j2, which needs it: stress at which it begins to flow in tension"),
-        From::number("hardening", value(&solid::Material::hardening), {.unit = "Pa", .above = 0.0, .zero = true},
-                     "of j2: rise of that stress per equivalent plastic strain"),
-        From::number("saturation", value(&solid::Material::saturation), {.unit = "Pa", .above = 0.0, .zero = true},
-                     "of j2: Voce's rise of that stress in the end, beside `hardening`"),
-        From::number("saturation_rate", value(&solid::Material::saturation_rate), {.above = 0.0, .zero = true},
-                     "of j2: how fast it comes, per equivalent plastic strain")};
+    Keys<Section> keys;
+    for (const solid::MaterialNumber& number : solid::material_numbers) {
+        const auto value = [member = number.member](Section& section) -> double& { return section.material.*member; };
+        Key<Section> key = From::number(number.name, value, number.limits, number.help);
+        keys.push_back(number.required ? required(std::move(key)) : std::move(key));
+    }
+    const auto behind = std::ranges::find(keys, std::string("eta"), &Key<Section>::name) + 1;
+    keys.insert(behind,
+                From::word(
+                    "law", [](Section& section) -> solid::MaterialLaw& { return section.material.law; }, material_laws(),
+                    "at large strains, of finite bodies: st_venant_kirchhoff up to strains of 0.1, neo_hookean and "
+                    "mooney_rivlin (rubber) beyond, j2: metal that yields"));
+    return keys;
 }
 
 }  // namespace
@@ -119,8 +112,9 @@ const Keys<RefinementSettings>& refinement_keys() {
 const Keys<Body>& body_keys() {
     static const Keys<Body> keys = [] {
         Keys<Body> all = {
-            Of::text("material", &Body::material_name, "text",
-                     "[materials.NAME] that it is made of: of the next six it gives what the body does not"),
+            Of::text(
+                "material", &Body::material_name, "text",
+                "[materials.NAME] that it is made of: of the values of a material it gives those that the body does not"),
             Of::word("kinematics", &Body::kinematics, body_kinematics(),
                      "how it may move: without turns, in a frame that turns, bending, or rigid"),
             Of::vector("place", &Body::place, "m", "0",

@@ -19,7 +19,6 @@ namespace abut::run {
 inline constexpr double not_given = std::numeric_limits<double>::quiet_NaN();
 inline constexpr int restart_not_given = std::numeric_limits<int>::min();
 inline constexpr int restart_of_finite = 50;
-inline constexpr int restart_with_friction = 10;
 
 /// A solid with contact runs under those of integrator_words (run/option_table.hpp); `simulate` refuses others. docs/integrators.md says which to choose.
 using SolidIntegrator = dynamics::Scheme;
@@ -62,10 +61,10 @@ struct RunOptions {
     int threads = 0;    ///< at most; 0: all. The results do not depend on it
     int ranks = 0;      ///< that the programs start; 0: none but those of mpirun. The results do not depend on it
     int rebalance = 0;  ///< steps from one look at what cells cost each rank to the next; 0: parts stay as they are
-    double rebalance_above = 1.05;      ///< cells are shared out again where the costliest rank costs so many times the mean
-    std::filesystem::path out;          ///< folder of ResultFiles; a simulation alone writes nothing
-    int interval = 0;                   ///< steps between ledger records; 0: see records_interval
-    int frames = 21;                    ///< of the series of ResultFiles, the first and the last included; 0: none
+    double rebalance_above = 1.05;  ///< cells are shared out again where the costliest rank costs so many times the mean
+    std::filesystem::path out;      ///< folder of ResultFiles; a simulation alone writes nothing
+    int interval = 0;               ///< steps between ledger records; 0: see records_interval
+    int frames = 21;                ///< of the series of ResultFiles, the first and the last included; 0: none
     FrameFormat format = FrameFormat::vtu;
     int animation = 0;                  ///< frames of animation.html of ResultFiles, first and last included; 0: none
     bool pieces = false;                ///< each rank writes its own cells of these frames

@@ -116,7 +116,7 @@ RunOptions with_restart(RunOptions options, const Scene<Dim>& scene) {
     options.restart = any_finite && options.integrator == SolidIntegrator::memm ? restart_of_finite : 0;
     if (has_friction(scene, options) && options.integrator == SolidIntegrator::memm) {
         options.filter = true;
-        options.restart = restart_with_friction;
+        options.restart = solid::restart_with_friction;
     }
     return options;
 }

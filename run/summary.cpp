@@ -201,14 +201,17 @@ Json friction_json(const RunResult<Dim>& result) {
           {"sliding_share", contact.sliding_limit > 0.0 ? Json(contact.sliding_force / contact.sliding_limit) : Json()}}}};
 }
 
-/// Nothing where no material flows.
+/// Nothing where no material flows or is damped.
 template <int Dim>
 Json material_json(const RunResult<Dim>& result) {
-    if (result.dissipated.in_cells == 0.0) return Json::object();
-    return {{"plasticity",
-             {{"dissipated", result.dissipated.in_cells},
-              {"dissipated_on_faces", result.dissipated.on_faces},
-              {"strain_max", result.finite.plastic_strain}}}};
+    const solid::StepLoss& loss = result.dissipated;
+    Json json = Json::object();
+    if (loss.in_cells != 0.0)
+        json["plasticity"] = {{"dissipated", loss.in_cells},
+                              {"dissipated_on_faces", loss.on_faces},
+                              {"strain_max", result.finite.plastic_strain}};
+    if (loss.by_rates != 0.0) json["damping"] = {{"dissipated", loss.by_rates}, {"lagged", loss.lagged}};
+    return json;
 }
 
 Json encounter_json(const Encounter& met) {
@@ -311,15 +314,21 @@ std::string friction_lines(const RunResult<Dim>& result) {
     return text;
 }
 
-/// Nothing where no material flows.
+/// Nothing where no material flows or is damped.
 template <int Dim>
 std::string material_lines(const RunResult<Dim>& result) {
-    if (result.dissipated.in_cells == 0.0) return "";
-    return table_line(
-               fmt::format("dissipated by plastic flow, / {}", result.scale.name),
-               fmt::format("{:.4g}; with free faces that flow along {:.1e}", result.scale.over(result.dissipated.in_cells),
-                           result.scale.over(result.dissipated.on_faces))) +
-           table_line("largest plastic strain", fmt::format("{:.3g}", result.finite.plastic_strain));
+    const solid::StepLoss& loss = result.dissipated;
+    std::string text;
+    if (loss.in_cells != 0.0)
+        text += table_line(fmt::format("dissipated by plastic flow, / {}", result.scale.name),
+                           fmt::format("{:.4g}; with free faces that flow along {:.1e}", result.scale.over(loss.in_cells),
+                                       result.scale.over(loss.on_faces))) +
+                table_line("largest plastic strain", fmt::format("{:.3g}", result.finite.plastic_strain));
+    if (loss.by_rates != 0.0)
+        text += table_line(fmt::format("dissipated by damping and viscosity, / {}", result.scale.name),
+                           fmt::format("{:.4g}; held in their lag {:.1e}", result.scale.over(loss.by_rates),
+                                       result.scale.over(loss.lagged)));
+    return text;
 }
 
 template <int Dim>

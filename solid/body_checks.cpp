@@ -19,6 +19,7 @@ void Bodies<Dim>::check() const {
     };
     require_one_each(options_.materials.size(), "materials");
     for (std::size_t body = 0; body < n_bodies; ++body) solid::check(options_.materials[body], static_cast<int>(body));
+    for (std::size_t body = 0; body < n_bodies; ++body) check_damping(static_cast<std::int32_t>(body));
     if (!options_.acceleration.empty()) require_one_each(options_.acceleration.size(), "accelerations");
     if (!options_.kinematics.empty()) require_one_each(options_.kinematics.size(), "kinematics");
     for (std::size_t body = 0; body < options_.acceleration.size(); ++body)
@@ -39,6 +40,19 @@ void Bodies<Dim>::check() const {
         refuse_following(condition);
         if (condition.from_outside) check_outside(condition);
     }
+}
+
+template <int Dim>
+void Bodies<Dim>::check_damping(std::int32_t body) const {
+    if (!options_.materials[static_cast<std::size_t>(body)].is_damped()) return;
+    const std::string who = mesh_.name + ": body '" + mesh_.body_names[static_cast<std::size_t>(body)] +
+                            "' is of a damped or viscous material, ";
+    if (is_rigid(body))
+        throw BadInput(who + "but rigid. Leave damping out, and give it a brake (SolidOptions::moments) or dashpots.");
+    if (is_finite(body) && options_.finite.mean_force == MeanForce::discrete_gradient)
+        throw BadInput(who +
+                       "for which there is no MeanForce::discrete_gradient. Take MeanForce::closed_trapezoid (--mean-force "
+                       "closed_trapezoid).");
 }
 
 /// Friction and contact of pairs that are named by number.

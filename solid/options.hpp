@@ -19,6 +19,10 @@
 
 namespace abut::solid {
 
+/// Steps between neutral restarts of runs with friction: without them the slip of faces that vibrate alternates from step to step, and
+/// friction vanishes (docs/filter.md).
+inline constexpr int restart_with_friction = 10;
+
 /// Friction between two bodies, obstacles or groups. Of several for two faces, that with more groups counts, then the first.
 struct BodyFriction {
     std::array<std::int32_t, 2> bodies;  ///< either order; obstacle i: n_bodies + i; group g of the mesh: behind them

@@ -105,6 +105,8 @@ public:
     /// The part of 2/omega_max that is stable [-]: a closed contact stiffens its cells, and noise feeds the alternating mode of
     /// bodies of Kinematics::finite. docs/method.md, Space and Bodies that bend.
     [[nodiscard]] double step_margin() const;
+    /// The largest of all cells (Material::damping_ratio). A call of all ranks.
+    [[nodiscard]] double damping_ratio(double omega) const;
 
     /// With what holds rigid bodies together, at the velocities around the last node.
     void force(std::span<const double> q, std::span<double> force);
@@ -143,7 +145,7 @@ public:
     [[nodiscard]] double potential(std::span<const double> q);
     /// Work of prescribed displacements, of changing tractions and of moving obstacles so far [J].
     [[nodiscard]] double work() const { return work_; }
-    /// Energy that materials have dissipated so far, friction not counted [J].
+    /// Energy that materials have dissipated so far, by flow, damping and viscosity [J].
     [[nodiscard]] StepLoss dissipated() const { return dissipated_; }
     /// The linear part alone, without loads and contact: K q [N]; for the stable step.
     void stiffness_product(std::span<const double> q, std::span<double> product);
@@ -238,8 +240,9 @@ public:
     [[nodiscard]] const FiniteExtremes& finite_extremes() const { return finite_extremes_; }
     /// Equivalent plastic strain of a cell of the mesh [-]; 0 where its material has none.
     [[nodiscard]] double plastic_strain(std::int32_t cell) const;
-    /// Whether a material remembers and dissipates: only schemes that call `mean_force` may run it.
     [[nodiscard]] bool any_inelastic() const { return ccg_.any_inelastic(); }
+    /// Whether a material remembers and dissipates: only schemes that call `mean_force` may run it.
+    [[nodiscard]] bool any_memory() const { return any_inelastic() || ccg_.any_damped(); }
     /// In 2D: sigma_zz of a cell, which `stress` does not have [Pa]; of an elastic body that of small strains, nu (sigma_xx +
     /// sigma_yy). In 3D 0.
     [[nodiscard]] double out_of_plane_stress(std::int32_t cell) const;
@@ -301,7 +304,9 @@ private:
     void book_losses();
     void save_memory(StateWriter& state) const;
     void restore_memory(StateReader& state);
-    void refuse_inelastic(const char* why) const;
+    void refuse_memory(const char* why) const;
+    [[nodiscard]] StepEnds<Dim> step_ends(const Ends& ends, const BoundaryLoad<Dim>& start_load, double dt);
+    void add_drag(const Ends& ends, double dt, std::span<Vector<Dim>> force);
     void add_contact_impulse(const dynamics::FreeFlight& flight, double time, double dt, std::span<Vector<Dim>> impulse);
     [[nodiscard]] FaceCorrections<Dim> corrections() const;
 
@@ -327,10 +332,11 @@ private:
     std::unique_ptr<LocalLevels<Dim>> levels_;        // null without local steps
     LargeArray<double> midpoint_;                     // in the frames, packed; empty where no body turns
     std::vector<Vector<Dim>> in_frames_;
-    std::vector<std::int32_t> all_cells_;   // that deform
-    std::vector<Vector<Dim>> rigid_force_;  // on the points of rigid bodies, constant; by point
-    std::vector<double> rigid_stiffness_;   // of the same, for the stable step; by point
-    Region<Dim> patch_region_;              // of the cells that `end_force_on` was asked for last
+    std::vector<Vector<Dim>> ends_in_frames_[2];  // of a step; empty where no damped body turns
+    std::vector<std::int32_t> all_cells_;         // that deform
+    std::vector<Vector<Dim>> rigid_force_;        // on the points of rigid bodies, constant; by point
+    std::vector<double> rigid_stiffness_;         // of the same, for the stable step; by point
+    Region<Dim> patch_region_;                    // of the cells that `end_force_on` was asked for last
 };
 
 }  // namespace abut::solid

@@ -347,7 +347,13 @@ double Solid<Dim>::step_margin() const {
     return contact_ ? contact_margin : 1.0;
 }
 
+template <int Dim>
+double Solid<Dim>::damping_ratio(double omega) const {
+    return ranks().largest(ccg_.damping_ratio(omega));
+}
+
 #define ABUT_INSTANTIATE(Dim)                                                                                         \
+    template double Solid<Dim>::damping_ratio(double) const;                                                          \
     template void Solid<Dim>::evaluate_contact(std::span<const double> q);                                            \
     template ContactField Solid<Dim>::contact_field(std::span<const double> q);                                       \
     template std::vector<TouchingPair<Dim>> Solid<Dim>::touching_pairs(std::span<const double> q, double gap);        \

@@ -17,7 +17,7 @@
 namespace abut::solid {
 namespace {
 
-constexpr std::uint32_t version = 3;
+constexpr std::uint32_t version = 4;
 
 template <int Dim>
 std::string kind() {
@@ -128,19 +128,19 @@ void Solid<Dim>::begin_run() {
 /// Writes how many numbers each cell remembers, and all of them, in the order of the cells of all ranks.
 template <int Dim>
 void Solid<Dim>::save_memory(StateWriter& state) const {
-    state.put(dissipated_.in_cells);
-    state.put(dissipated_.on_faces);
+    for (const double value : {dissipated_.in_cells, dissipated_.on_faces, dissipated_.by_rates, dissipated_.lagged})
+        state.put(value);
     const auto n_cells = static_cast<std::size_t>(part_->n_all_cells());
-    if (!any_inelastic()) {
+    if (!any_memory()) {
         state.put_all(std::span<const std::int32_t>());
         state.put_all(std::span<const double>());
         return;
     }
     const std::vector<std::int32_t> sizes = ccg_.memory_sizes();
-    const std::span<const double> memory = ccg_.memory();
+    const std::vector<double> memory = ccg_.memory();
     if (part_->is_whole()) {
         state.put_all(std::span<const std::int32_t>(sizes));
-        state.put_all(memory);
+        state.put_all(std::span<const double>(memory));
         return;
     }
     std::vector<double> rows;  // of own cells: number, size, values
@@ -171,11 +171,11 @@ void Solid<Dim>::save_memory(StateWriter& state) const {
 
 template <int Dim>
 void Solid<Dim>::restore_memory(StateReader& state) {
-    dissipated_.in_cells = state.get<double>();
-    dissipated_.on_faces = state.get<double>();
+    for (double StepLoss::*of : {&StepLoss::in_cells, &StepLoss::on_faces, &StepLoss::by_rates, &StepLoss::lagged})
+        dissipated_.*of = state.get<double>();
     const auto sizes = state.get_all<std::int32_t>();
     const auto values = state.get_all<double>();
-    const std::vector<std::int32_t> here = any_inelastic() ? ccg_.memory_sizes() : std::vector<std::int32_t>();
+    const std::vector<std::int32_t> here = any_memory() ? ccg_.memory_sizes() : std::vector<std::int32_t>();
     const auto number = [&](std::size_t c) {
         return part_->is_whole() ? c : static_cast<std::size_t>(part_->cell_numbers()[c]);
     };

@@ -3,6 +3,7 @@
 
 #include "abut/base/error.hpp"
 #include "abut/base/messages.hpp"
+#include "abut/base/parallel.hpp"
 #include "abut/base/processor_stopwatch.hpp"
 #include "abut/base/stopwatch.hpp"
 #include "abut/solid/bodies.hpp"
@@ -66,7 +67,7 @@ void Solid<Dim>::mean_force(std::span<const double> q_0, std::span<const double>
 
     const Stopwatch watch(times_.bulk);
     const auto gradient = result_here(force);
-    const StepEnds<Dim> ends{of_cells(u_0), of_cells(u_1), &start_load, &loads_->end()};
+    const StepEnds<Dim> ends = step_ends({u_0, u_1}, start_load, dt);
     const auto take_gradient = [&](const BoundaryLoad<Dim>& load) {
         const ProcessorStopwatch of_cells(times_.own_cells);
         if (frames_->any_turns())
@@ -84,7 +85,7 @@ void Solid<Dim>::mean_force(std::span<const double> q_0, std::span<const double>
 template <int Dim>
 void Solid<Dim>::end_force(std::span<const double> q_0, std::span<const double> q_1, double time, double dt,
                            std::span<double> force) {
-    refuse_inelastic("with a scheme that takes forces at the ends of steps");
+    refuse_memory("with a scheme that takes forces at the ends of steps");
     require_start(time, dt);
     const auto [u_0, u_1] = ends_here(q_0, q_1);
     const auto gradient = result_here(force);
@@ -119,6 +120,7 @@ void Solid<Dim>::finish_step(const Ends& ends, double time, double dt, contact::
     if (contact_) contact_->add_impulses(dt);
     to_force(is_mean ? ends.start : ends.end, ends.end, gradient);
     if (closure_ && is_mean) closure_->add(ends.start, ends.end, gradient);
+    if (is_mean) add_drag(ends, dt, gradient);
     work_ += frame_loads_->work();
     add_point_loads(ends.start, ends.end, time, dt, take, gradient);
     outside_->add_step(ends.start, ends.end, [this](std::int32_t body) { return mean_turn(body); });
@@ -130,7 +132,7 @@ void Solid<Dim>::finish_step(const Ends& ends, double time, double dt, contact::
 
 template <int Dim>
 bool Solid<Dim>::is_autonomous() const {
-    return !any_inelastic() && !loads_->vary() && !point_loads_->do_work() && !frame_loads_->any() &&
+    return !any_memory() && !loads_->vary() && !point_loads_->do_work() && !frame_loads_->any() &&
            !(contact_ && contact_->obstacles().move());
 }
 
@@ -188,17 +190,43 @@ void Solid<Dim>::add_work(double share) {
 
 template <int Dim>
 void Solid<Dim>::book_losses() {
-    if (!any_inelastic()) return;
-    dissipated_.in_cells += part_->sum_of_cells([&](std::int32_t c) { return ccg_.step_loss(c).in_cells; });
-    dissipated_.on_faces += part_->sum_of_cells([&](std::int32_t c) { return ccg_.step_loss(c).on_faces; });
+    const auto book = [&](double StepLoss::*of) {
+        dissipated_.*of += part_->sum_of_cells([&](std::int32_t c) { return ccg_.step_loss(c).*of; });
+    };
+    if (any_inelastic())
+        for (double StepLoss::*of : {&StepLoss::in_cells, &StepLoss::on_faces}) book(of);
+    if (ccg_.any_damped())
+        for (double StepLoss::*of : {&StepLoss::by_rates, &StepLoss::lagged}) book(of);
 }
 
 template <int Dim>
-void Solid<Dim>::refuse_inelastic(const char* why) const {
-    if (any_inelastic())
+void Solid<Dim>::refuse_memory(const char* why) const {
+    if (any_memory())
         throw BadInput(mesh_.name +
-                       ": a material remembers what happens to it, as one of the law j2 does, which is not made " + why +
-                       ". Take the scheme memm.");
+                       ": a material remembers what happens to it, as one of the law j2 or a damped one does, which is not "
+                       "made " +
+                       why + ". Take the scheme memm.");
+}
+
+/// Bodies of Kinematics::finite are where they are, and what is linear is asked for in its frame.
+template <int Dim>
+StepEnds<Dim> Solid<Dim>::step_ends(const Ends& ends, const BoundaryLoad<Dim>& start_load, double dt) {
+    if (!ccg_.any_damped() || !frames_->any_turns())
+        return {of_cells(ends.start), of_cells(ends.end), &start_load, &loads_->end(), dt};
+    for (std::vector<Vector<Dim>>& in_frame : ends_in_frames_) in_frame.resize(of_cells(ends.start).size());
+    frames_->displacement(all_cells_, of_cells(ends.start), frames_->start(), ends_in_frames_[0]);
+    frames_->displacement(all_cells_, of_cells(ends.end), frames_->end(), ends_in_frames_[1]);
+    return {ends_in_frames_[0], ends_in_frames_[1], &start_load, &loads_->end(), dt};
+}
+
+/// Of Material::mass_damping.
+template <int Dim>
+void Solid<Dim>::add_drag(const Ends& ends, double dt, std::span<Vector<Dim>> force) {
+    if (!ccg_.any_damped()) return;
+    const auto n_cells = static_cast<std::ptrdiff_t>(bodies_->n_cells());
+    parallel_each(n_cells, [&](std::ptrdiff_t c) {
+        force[c] += ccg_.drag(static_cast<std::int32_t>(c), bodies_->masses()[c], ends.end[c] - ends.start[c], dt);
+    });
 }
 
 /// The next step begins where this one ends.
@@ -216,7 +244,7 @@ void Solid<Dim>::end_step(double time) {
 template <int Dim>
 void Solid<Dim>::set_levels(std::int32_t n_levels, std::span<const std::int32_t> level) {
     dynamics::refuse_ranks(ranks(), {{"local steps"}});
-    refuse_inelastic("with local steps");
+    refuse_memory("with local steps");
     require_local_steps(mesh_.name, options_, !contact_ || contact_->makes_parts());
     if (options_.precision == Precision::single_precision)
         throw BadInput(mesh_.name +

@@ -33,9 +33,6 @@ using namespace abut::c_layer;
 
 namespace {
 
-/// Without it the slip of faces that vibrate alternates from step to step, and friction vanishes (docs/filter.md).
-constexpr int restart_with_friction = 10;
-
 /// What has been added so far, and then the run.
 template <int Dim>
 class SolidRun {
@@ -107,7 +104,7 @@ void SolidRun<Dim>::begin(const abut_solid_options& given) {
         filter_.emplace(*solid_);
         memm_->set_after_step([this](auto q, double step, auto before, auto after) { (*filter_)(q, step, before, after); });
     }
-    const int period = given.restart == 0 && rubs ? restart_with_friction : given.restart;
+    const int period = given.restart == 0 && rubs ? solid::restart_with_friction : given.restart;
     if (period == 0) return;
     restart_.emplace(*solid_, dynamics::RestartOptions{.period = period});
     memm_->set_node_restart([this](auto q, double step, auto before, auto after) { (*restart_)(q, step, before, after); });

@@ -22,6 +22,7 @@
 #include "abut/run/summary.hpp"
 #include "abut/run/verdict.hpp"
 #include "abut/run/warnings.hpp"
+#include "abut/solid/material/material_numbers.hpp"
 #include "abut/solid/option_words.hpp"
 #include "in_use.hpp"
 #include "record.hpp"
@@ -371,30 +372,32 @@ solid::MaterialLaw material_law(const std::string& name) {
 }  // namespace
 
 void add_runs(py::module_& module) {
-    py::class_<solid::Material>(module, "Material", "Isotropic elasticity; plane strain in 2D.")
-        .def(py::init([](double young, double poisson, double density, double eta, const std::string& law,
-                         double second_share, double yield_stress, double hardening, double saturation,
-                         double saturation_rate) {
-                 return solid::Material{young,        poisson,      density,   eta,        material_law(law),
-                                        second_share, yield_stress, hardening, saturation, saturation_rate};
-             }),
-             "young"_a = 1.0, "poisson"_a = 0.3, "density"_a = 1.0, "eta"_a = 0.0, "law"_a = "st_venant_kirchhoff",
-             "second_share"_a = 0.0, "yield_stress"_a = 0.0, "hardening"_a = 0.0, "saturation"_a = 0.0,
-             "saturation_rate"_a = 0.0)
-        .def_readwrite("young", &solid::Material::young, "E [Pa]")
-        .def_readwrite("poisson", &solid::Material::poisson, "nu")
-        .def_readwrite("density", &solid::Material::density, "rho [kg/m^3]")
-        .def_readwrite("eta", &solid::Material::eta, "stabilisation of the jumps between cells [Pa]; 0 means E")
-        .def_property(
-            "law", [](const solid::Material& material) { return word_of(solid::material_law_words, material.law); },
-            [](solid::Material& material, const std::string& law) { material.law = material_law(law); },
-            "at large strains, of finite bodies: 'st_venant_kirchhoff', 'neo_hookean', 'mooney_rivlin' or 'j2'")
-        .def_readwrite("second_share", &solid::Material::second_share,
-                       "of mooney_rivlin: mu of the second invariant over mu")
-        .def_readwrite("yield_stress", &solid::Material::yield_stress, "of j2: stress at which it begins to flow [Pa]")
-        .def_readwrite("hardening", &solid::Material::hardening, "of j2: rise of that per plastic strain [Pa]")
-        .def_readwrite("saturation", &solid::Material::saturation, "of j2: Voce's rise of that in the end [Pa]")
-        .def_readwrite("saturation_rate", &solid::Material::saturation_rate, "of j2: per plastic strain");
+    py::class_<solid::Material> of_material(module, "Material", "Isotropic; plane strain in 2D. Values are given by name.");
+    of_material.def(py::init([](const py::kwargs& values) {
+        solid::Material material;
+        for (const auto& [key, value] : values) {
+            const auto name = py::cast<std::string>(key);
+            const auto number = std::ranges::find(solid::material_numbers, name, &solid::MaterialNumber::name);
+            if (name == "law")
+                material.law = material_law(py::cast<std::string>(value));
+            else if (number != solid::material_numbers.end())
+                material.*(number->member) = py::cast<double>(value);
+            else
+                throw py::type_error("Material has no value '" + name + "'");
+        }
+        return material;
+    }));
+    for (const solid::MaterialNumber& number : solid::material_numbers) {
+        const std::string unit = number.limits.unit;
+        const std::string doc = number.help + (unit.empty() ? "" : " [" + unit + "]");
+        of_material.def_property(
+            number.name, [member = number.member](const solid::Material& material) { return material.*member; },
+            [member = number.member](solid::Material& material, double value) { material.*member = value; }, doc.c_str());
+    }
+    of_material.def_property(
+        "law", [](const solid::Material& material) { return word_of(solid::material_law_words, material.law); },
+        [](solid::Material& material, const std::string& law) { material.law = material_law(law); },
+        "at large strains, of finite bodies: 'st_venant_kirchhoff', 'neo_hookean', 'mooney_rivlin' or 'j2'");
     add_dimension<2>(module, "2D");
     add_dimension<3>(module, "3D");
     module.def(

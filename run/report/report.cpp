@@ -117,6 +117,13 @@ std::vector<std::string> said_of(const solid::Material& material, bool is_finite
         law += fmt::format(", share {:g}", material.second_share);
     if (is_finite && material.law == solid::MaterialLaw::j2)
         law += fmt::format(", yields at {:g} Pa", material.yield_stress);
+    const auto add = [&law](double value, const char* format) {
+        if (value > 0.0) law += fmt::format(fmt::runtime(law.empty() ? format + 2 : format), value);
+    };
+    add(material.mass_damping, ", drag {:g} 1/s");
+    add(material.stiffness_damping, ", damped by {:g} s");
+    add(material.linear_viscosity, ", linear viscosity {:g}");
+    add(material.quadratic_viscosity, ", quadratic viscosity {:g}");
     return {fmt::format("{:g}", material.young), fmt::format("{:g}", material.poisson),
             fmt::format("{:g}", material.density),
             fmt::format("{:.4g}", std::sqrt(material.wave_modulus() / material.density)), law};
@@ -226,6 +233,14 @@ Markup plasticity_part(const Figures& figures) {
                          figure_row(figures, "largest plastic strain", "plasticity.strain_max", "")}));
 }
 
+/// Nothing without a material that is damped.
+Markup damping_part(const Figures& figures) {
+    if (!figures.summary().contains("damping")) return {};
+    return section("Damping and viscosity",
+                   table({"", ""}, {figure_row(figures, "dissipated", "damping.dissipated", "J"),
+                                    figure_row(figures, "held in the lag of a step", "damping.lagged", "J")}));
+}
+
 Markup findings_part(const Figures& figures, const std::vector<Finding>& findings) {
     std::vector<Markup> rows;
     for (const Finding& finding : findings) rows.push_back(row({finding.text, figures.at(finding.key)}));
@@ -308,9 +323,9 @@ std::string report_html(const std::string& program, const Scene<Dim>& scene, con
                         (sources.pictures ? pictures_part(*sources.pictures) : Markup()) + warnings_part(warnings) +
                         energies_part(figures, result) + bodies_part(figures, scene, result) +
                         materials_part(scene, result) + contact_part(figures, scene, result, sources) +
-                        friction_part(figures, scene, result) + plasticity_part(figures) + probes_part(scene, sources) +
-                        findings_part(figures, result.findings) + settings_part(figures, scene, result) +
-                        seconds_part(figures) + files_part(files);
+                        friction_part(figures, scene, result) + plasticity_part(figures) + damping_part(figures) +
+                        probes_part(scene, sources) + findings_part(figures, result.findings) +
+                        settings_part(figures, scene, result) + seconds_part(figures) + files_part(files);
     return "<!DOCTYPE html>\n" + page((scene.title.empty() ? program : scene.title) + ": report of a run", body).html() +
            "\n";
 }

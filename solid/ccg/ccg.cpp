@@ -14,6 +14,7 @@
 #include "abut/solid/ccg/region.hpp"
 #include "abut/solid/ccg/single_sweeps.hpp"
 #include "abut/solid/ccg/sweeps.hpp"
+#include "abut/solid/ccg/viscous_cells.hpp"
 #include "abut/solid/motion_bound.hpp"
 
 namespace abut::solid {
@@ -40,12 +41,24 @@ void refuse_finite(const mesh::Mesh<Dim>& mesh, std::span<const Kinematics> kine
                            ", or other kinematics.");
 }
 
+template <int Dim>
+void refuse_damped(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials) {
+    for (std::size_t body = 0; body < materials.size(); ++body)
+        if (materials[body].is_damped())
+            throw BadInput(mesh.name + ": body '" + mesh.body_names[body] +
+                           "' is of a damped or viscous material, whose steps are made in double precision on the host "
+                           "alone. Take Precision::double_precision (--precision double) and StepDevice::host (--device "
+                           "host), or no damping.");
+}
+
 /// Null where steps are made in double precision on the host.
 template <int Dim>
 std::unique_ptr<StepSweeps<Dim>> step_sweeps(const mesh::Mesh<Dim>& mesh, std::span<const Kinematics> kinematics,
-                                             const CcgArrays<Dim>& arrays, const FiniteCells<Dim>& finite,
-                                             const CcgSweeps<Dim>& sweeps, Precision precision, StepDevice device) {
+                                             std::span<const Material> materials, const CcgArrays<Dim>& arrays,
+                                             const FiniteCells<Dim>& finite, const CcgSweeps<Dim>& sweeps,
+                                             Precision precision, StepDevice device) {
     const bool is_single = precision == Precision::single_precision;
+    if (is_single || device != StepDevice::host) refuse_damped(mesh, materials);
     if (is_single)
         refuse_finite(mesh, kinematics, "in single precision", "Precision::double_precision (--precision double)");
     if (device == StepDevice::host) return is_single ? std::make_unique<SingleSweeps<Dim>>(arrays, finite) : nullptr;
@@ -65,6 +78,7 @@ struct Ccg<Dim>::Impl {
     FaceConditions<Dim> face_conditions;
     CcgArrays<Dim> arrays;
     FiniteCells<Dim> finite;
+    ViscousCells<Dim> viscous;
     CcgSweeps<Dim> sweeps;
     std::unique_ptr<StepSweeps<Dim>> steps;  // null: `sweeps` make them
     bool steps_were_last = false;            // to compute gradients
@@ -97,8 +111,9 @@ Ccg<Dim>::Impl::Impl(const mesh::Mesh<Dim>& mesh, std::span<const Material> mate
       arrays(mesh, checked(mesh, materials), face_conditions, conditions.free_face_rule, conditions.corner_rule, kinematics,
              form),
       finite(mesh, face_conditions, kinematics, finite_options),
-      sweeps(arrays, arrays, finite),
-      steps(step_sweeps(mesh, kinematics, arrays, finite, sweeps, precision, device)) {
+      viscous(mesh, materials),
+      sweeps(arrays, arrays, finite, &viscous),
+      steps(step_sweeps(mesh, kinematics, materials, arrays, finite, sweeps, precision, device)) {
     const auto all = solid::boundary_faces(mesh);
     motion_bound.emplace(arrays, std::vector<BoundaryFace>(all.begin(), all.end()));
     for (const std::int32_t f : arrays.boundary_faces) {
@@ -277,11 +292,30 @@ void Ccg<Dim>::begin_step(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim
 template <int Dim>
 void Ccg<Dim>::end_step() {
     impl_->sweeps.end_step();
+    impl_->viscous.end_step();
+}
+
+template <int Dim>
+bool Ccg<Dim>::any_damped() const {
+    return impl_->viscous.any();
+}
+
+template <int Dim>
+double Ccg<Dim>::damping_ratio(double omega) const {
+    return impl_->viscous.damping_ratio(omega);
+}
+
+template <int Dim>
+Vector<Dim> Ccg<Dim>::drag(std::int32_t cell, double mass, const Vector<Dim>& motion, double dt) {
+    if (!impl_->viscous.contains(cell)) return Vector<Dim>::Zero();
+    return impl_->viscous.drag(cell, mass, motion, dt);
 }
 
 template <int Dim>
 StepLoss Ccg<Dim>::step_loss(std::int32_t cell) const {
-    return impl_->sweeps.step_loss(cell);
+    StepLoss loss = impl_->viscous.loss(cell);
+    if (any_inelastic()) loss += impl_->sweeps.step_loss(cell);
+    return loss;
 }
 
 template <int Dim>
@@ -301,22 +335,46 @@ std::optional<double> Ccg<Dim>::out_of_plane_stress(std::int32_t cell) const {
 
 template <int Dim>
 std::vector<std::int32_t> Ccg<Dim>::memory_sizes() const {
-    std::vector<std::int32_t> sizes(static_cast<std::size_t>(n_cells()), 0);
+    std::vector<std::int32_t> sizes;
+    for (std::int32_t c = 0; c < n_cells(); ++c) sizes.push_back(impl_->viscous.memory_size(c));
     for (std::int32_t i = 0; i < static_cast<std::int32_t>(impl_->finite.n_inelastic()); ++i) {
         const auto& cell = impl_->finite.inelastic_cell(i);
-        sizes[static_cast<std::size_t>(cell.cell)] = static_cast<std::int32_t>(cell.end - cell.begin);
+        sizes[static_cast<std::size_t>(cell.cell)] += static_cast<std::int32_t>(cell.end - cell.begin);
     }
     return sizes;
 }
 
 template <int Dim>
-std::span<const double> Ccg<Dim>::memory() const {
-    return impl_->sweeps.memory();
+std::vector<double> Ccg<Dim>::memory() const {
+    std::vector<double> values;
+    for (std::int32_t c = 0; c < n_cells(); ++c) {
+        if (const std::int32_t inelastic = impl_->finite.inelastic(c); inelastic >= 0) {
+            const auto& cell = impl_->finite.inelastic_cell(inelastic);
+            const std::span<const double> all = impl_->sweeps.memory();
+            values.insert(values.end(), all.begin() + cell.begin, all.begin() + cell.end);
+        }
+        impl_->viscous.put_memory(c, values);
+    }
+    return values;
 }
 
 template <int Dim>
 void Ccg<Dim>::set_memory(std::span<const double> values) {
-    impl_->sweeps.set_memory(values);
+    std::vector<double> of_laws;
+    for (std::int32_t c = 0; c < n_cells(); ++c) {
+        const auto take = [&](std::ptrdiff_t size) {
+            const std::span<const double> taken = values.first(static_cast<std::size_t>(size));
+            values = values.subspan(taken.size());
+            return taken;
+        };
+        if (const std::int32_t inelastic = impl_->finite.inelastic(c); inelastic >= 0) {
+            const auto& cell = impl_->finite.inelastic_cell(inelastic);
+            const std::span<const double> of_law = take(cell.end - cell.begin);
+            of_laws.insert(of_laws.end(), of_law.begin(), of_law.end());
+        }
+        if (impl_->viscous.contains(c)) impl_->viscous.set_memory(c, take(impl_->viscous.memory_size(c)));
+    }
+    if (any_inelastic()) impl_->sweeps.set_memory(of_laws);
 }
 
 template <int Dim>

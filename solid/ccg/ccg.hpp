@@ -42,6 +42,7 @@ struct StepEnds {
     std::span<const Vector<Dim>> end;               ///< the same
     const BoundaryLoad<Dim>* start_load = nullptr;  ///< null: none; read where MeanForce is of both ends
     const BoundaryLoad<Dim>* end_load = nullptr;    ///< the same
+    double dt = 0.0;                                ///< [s]; read where a material is damped
 };
 
 /// What a cell lacks of a step whose mean force is that of both ends, contact and tractions not counted.
@@ -52,12 +53,21 @@ struct StepDefect {
     AxialVector<Dim> moment;  ///< of dV/du about the mean position [N m]
 };
 
-/// Energy that a cell of an inelastic material has dissipated in a step [J].
+/// Energy that a cell has dissipated in a step, or all of them in all steps [J].
 struct StepLoss {
-    double in_cells = 0.0;  ///< >= 0
-    double on_faces = 0.0;  ///< what its free faces take out of jumps and contact as they flow along: small, without a sign
+    double in_cells = 0.0;  ///< by inelastic materials: >= 0
+    double on_faces = 0.0;  ///< what free faces take out of jumps and contact as they flow along: small, without a sign
+    double by_rates = 0.0;  ///< by damping and viscosity: >= 0
+    double lagged = 0.0;  ///< what damping has taken and may give back in the next step, as it acts on the mean of two rates
 
-    [[nodiscard]] double total() const { return in_cells + on_faces; }
+    [[nodiscard]] double total() const { return in_cells + on_faces + by_rates + lagged; }
+    StepLoss& operator+=(const StepLoss& other) {
+        in_cells += other.in_cells;
+        on_faces += other.on_faces;
+        by_rates += other.by_rates;
+        lagged += other.lagged;
+        return *this;
+    }
 };
 
 /// Which state of a step operators look at. Inelastic materials remember at the end what the step makes of them.
@@ -158,22 +168,27 @@ public:
     /// ends; `arm` is its mean position, from any point [m]. The sum over the cells of a body is what counts.
     [[nodiscard]] StepDefect<Dim> step_defect(std::int32_t cell, const Vector<Dim>& arm) const;
 
-    // Cells of inelastic materials, which remember (FiniteOptions::inelastic). A step is `begin_step`, any calls, `mean_gradient` or
-    // `gradient_of_packed` of both ends, and `end_step`; one that is not ended leaves no trace.
+    // Cells that remember: those of inelastic materials (FiniteOptions::inelastic), and of damped ones. A step is `begin_step`, any
+    // calls, `mean_gradient` or `gradient_of_packed` of both ends, `drag`, and `end_step`; one that is not ended leaves no trace.
 
     [[nodiscard]] bool any_inelastic() const;
+    [[nodiscard]] bool any_damped() const;
+    /// The largest Material::damping_ratio of a mode with this frequency [rad/s].
+    [[nodiscard]] double damping_ratio(double omega) const;
     void begin_step(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load);
     void end_step();
-    /// Energy that a cell has dissipated in the last step; none where its material is elastic.
+    /// Force of Material::mass_damping on a cell of this mass that moves by `motion` in a step of `dt` [N].
+    [[nodiscard]] Vector<Dim> drag(std::int32_t cell, double mass, const Vector<Dim>& motion, double dt);
+    /// Energy that a cell has dissipated in the last step; none where its material is elastic and not damped.
     [[nodiscard]] StepLoss step_loss(std::int32_t cell) const;
     /// Equivalent plastic strain of a cell [-]; 0 where its material has none.
     [[nodiscard]] double plastic_strain(std::int32_t cell) const;
     /// In the plane, of a cell of an inelastic material as of the last call: its stress out of the plane [Pa].
     [[nodiscard]] std::optional<double> out_of_plane_stress(std::int32_t cell) const;
-    /// How many numbers a cell remembers, 0 where its material is elastic (n_cells).
+    /// How many numbers a cell remembers, 0 where its material is elastic and not damped (n_cells).
     [[nodiscard]] std::vector<std::int32_t> memory_sizes() const;
     /// All that cells remember, one cell after the other.
-    [[nodiscard]] std::span<const double> memory() const;
+    [[nodiscard]] std::vector<double> memory() const;
     /// The other way round; states are looked at anew.
     void set_memory(std::span<const double> values);
 

@@ -127,6 +127,8 @@ void CcgSweeps<Dim, Real>::stresses_of_chunk(std::int32_t k) {
     } else if constexpr (takes_finite) {
         for_runs(cells, [&](std::int32_t c) { set_finite_stress(c); });
     }
+    if constexpr (takes_finite)
+        if (damps_ && !chunks_[k].has_finite) for_runs(cells, [&](std::int32_t c) { add_viscous_stress(c); });
     for (const Run& run : cells) add_moments(run.begin, run.end);
     for (const CondensedCell& condensed : wanted_.condensed_stresses[k]) element_.condense(condensed);
 }

@@ -12,8 +12,14 @@ namespace abut::solid {
 
 template <int Dim, class Real>
 void CcgSweeps<Dim, Real>::load_change(const StepEnds<Dim>& ends) {
-    has_change_ = finite_.any() && !ends.start.empty();
-    if (!has_change_) return;
+    has_change_ = finite_.any() && !finite_.takes_ends() && !ends.start.empty();
+    damps_ = viscous_ && viscous_->any() && !ends.start.empty();
+    if (!has_change_ && !damps_) return;
+    dt_ = ends.dt;
+    load_change_.clear();
+    if (damps_ && ends.start_load && ends.end_load)
+        for (std::size_t b = 0; b < ends.end_load->displacement.size(); ++b)
+            load_change_.push_back(ends.end_load->displacement[b] - ends.start_load->displacement[b]);
     parallel_each(arrays_.n_cells(), [&](std::ptrdiff_t c) {
         store(load_packed<Dim>(ends.end[c]) - load_packed<Dim>(ends.start[c]), u_change_, c);
     });
@@ -29,6 +35,24 @@ Lanes<Dim, Real> CcgSweeps<Dim, Real>::boundary_change(BoundaryFace face) const 
     for (std::int32_t i = boundary.offsets[b]; i < boundary.offsets[b + 1]; ++i)
         sum += coefficients_.boundary_weights[i] * (load_packed<Dim>(u_change_, boundary.cells[i]) - origin);
     return sum - load_packed<Dim>(Vector<Dim>(boundary.deficit[b] * unload<Dim>(origin)));
+}
+
+/// Of a cell whose strains are linear. The change of its gradient is made for it alone: few bodies are damped.
+template <int Dim, class Real>
+void CcgSweeps<Dim, Real>::add_viscous_stress(std::int32_t c) {
+    if (!viscous_->contains(c)) return;
+    const auto relative = [&](std::int32_t f) {
+        const BoundaryFace b = arrays_.boundary_index[f];
+        if (b == no_face) return element_.reconstructed(u_change_.data(), f);
+        const Lanes<Dim, Real> change = boundary_change(b);
+        return load_change_.empty() ? change
+                                    : change + load_packed<Dim>(load_change_[static_cast<std::size_t>(number_of(b))]);
+    };
+    const Matrix<Dim> change = unload(element_.gradient_of(u_change_.data(), c, relative));
+    const LaneTensor<Dim, Real> added = load_packed<Dim>(viscous_->stress(c, Matrix<Dim>::Zero(), change, dt_));
+    LaneTensor<Dim, Real> sum = load_tensor<Dim>(s_, c);
+    for (int j = 0; j < Dim; ++j) sum.col[j] += added.col[j];
+    store_tensor(sum, s_, c);
 }
 
 /// S of the Green strain E, with the free faces where the energy of the cell is least.
@@ -126,8 +150,8 @@ Response<Dim> CcgSweeps<Dim, Real>::law_response(std::int32_t c, const Matrix<Di
 
 template <int Dim, class Real>
 void CcgSweeps<Dim, Real>::take_ends(const StepEnds<Dim>& ends) {
-    if (!finite_.takes_ends()) return load_change(ends);
-    if (ends.start.empty()) return;
+    load_change(ends);
+    if (!finite_.takes_ends() || ends.start.empty()) return;
     static const BoundaryLoad<Dim> none;
     const BoundaryLoad<Dim>& start_load = ends.start_load ? *ends.start_load : none;
     const BoundaryLoad<Dim>& end_load = ends.end_load ? *ends.end_load : none;
@@ -233,6 +257,12 @@ void CcgSweeps<Dim, Real>::keep_end(std::int32_t c, const Response<Dim>& of_law,
     const LaneTensor<Dim, Real> start = load_tensor<Dim>(kept_.start.s, c);
     for (int j = 0; j < Dim; ++j) sum.col[j] = 0.5 * (start.col[j] + sum.col[j]);
     store(0.5 * (load_packed<Dim>(kept_.start.direct, c) + direct), direct_, c);
+    if (!damps_ || !viscous_->contains(c)) return;
+    const std::int32_t position = finite_.free_position(c);
+    const FreeCell<Dim>* free = position < 0 ? nullptr : &finite_.free()[static_cast<std::size_t>(position)];
+    const Matrix<Dim> g_0 = unload(load_tensor<Dim>(kept_.start.g, c)), g_1 = unload(load_tensor<Dim>(g_, c));
+    const LaneTensor<Dim, Real> added = load_packed<Dim>(viscous_->stress(c, 0.5 * (g_0 + g_1), g_1 - g_0, dt_, free));
+    for (int j = 0; j < Dim; ++j) sum.col[j] += added.col[j];
 }
 
 // What contact adds, and what is shown -------------------------------------------------------------------------------
@@ -326,7 +356,7 @@ Matrix<Dim> CcgSweeps<Dim, Real>::cauchy_stress(std::int32_t c) const {
 }
 
 #define ABUT_INSTANTIATE(Dim)                                                                             \
-    template void CcgSweeps<Dim>::load_change(const StepEnds<Dim>&);                                      \
+    template void CcgSweeps<Dim>::add_viscous_stress(std::int32_t);                                       \
     template void CcgSweeps<Dim>::take_ends(const StepEnds<Dim>&);                                        \
     template void CcgSweeps<Dim>::begin_step(std::span<const Vector<Dim>>, const BoundaryLoad<Dim>&);     \
     template void CcgSweeps<Dim>::end_step();                                                             \

@@ -24,8 +24,8 @@ void for_all(const std::vector<Id>& list, const Body& body) {
 
 template <int Dim, class Real>
 CcgSweeps<Dim, Real>::CcgSweeps(const CcgArrays<Dim>& arrays, const CcgCoefficients<Dim, Real>& coefficients,
-                                const FiniteCells<Dim>& finite)
-    : arrays_(arrays), coefficients_(coefficients), finite_(finite), kept_(arrays, finite) {
+                                const FiniteCells<Dim>& finite, ViscousCells<Dim>* viscous)
+    : arrays_(arrays), coefficients_(coefficients), finite_(finite), kept_(arrays, finite), viscous_(viscous) {
     constexpr std::size_t width = lane_width<Dim>;
     u_.resize(width * arrays.cells.size());
     of_face_.resize(width * arrays.faces.size());
@@ -42,10 +42,9 @@ CcgSweeps<Dim, Real>::CcgSweeps(const CcgArrays<Dim>& arrays, const CcgCoefficie
     free_.resize(finite.free().size());
     if (finite.any()) g_change_.resize(g_.size());
     flows_.resize(finite.n_inelastic());
-    if (finite.any() && !finite.takes_ends()) {
-        u_change_.resize(u_.size());
-        relative_change_.resize(of_face_.size());
-    }
+    const bool has_gradients = finite.any() && !finite.takes_ends();
+    if (has_gradients || (viscous && viscous->any())) u_change_.resize(u_.size());
+    if (has_gradients) relative_change_.resize(of_face_.size());
     element_ = {tables_of(arrays, coefficients), coefficients.units};
     SweepTables<Dim, Real>& tables = element_.tables;
     tables.u = Table<double>(u_);
@@ -123,7 +122,7 @@ void CcgSweeps<Dim, Real>::run_sweeps(const LoadCell& load_cell, const BoundaryL
                 return cell_gradients_of_chunk(chunk, result);
         }
     });
-    has_change_ = false;
+    has_change_ = damps_ = false;
     keeps_ = nullptr;
     end_ = {};
     advances_ = false;
@@ -253,7 +252,7 @@ template class CcgSweeps<3>;
 // In single precision there are whole steps alone.
 #define ABUT_INSTANTIATE(Dim)                                                                                    \
     template CcgSweeps<Dim, float>::CcgSweeps(const CcgArrays<Dim>&, const CcgCoefficients<Dim, float>&,         \
-                                              const FiniteCells<Dim>&);                                          \
+                                              const FiniteCells<Dim>&, ViscousCells<Dim>*);                      \
     template void CcgSweeps<Dim, float>::gradient(std::span<const Vector<Dim>>, const BoundaryLoad<Dim>&,        \
                                                   const FaceCorrections<Dim>&, std::span<Vector<Dim>>);          \
     template void CcgSweeps<Dim, float>::mean_gradient(const StepEnds<Dim>&, const BoundaryLoad<Dim>&,           \

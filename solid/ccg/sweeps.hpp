@@ -17,6 +17,7 @@
 #include "abut/solid/ccg/sweep_elements.hpp"
 #include "abut/solid/ccg/sweep_lists.hpp"
 #include "abut/solid/ccg/sweep_schedule.hpp"
+#include "abut/solid/ccg/viscous_cells.hpp"
 
 namespace abut::solid {
 
@@ -43,8 +44,9 @@ namespace abut::solid {
 template <int Dim, class Real = double>
 class CcgSweeps {
 public:
-    /// All must outlive the sweeps.
-    CcgSweeps(const CcgArrays<Dim>& arrays, const CcgCoefficients<Dim, Real>& coefficients, const FiniteCells<Dim>& finite);
+    /// All must outlive the sweeps. Without `viscous` no cell is.
+    CcgSweeps(const CcgArrays<Dim>& arrays, const CcgCoefficients<Dim, Real>& coefficients, const FiniteCells<Dim>& finite,
+              ViscousCells<Dim>* viscous = nullptr);
     CcgSweeps(const CcgSweeps&) = delete;
     CcgSweeps& operator=(const CcgSweeps&) = delete;
 
@@ -141,6 +143,7 @@ private:
     void set_finite_displacement_gradient(std::int32_t c);
     void set_finite_stress(std::int32_t c);
     void load_change(const StepEnds<Dim>& ends);
+    void add_viscous_stress(std::int32_t c);
     void take_ends(const StepEnds<Dim>& ends);
     [[nodiscard]] bool is_kept(const KeptEnd<Dim>& kept, std::span<const Vector<Dim>> u,
                                const BoundaryLoad<Dim>& load) const;
@@ -199,7 +202,12 @@ private:
     LargeArray<Real> relative_change_;
     LargeArray<Real> g_change_;
     bool has_change_ = false;
-    std::vector<Chunk> chunks_;  // one more at the end
+    // Of damped materials
+    ViscousCells<Dim>* viscous_;
+    bool damps_ = false;                    // while the sweeps make a step
+    double dt_ = 0.0;                       // of that
+    std::vector<Vector<Dim>> load_change_;  // of BoundaryLoad::displacement in it; empty: none
+    std::vector<Chunk> chunks_;             // one more at the end
     SweepLists wanted_;
     SweepSchedule<n_stages> schedule_;
 };

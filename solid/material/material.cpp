@@ -19,11 +19,12 @@ void require(bool holds, int body, const char* quantity, double value, const cha
             {.value = value});
 }
 
+struct Value {
+    const char* name;
+    double value;
+};
+
 void check_plasticity(const Material& material, int body) {
-    struct Value {
-        const char* name;
-        double value;
-    };
     const bool yields = material.law == MaterialLaw::j2;
     for (const auto& [name, value] :
          {Value{"yield_stress", material.yield_stress}, Value{"hardening", material.hardening},
@@ -50,6 +51,10 @@ void check(const Material& material, int body) {
             "finite and >= 0 Pa (0: take E).");
     require(material.second_share == 0.0 || material.law == MaterialLaw::mooney_rivlin, body, "second_share",
             material.second_share, "0, as its law is not that of Mooney and Rivlin.");
+    for (const auto& [name, value] :
+         {Value{"mass_damping", material.mass_damping}, Value{"stiffness_damping", material.stiffness_damping},
+          Value{"linear_viscosity", material.linear_viscosity}, Value{"quadratic_viscosity", material.quadratic_viscosity}})
+        require(std::isfinite(value) && value >= 0.0, body, name, value, "finite and >= 0 (0: none).");
     check_plasticity(material, body);
     if (material.law != MaterialLaw::neo_hookean && material.law != MaterialLaw::mooney_rivlin) return;
     require(material.poisson >= 0.0, body, "poisson (nu)", material.poisson,
@@ -57,6 +62,11 @@ void check(const Material& material, int body) {
     const double most_share = std::min(1.0, 0.5 * material.lambda() / material.mu());
     require(material.second_share >= 0.0 && material.second_share <= most_share, body, "second_share", material.second_share,
             ("between 0 and " + number(most_share) + ", the lesser of 1 and lambda/(2 mu).").c_str());
+}
+
+double Material::damping_ratio(double omega, double size) const {
+    const double of_viscosity = linear_viscosity * size / std::sqrt(wave_modulus() / density);
+    return 0.5 * (mass_damping / omega + (stiffness_damping + of_viscosity) * omega);
 }
 
 template <int Dim>

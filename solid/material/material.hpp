@@ -32,6 +32,18 @@ struct Material {
     double saturation = 0.0;       ///< Voce's rise of the yield stress in the end [Pa], >= 0
     double saturation_rate = 0.0;  ///< per plastic strain [-]; > 0 with `saturation`
 
+    // Of bodies that deform, with schemes that take mean forces.
+    double mass_damping = 0.0;         ///< Rayleigh's alpha: a force alpha M v against the motion [1/s], >= 0
+    double stiffness_damping = 0.0;    ///< Rayleigh's beta: a stress beta C : (rate of strain) [s], >= 0
+    double linear_viscosity = 0.0;     ///< of shocks: a pressure b rho c h (rate of compression) [-], >= 0
+    double quadratic_viscosity = 0.0;  ///< the same, b^2 rho h^2 (rate of compression)^2 [-], >= 0
+
+    [[nodiscard]] bool is_damped() const {
+        return mass_damping > 0.0 || stiffness_damping > 0.0 || linear_viscosity > 0.0 || quadratic_viscosity > 0.0;
+    }
+    /// Damping over what is critical of a mode with this frequency [rad/s] in cells of this size [m], at most [-]: by it the stable step
+    /// is shorter.
+    [[nodiscard]] double damping_ratio(double omega, double size) const;
     /// Lame's first parameter lambda [Pa].
     [[nodiscard]] double lambda() const { return young * poisson / ((1.0 + poisson) * (1.0 - 2.0 * poisson)); }
     /// Shear modulus mu [Pa].

@@ -13,7 +13,8 @@ _Field = Optional[Callable[[_Doubles], ArrayLike]]
 class Material:
     def __init__(self, young: float = ..., poisson: float = ..., density: float = ..., eta: float = ..., law: str = ...,
                  second_share: float = ..., yield_stress: float = ..., hardening: float = ..., saturation: float = ...,
-                 saturation_rate: float = ...) -> None: ...
+                 saturation_rate: float = ..., mass_damping: float = ..., stiffness_damping: float = ...,
+                 linear_viscosity: float = ..., quadratic_viscosity: float = ...) -> None: ...
     young: float
     poisson: float
     density: float
@@ -24,6 +25,10 @@ class Material:
     hardening: float
     saturation: float
     saturation_rate: float
+    mass_damping: float
+    stiffness_damping: float
+    linear_viscosity: float
+    quadratic_viscosity: float
 
 class _Mesh:
     @property

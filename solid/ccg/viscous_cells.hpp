@@ -1,0 +1,75 @@
+#pragma once
+// Private to the sources of this layer.
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "abut/mesh/mesh.hpp"
+#include "abut/solid/ccg/ccg.hpp"
+#include "abut/solid/ccg/finite_cell.hpp"
+#include "abut/solid/material/material.hpp"
+
+namespace abut::solid {
+
+/// Forces of cells that depend on rates: Rayleigh's damping and the viscosity of shocks (Material). They act on the mean of the rate
+/// of a step and of that of the step before, which cells remember: docs/method.md, Damping and viscosity.
+///
+/// A step that has not ended leaves no trace. Functions of different cells may be called from several threads at once.
+template <int Dim>
+class ViscousCells {
+public:
+    /// One material per body.
+    ViscousCells(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials);
+    ViscousCells(const ViscousCells&) = delete;
+    ViscousCells& operator=(const ViscousCells&) = delete;
+
+    [[nodiscard]] bool any() const { return !cells_.empty(); }
+    [[nodiscard]] bool contains(std::ptrdiff_t cell) const { return any() && index_[static_cast<std::size_t>(cell)] >= 0; }
+    /// Viscous stress (P) of a step in which F - I of a cell changes by `change` about the mean `g`, for small strains 0 [Pa].
+    /// `free`: the free faces of the cell, where `g` is of affine ones; null: it has none, or `g` knows where they are.
+    [[nodiscard]] Matrix<Dim> stress(std::ptrdiff_t cell, const Matrix<Dim>& g, const Matrix<Dim>& change, double dt,
+                                     const FreeCell<Dim>* free = nullptr);
+    /// Force on a cell of this mass that moves by `motion` in a step [N].
+    [[nodiscard]] Vector<Dim> drag(std::ptrdiff_t cell, double mass, const Vector<Dim>& motion, double dt);
+    /// What both have dissipated in the step.
+    [[nodiscard]] StepLoss loss(std::ptrdiff_t cell) const;
+    /// The next step begins where this one ends.
+    void end_step();
+
+    /// The largest Material::damping_ratio of a mode with this frequency [rad/s].
+    [[nodiscard]] double damping_ratio(double omega) const;
+
+    /// How many numbers a cell remembers.
+    [[nodiscard]] std::int32_t memory_size(std::ptrdiff_t cell) const { return contains(cell) ? n_numbers : 0; }
+    /// Writes them behind `values`.
+    void put_memory(std::ptrdiff_t cell, std::vector<double>& values) const;
+    void set_memory(std::ptrdiff_t cell, std::span<const double> values);
+
+private:
+    /// What acted in a step, as rates of it.
+    struct Rates {
+        Matrix<Dim> strain = Matrix<Dim>::Zero();         // of Green's strain [1/s]
+        double volume = 0.0;                              // [1/s]
+        Vector<Dim> velocity = Vector<Dim>::Zero();       // [m/s]
+        bool deforms_known = false, moves_known = false;  // whether there was a step
+    };
+    static constexpr std::int32_t n_numbers = Dim * Dim + Dim + 3;
+    struct Cell {
+        const Material* material;
+        double measure, size;
+        Rates before, now;
+        StepLoss of_stress, of_drag;
+    };
+    [[nodiscard]] Cell& at(std::ptrdiff_t cell) {
+        return cells_[static_cast<std::size_t>(index_[static_cast<std::size_t>(cell)])];
+    }
+    [[nodiscard]] const Cell& at(std::ptrdiff_t cell) const {
+        return cells_[static_cast<std::size_t>(index_[static_cast<std::size_t>(cell)])];
+    }
+
+    std::vector<Material> materials_;
+    std::vector<std::int32_t> index_;  // of each cell; empty without any
+    std::vector<Cell> cells_;
+};
+
+}  // namespace abut::solid

@@ -1,0 +1,64 @@
+#pragma once
+#include <array>
+
+#include "abut/base/option.hpp"
+#include "abut/solid/material/material.hpp"
+
+namespace abut::solid {
+
+/// A number of a Material, under its name in scenes and in Python.
+struct MaterialNumber {
+    const char* name;
+    double Material::*member;
+    Limits limits;
+    const char* help;
+    bool required = false;
+};
+
+/// All of them: the keys of scenes and the attributes in Python come from here.
+inline constexpr std::array material_numbers{
+    MaterialNumber{"young", &Material::young, {.unit = "Pa", .above = 0.0}, "Young's modulus E", true},
+    MaterialNumber{"poisson", &Material::poisson, {.above = -1.0, .below = 0.5}, "Poisson's ratio nu"},
+    MaterialNumber{"density", &Material::density, {.unit = "kg/m^3", .above = 0.0}, "density rho", true},
+    MaterialNumber{"eta",
+                   &Material::eta,
+                   {.unit = "Pa", .above = 0.0, .zero = true},
+                   "stabilisation of jumps between cells; 0: Young's modulus"},
+    MaterialNumber{"second_share",
+                   &Material::second_share,
+                   {.above = 0.0, .below = 1.0, .closed = true, .zero = true},
+                   "of mooney_rivlin: shear modulus of the second invariant over all of it, at most lambda/(2 mu)"},
+    MaterialNumber{"yield_stress",
+                   &Material::yield_stress,
+                   {.unit = "Pa", .above = 0.0, .zero = true},
+                   "of j2, which needs it: stress at which it begins to flow in tension"},
+    MaterialNumber{"hardening",
+                   &Material::hardening,
+                   {.unit = "Pa", .above = 0.0, .zero = true},
+                   "of j2: rise of that stress per equivalent plastic strain"},
+    MaterialNumber{"saturation",
+                   &Material::saturation,
+                   {.unit = "Pa", .above = 0.0, .zero = true},
+                   "of j2: Voce's rise of that stress in the end, beside `hardening`"},
+    MaterialNumber{"saturation_rate",
+                   &Material::saturation_rate,
+                   {.above = 0.0, .zero = true},
+                   "of j2: how fast it comes, per equivalent plastic strain"},
+    MaterialNumber{"mass_damping",
+                   &Material::mass_damping,
+                   {.unit = "1/s", .above = 0.0, .zero = true},
+                   "Rayleigh's alpha: a force alpha m v against all motion, that of the body as a whole as well"},
+    MaterialNumber{"stiffness_damping",
+                   &Material::stiffness_damping,
+                   {.unit = "s", .above = 0.0, .zero = true},
+                   "Rayleigh's beta: a stress beta C : (rate of strain); it damps most what vibrates fast"},
+    MaterialNumber{"linear_viscosity",
+                   &Material::linear_viscosity,
+                   {.above = 0.0, .zero = true},
+                   "of shocks: pressure over rho c h (rate of compression), h the size of a cell; 0.25 is usual"},
+    MaterialNumber{"quadratic_viscosity",
+                   &Material::quadratic_viscosity,
+                   {.above = 0.0, .zero = true},
+                   "of shocks: root of pressure over rho h^2 (rate of compression)^2; 2 is usual"}};
+
+}  // namespace abut::solid
