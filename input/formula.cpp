@@ -114,6 +114,40 @@ Formula::Formula(const std::string& text, Variables variables, std::vector<Named
         throw BadInput(fmt::format("as a formula it is {}, not finite.", value_));
 }
 
+namespace {
+
+/// The power of one base unit, `i`, in the dimension of a formula; `value` is its value. Scales are powers of 4: of most formulas the
+/// values scale without rounding.
+int power_of(std::size_t i, double value, const std::string& formula, const std::vector<NamedNumber>& numbers) {
+    const auto power_at = [&](int exponent) {
+        std::vector<NamedNumber> scaled = numbers;
+        for (NamedNumber& number : scaled)
+            if (number.dimension) number.value = std::ldexp(number.value, exponent * (*number.dimension)[i]);
+        const double ratio = Formula(formula, Variables::none, scaled).value() / value;
+        return std::log2(ratio) / exponent;
+    };
+    const double power = power_at(2), other = power_at(4);
+    constexpr double tolerance = 1e-9;
+    if (std::abs(power - std::round(power)) < tolerance && std::abs(other - power) < tolerance)
+        return static_cast<int>(std::round(power));
+    throw BadInput(
+        "it mixes dimensions, as a sum of a length and a plain number does. Numbers in formulas have no unit: give one that "
+        "has a name in [values], such as gap = \"5 mm\".");
+}
+
+}  // namespace
+
+std::optional<Unit::Powers> dimension_of(const std::string& formula, std::vector<NamedNumber> numbers) {
+    for (NamedNumber& number : numbers) number.used = false;
+    const double value = Formula(formula, Variables::none, numbers).value();
+    if (value == 0.0 || std::ranges::none_of(numbers, &NamedNumber::used)) return std::nullopt;
+    if (std::ranges::any_of(numbers, [](const NamedNumber& number) { return number.used && !number.dimension; }))
+        return std::nullopt;
+    Unit::Powers powers{};
+    for (const std::size_t i : {0, 1, 2, 4}) powers[i] = power_of(i, value, formula, numbers);
+    return powers;
+}
+
 double Formula::operator()(double time, const Vector<3>& position) const {
     return expression_ ? expression_->evaluate(time, position) : value_;
 }

@@ -1,9 +1,11 @@
 #pragma once
 // Private to the layer.
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "abut/base/unit.hpp"
 #include "abut/base/vector.hpp"
 
 namespace abut::input {
@@ -16,7 +18,8 @@ struct NamedNumber {
     std::string name;
     std::string where;  ///< Fault::where
     double value = 0.0;
-    bool used = false;  ///< by a formula
+    bool used = false;                        ///< by a formula
+    std::optional<Unit::Powers> dimension{};  ///< not known of one that has no unit
 };
 
 /// Throws BadInput for a name that no formula could use, such as "t", "pi" or "a-b".
@@ -41,5 +44,10 @@ private:
     double value_ = 0.0;
     std::shared_ptr<Expression> expression_;  // null: `value_`
 };
+
+/// The dimension of a formula that depends on nothing, told from how its value scales when metre, kilogram and second do. Nothing
+/// where that cannot be told: it uses no number, or one without a unit, or it is 0. Angles are numbers in formulas. Throws BadInput
+/// for a value that scales as no unit does, such as a sum of a length and a plain number.
+[[nodiscard]] std::optional<Unit::Powers> dimension_of(const std::string& formula, std::vector<NamedNumber> numbers);
 
 }  // namespace abut::input

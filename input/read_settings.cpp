@@ -216,8 +216,11 @@ void read_numbers(const Node& table, Reader& reader) {
             reader.fault(table.items[i], fmt::format("{}: {}", in_one_line(key), error.what()));
             continue;
         }
-        const auto value = reader.number(table.items[i], key, {});
-        reader.numbers.push_back({table.names[i], table.items[i].where, value.value_or(1.0)});
+        const auto measured = reader.measured(table.items[i], key).value_or(Reader::Measured{.value = 1.0, .dimension = {}});
+        reader.numbers.push_back({.name = table.names[i],
+                                  .where = table.items[i].where,
+                                  .value = measured.value,
+                                  .dimension = measured.dimension});
     }
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "abut/input/nearest_word.hpp"
@@ -17,6 +18,57 @@ std::string in_brackets(const Limits& limits) { return *limits.unit == '\0' ? ""
 std::string of_item(const std::string& key, std::size_t index) { return fmt::format("{}, component {}", key, index + 1); }
 
 }  // namespace
+
+void Reader::require_dimension(const std::string& formula, const Unit::Powers& wanted, const std::string& remedy) const {
+    const auto dimension = dimension_of(formula, numbers);
+    constexpr std::size_t angle = 3;
+    Unit::Powers without_angle = wanted;
+    without_angle[angle] = 0;
+    if (!dimension || *dimension == without_angle) return;
+    throw BadInput(fmt::format("by the units of its values it is {}, {} is needed. {}", dimension_name(*dimension),
+                               dimension_name(wanted), remedy));
+}
+
+Formula Reader::formula_of(const std::string& text, const std::string& wanted, Variables variables) {
+    const auto with_unit = value_with_unit(text);
+    if (!with_unit) {
+        Formula formula(text, variables, numbers);
+        if (!formula.varies()) require_dimension(text, unit_of(wanted).powers, "Check the formula and its [values].");
+        return formula;
+    }
+    return in_unit(*with_unit, unit_for(with_unit->unit, wanted), unit_of(wanted), variables);
+}
+
+Formula Reader::in_unit(const ValueWithUnit& value, const Unit& from, const Unit& to, Variables variables) {
+    if (!value.is_formula) {
+        const double number = converted(value.value, from, to);
+        if (!std::isfinite(number)) throw BadInput("it is beyond the range of numbers.");
+        return Formula(number);
+    }
+    Formula formula(converted_formula(value.value, from, to), variables, numbers);
+    if (!formula.varies())
+        require_dimension(value.value, {}, "Leave out the unit behind it: that of its values counts already.");
+    return formula;
+}
+
+std::optional<Reader::Measured> Reader::measured(const Node& node, const std::string& key) {
+    if (node.type != Node::Type::text) {
+        const auto value = number(node, key, {});
+        return value ? std::optional(Measured{*value, std::nullopt}) : std::nullopt;
+    }
+    try {
+        const auto with_unit = value_with_unit(node.text);
+        if (!with_unit) {
+            const double value = Formula(node.text, Variables::none, numbers).value();
+            return Measured{value, dimension_of(node.text, numbers)};
+        }
+        const Unit from = unit_of(with_unit->unit);
+        return Measured{in_unit(*with_unit, from, {.powers = from.powers}, Variables::none).value(), from.powers};
+    } catch (const BadInput& error) {
+        fault(node, fmt::format("{} is {}, a number is needed: {}", key, description(node), error.what()));
+        return std::nullopt;
+    }
+}
 
 void Reader::fault(const Node& node, std::string text) { faults_.push_back({node.where, std::move(text)}); }
 
@@ -33,7 +85,7 @@ std::optional<Formula> Reader::formula(const Node& node, const std::string& key,
     }
     if (variables == Variables::time_and_space && dimension == 2) variables = Variables::time_and_plane;
     try {
-        return Formula(node.text, variables, numbers);
+        return formula_of(node.text, limits.unit, variables);
     } catch (const BadInput& error) {
         fault(node,
               fmt::format("{} is {}, a number{} is needed: {}", key, description(node), in_brackets(limits), error.what()));

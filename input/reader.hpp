@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "abut/base/option.hpp"
+#include "abut/base/unit.hpp"
 #include "abut/input/document.hpp"
 #include "abut/input/fault.hpp"
 #include "abut/input/settings.hpp"
@@ -35,6 +36,12 @@ public:
     [[nodiscard]] std::optional<Vector<3>> axial(const Node& node, const std::string& key, const Limits& limits);
     [[nodiscard]] std::optional<Formula> formula(const Node& node, const std::string& key, const Limits& limits,
                                                  Variables variables);
+    /// A number with or without a unit, as [values] have it, in SI units.
+    struct Measured {
+        double value = 0.0;
+        std::optional<Unit::Powers> dimension;  ///< NamedNumber::dimension
+    };
+    [[nodiscard]] std::optional<Measured> measured(const Node& node, const std::string& key);
     [[nodiscard]] std::optional<FieldSettings> field(const Node& node, const std::string& key, const Limits& limits,
                                                      Variables variables);
     /// In time, about z in the plane.
@@ -53,6 +60,11 @@ public:
     void wrong_type(const Node& node, const std::string& key, const std::string& wanted);
 
 private:
+    /// In the unit `wanted`. Throws BadInput.
+    [[nodiscard]] Formula formula_of(const std::string& text, const std::string& wanted, Variables variables);
+    [[nodiscard]] Formula in_unit(const ValueWithUnit& value, const Unit& from, const Unit& to, Variables variables);
+    /// Throws BadInput for a formula of values with units that has another dimension than `wanted`.
+    void require_dimension(const std::string& formula, const Unit::Powers& wanted, const std::string& remedy) const;
     /// Whether it is about z: a number, not a list.
     [[nodiscard]] bool is_in_plane(const Node& node) const;
     [[nodiscard]] bool has_components(const Node& node, const std::string& key, const std::string& of_what);

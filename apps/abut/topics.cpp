@@ -34,6 +34,10 @@ const Topic units{"units", "Units",
                   R"(All is in SI: m, kg, s, Pa, J, and rad for angles. In 2D masses, forces and energies are per metre of
 thickness.
 
+A value may have a unit, young = "210 GPa", velocity = ["3 m/s", 0], spin = "1200 rpm", --time "5 ms", which must
+be of the dimension that `abut keys` tells; a formula with a unit stands in parentheses, "(2*pi*3) deg". A number
+without a unit is in SI.
+
 Other consistent units work as well, since nothing but ratios matters: mm, tonne and s go with MPa and mJ.
 Files of surfaces in millimetres are scaled by their key scale = 1e-3.
 

@@ -12,6 +12,7 @@
 #include <string_view>
 
 #include "abut/base/error.hpp"
+#include "abut/base/unit.hpp"
 
 namespace abut::apps {
 namespace {
@@ -36,6 +37,19 @@ std::string allowed(const Limits& limits) {
 [[noreturn]] void refuse(const std::string& option, const std::string& what, const Limits& limits) {
     throw BadInput(
         fmt::format("{}: {}; {}.{}{}", option, what, allowed(limits), *limits.remedy == '\0' ? "" : " ", limits.remedy));
+}
+
+/// Of "0.005" or "5 ms", in the unit of the limits.
+double number_of(const std::string& text, const std::string& option, const Limits& limits) {
+    if (const auto with_unit = value_with_unit(text); with_unit && !with_unit->is_formula) try {
+            return converted(with_unit->value, unit_for(with_unit->unit, limits.unit), unit_of(limits.unit));
+        } catch (const BadInput& error) {
+            throw BadInput(fmt::format("{} is '{}': {}", option, text, error.what()));
+        }
+    char* end = nullptr;
+    const double value = std::strtod(text.c_str(), &end);
+    if (text.empty() || end != text.c_str() + text.size()) refuse(option, fmt::format("'{}' is no number", text), limits);
+    return value;
 }
 
 BodyValues parse_body_values(const std::string& text, const std::string& option, const Limits& limits) {
@@ -124,9 +138,7 @@ std::string joined(const std::vector<std::string>& names) { return fmt::format("
 std::string shown(double value) { return fmt::format("{:g}", value); }
 
 double parse_number(const std::string& text, const std::string& option, const Limits& limits) {
-    char* end = nullptr;
-    const double value = std::strtod(text.c_str(), &end);
-    if (text.empty() || end != text.c_str() + text.size()) refuse(option, fmt::format("'{}' is no number", text), limits);
+    const double value = number_of(text, option, limits);
     if (!limits.allow(value)) refuse(option, with_unit(value, limits) + " is not allowed", limits);
     return value;
 }
