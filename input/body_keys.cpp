@@ -112,9 +112,9 @@ const Keys<RefinementSettings>& refinement_keys() {
 const Keys<Body>& body_keys() {
     static const Keys<Body> keys = [] {
         Keys<Body> all = {
-            Of::text(
-                "material", &Body::material_name, "text",
-                "[materials.NAME] that it is made of: of the values of a material it gives those that the body does not"),
+            Of::text("material", &Body::material_name, "text",
+                     "[materials.NAME] that it is made of, or one that is known by its name (abut materials): of the values of "
+                     "a material it gives those that the body does not"),
             Of::word("kinematics", &Body::kinematics, body_kinematics(),
                      "how it may move: without turns, in a frame that turns, bending, or rigid"),
             Of::vector("place", &Body::place, "m", "0",

@@ -138,6 +138,8 @@ int power_of(std::size_t i, double value, const std::string& formula, const std:
 }  // namespace
 
 std::optional<Unit::Powers> dimension_of(const std::string& formula, std::vector<NamedNumber> numbers) {
+    if (std::ranges::none_of(numbers, [](const NamedNumber& number) { return number.dimension.has_value(); }))
+        return std::nullopt;
     for (NamedNumber& number : numbers) number.used = false;
     const double value = Formula(formula, Variables::none, numbers).value();
     if (value == 0.0 || std::ranges::none_of(numbers, &NamedNumber::used)) return std::nullopt;

@@ -148,6 +148,33 @@ std::string hint_of_key(const std::string& word, const std::vector<std::string>&
     return hint(word, known);
 }
 
+namespace {
+
+/// Those that hold this word, in small or capital letters.
+std::vector<std::string> holding(const std::string& word, const std::vector<std::string>& known) {
+    std::vector<std::string> found;
+    for (const std::string& name : known)
+        if (in_small_letters(name).find(in_small_letters(word)) != std::string::npos) found.push_back(name);
+    return found;
+}
+
+}  // namespace
+
+std::string hint_of_name(const std::string& name, const std::vector<std::string>& known) {
+    constexpr std::size_t least_letters = 3;  // of a word that says something
+    std::vector<std::string> words{name};
+    for (std::size_t begin = 0; begin < name.size();) {
+        const std::size_t end = std::min(name.find(' ', begin), name.size());
+        words.push_back(name.substr(begin, end - begin));
+        begin = end + 1;
+    }
+    for (const std::string& word : words)
+        if (word.size() >= least_letters)
+            if (const auto found = holding(word, known); !found.empty())
+                return fmt::format(" Did you mean '{}'?", fmt::join(found, "', '"));
+    return hint(name, known);
+}
+
 std::string hint(const std::string& word, const std::vector<std::string>& known) {
     if (known.empty()) return "";
     const auto nearest = std::ranges::min_element(known, {}, [&](const auto& other) { return distance(word, other); });

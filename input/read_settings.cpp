@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "abut/input/keys.hpp"
+#include "abut/input/materials.hpp"
 #include "abut/input/nearest_word.hpp"
 
 namespace abut::input {
@@ -75,10 +76,23 @@ void take_material(BodySettings& body, const Node& name, const std::string& path
         body.material = found->material;
         return;
     }
-    std::vector<std::string> known;
-    for (const MaterialSettings& material : materials) known.push_back(material.name);
-    reader.fault(name, fmt::format("{}.material is '{}', which is no material.{}", path, name.text,
-                                   known.empty() ? " Give [materials." + name.text + "]." : hint(name.text, known)));
+    if (const KnownMaterial* known = known_material(name.text)) {
+        body.material = known->material;
+        return;
+    }
+    std::vector<std::string> names;
+    for (const MaterialSettings& material : materials) names.push_back(material.name);
+    for (const KnownMaterial& known : known_materials()) names.push_back(known.name);
+    reader.fault(name, fmt::format("{}.material is '{}', which is no material.{} Give [materials.NAME] for another; abut "
+                                   "materials lists those that need no table.",
+                                   path, name.text, hint_of_name(name.text, names)));
+}
+
+/// That of a material known by its name, where the law needs one and the scene gives none.
+void take_yield_stress(BodySettings& body, const std::vector<MaterialSettings>& materials) {
+    if (body.material.law != solid::MaterialLaw::j2 || body.material.yield_stress > 0.0) return;
+    if (std::ranges::find(materials, body.material_name, &MaterialSettings::name) != materials.end()) return;
+    if (const KnownMaterial* known = known_material(body.material_name)) body.material.yield_stress = known->yield_stress;
 }
 
 /// Tables within that of a body that are none of its keys: each of a body of its file.
@@ -115,6 +129,7 @@ BodySettings read_part(const BodySettings& around, const Node& table_around, con
     part.where = table.where;
     if (const Node* material = table.find("material")) take_material(part, *material, path, materials, reader);
     read_table(part, table, path, part_keys(), reader);
+    take_yield_stress(part, materials);
     const auto gives = [&](const char* key) { return table.find(key) || table_around.find(key); };
     part.has_material = gives("material") || (gives("young") && gives("density"));
     return part;
@@ -128,6 +143,7 @@ void read(BodySettings& body, const Node& table, const std::string& path, const 
                                                           {{Shape::file, "mesh"}, {Shape::surface, "surface"}}, reader);
     const std::vector<std::size_t> parts = part_tables(table, variety);
     read_varied(body, table, path, variety, keys_of(table, parts), reader);
+    take_yield_stress(body, materials);
     body.has_material = gives_material(table);
     std::vector<BodySettings> read_parts;  // each a copy of the body, which has none of them yet
     for (const std::size_t part : parts)

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <optional>
 #include <vector>
 
@@ -19,11 +20,13 @@ namespace {
 
 constexpr std::size_t width_of_no_terminal = 80;
 
-/// A command as its own --help has it, or a topic.
+/// A topic, or a command as its own --help has it.
 std::string help_of(const Asked& asked) {
     if (asked.topic.empty())
         return "Topics, abut help TOPIC:\n" + topic_list() + "Of a command: abut help COMMAND, or abut COMMAND --help.\n";
-    if (const std::optional<std::string> help = asked.program->help_of(asked.topic)) return *help;
+    const bool is_topic = std::ranges::any_of(topics(), [&](const Topic& topic) { return topic.name == asked.topic; });
+    const auto help = asked.program->help_of(asked.topic);
+    if (help && !is_topic) return *help;
     return topic_text(asked.topic, terminal_width(STDOUT_FILENO).value_or(width_of_no_terminal));
 }
 

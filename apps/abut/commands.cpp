@@ -13,6 +13,7 @@
 #include "abut/base/throw_again.hpp"
 #include "abut/input/check.hpp"
 #include "abut/input/grammar.hpp"
+#include "abut/input/materials.hpp"
 #include "abut/input/scene_file.hpp"
 #include "apps/abut/asked.hpp"
 #include "apps/abut/build_info.hpp"
@@ -46,6 +47,7 @@ struct CommandLine {
     CommandParser* restart = nullptr;
     CommandParser* make = nullptr;
     CommandParser* keys = nullptr;
+    CommandParser* materials = nullptr;
     CommandParser* detect = nullptr;
     Asked asked;
     DetectOptions detection;
@@ -101,6 +103,7 @@ void add_commands(CommandParser& parser, CommandLine& line) {
     line.make = &parser.add_command("new", "writes a commented scene to start from");
     line.make->path("name", line.new_file, "the file; .toml is added").required().takes("NAME");
     line.keys = &parser.add_command("keys", "prints all keys of a scene");
+    line.materials = &parser.add_command("materials", "prints the materials that scenes know by name, with sources");
     line.detect = &parser.add_command("detect", "finds which faces of bodies lie opposite each other, and how near");
     line.detect->end_help_with(detect_program.footer);
     add_options(*line.detect, line.detection);
@@ -243,6 +246,8 @@ int run_abut(int argc, char** argv) {
             write_new_scene(line.new_file);
         else if (line.keys->is_given())
             fmt::print("{}", input::grammar());
+        else if (line.materials->is_given())
+            fmt::print("{}", input::table_of_materials());
         else if (line.detect->is_given())
             detect(line.detection);
         else

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "abut/input/grammar.hpp"
+#include "abut/input/materials.hpp"
 #include "abut/run/option_table.hpp"
 #include "abut/run/user_words.hpp"
 
@@ -11,6 +12,12 @@ TEST_CASE("the document shows the grammar that scenes are read by", "[input][gra
     std::ifstream file(ABUT_SOURCE "/docs/scenes.md");
     const std::string text{std::istreambuf_iterator<char>(file), {}};
     CHECK(text.find(abut::input::grammar()) != std::string::npos);
+}
+
+TEST_CASE("the document shows the materials that scenes know by name", "[input][grammar][materials]") {
+    std::ifstream file(ABUT_SOURCE "/docs/scenes.md");
+    const std::string text{std::istreambuf_iterator<char>(file), {}};
+    CHECK(text.find(abut::input::table_of_materials()) != std::string::npos);
 }
 
 TEST_CASE("every option that scenes have is a key of its table, and messages call it so", "[input][grammar]") {

@@ -149,9 +149,10 @@ TEST_CASE("abut says its version, its commands and all keys of a scene", "[progr
     CHECK(has(run_program("abut", "--version", "").out, "abut 0."));
     const auto help = run_program("abut", "--help", "");
     CHECK(help.exit_code == 0);
-    for (const char* command : {"run", "check", "new", "keys", "Exit codes"}) CHECK(has(help.out, command));
+    for (const char* command : {"run", "check", "new", "keys", "materials", "Exit codes"}) CHECK(has(help.out, command));
     const auto of_run = run_program("abut", "run --help", "");
     CHECK(of_run.exit_code == 0);
     for (const char* option : {"--set", "--cfl", "--out", "--preset", "--law"}) CHECK(has(of_run.out, option));
     CHECK(has(run_program("abut", "keys", "").out, "| `young` | number | Pa |"));
+    CHECK(has(run_program("abut", "materials", "").out, "| `steel S235` | 210 GPa | 0.3 | 7850 kg/m^3 | 235 MPa |"));
 }

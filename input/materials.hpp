@@ -1,0 +1,24 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "abut/solid/material/material.hpp"
+
+namespace abut::input {
+
+/// A material that scenes know by its name, material = "steel S235", with nominal values at room temperature.
+struct KnownMaterial {
+    std::string name;
+    solid::Material material;   ///< isotropic; without a yield stress
+    double yield_stress = 0.0;  ///< [Pa], of MaterialLaw::j2; 0: it breaks before it flows, or no value is given
+    std::string source;
+};
+
+[[nodiscard]] const std::vector<KnownMaterial>& known_materials();
+/// Null if none has this name.
+[[nodiscard]] const KnownMaterial* known_material(const std::string& name);
+
+/// All of them with their values and sources, in Markdown.
+[[nodiscard]] std::string table_of_materials();
+
+}  // namespace abut::input

@@ -1,0 +1,96 @@
+#include <fmt/format.h>
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <string>
+
+#include "abut/input/materials.hpp"
+#include "input/scenes.hpp"
+
+namespace {
+
+using namespace abut;
+using test::two_blocks;
+using test::WrittenScene;
+
+/// A block that has this material alone.
+solid::Material of_block(const std::string& keys, const std::string& tables = "") {
+    const WrittenScene written(R"toml(dim = 2
+[bodies.block]
+shape = "structured_box"
+lower = [0, 0]
+upper = [1, 1]
+counts = [4, 4]
+)toml" + keys + "\n" + tables + "\n[run]\nsteps = 1\n");
+    const auto checked = input::check_scene(written.path());
+    CAPTURE(input::text_of(checked.faults));
+    REQUIRE(checked.faults.empty());
+    return input::SceneFile(written.path()).scene<2>().solid.materials.front();
+}
+
+}  // namespace
+
+TEST_CASE("a body takes the values of a material that is known by its name", "[input][materials]") {
+    const solid::Material steel = of_block("material = \"steel S235\"");
+    CHECK(steel.young == 210e9);
+    CHECK(steel.poisson == 0.3);
+    CHECK(steel.density == 7850.0);
+    CHECK(steel.law == solid::MaterialLaw::st_venant_kirchhoff);
+    CHECK(steel.yield_stress == 0.0);  // of j2 alone
+    const solid::Material heavy = of_block("material = \"steel S235\"\ndensity = \"8 g/cm^3\"");
+    CHECK(heavy.density == 8000.0);
+    CHECK(heavy.young == 210e9);
+}
+
+TEST_CASE("a known material gives its yield stress to the law that needs one, unless the body has another",
+          "[input][materials]") {
+    const std::string yields = "material = \"steel S355\"\nlaw = \"j2\"\nkinematics = \"finite\"\n";
+    CHECK(of_block(yields).yield_stress == 355e6);
+    CHECK(of_block(yields + "yield_stress = \"400 MPa\"").yield_stress == 400e6);
+    const WrittenScene written(two_blocks());
+    const auto glass = input::check_scene(written.path(), {.set = {"bodies.left.material='glass soda-lime'",
+                                                                   "bodies.left.law=j2", "bodies.left.kinematics=finite"}});
+    REQUIRE(glass.faults.size() == 1);  // it breaks before it flows
+    CHECK(glass.faults.front().text.find("yield_stress") != std::string::npos);
+}
+
+TEST_CASE("a material of the scene goes before the known one of its name", "[input][materials]") {
+    const std::string table = "[materials.\"steel S235\"]\nyoung = 1e9\ndensity = 1000\n";
+    const solid::Material own = of_block("material = \"steel S235\"", table);
+    CHECK(own.young == 1e9);
+    CHECK(own.density == 1000.0);
+}
+
+TEST_CASE("every known material has a source and values that a body may have", "[input][materials]") {
+    for (const input::KnownMaterial& known : input::known_materials()) {
+        CAPTURE(known.name);
+        CHECK_FALSE(known.source.empty());
+        const solid::Material material = of_block("material = \"" + known.name + "\"");
+        CHECK(material.young == known.material.young);
+        CHECK(material.density == known.material.density);
+        CHECK(material.poisson == known.material.poisson);
+        CHECK(known.yield_stress < 0.03 * known.material.young);  // metals and plastics flow at some percent of strain
+        CHECK(input::known_material(known.name) == &known);
+        if (known.yield_stress > 0.0)
+            CHECK(of_block("law = \"j2\"\nkinematics = \"finite\"\nmaterial = \"" + known.name + "\"").yield_stress ==
+                  known.yield_stress);
+    }
+}
+
+TEST_CASE("waves in known materials are as fast as handbooks of ultrasound have them", "[input][materials]") {
+    struct Speeds {
+        const char* name;
+        double longitudinal, shear;  // [m/s], J. and H. Krautkraemer, Ultrasonic Testing of Materials, appendix
+    };
+    for (const auto& [name, longitudinal, shear] : {Speeds{"steel S235", 5920.0, 3255.0},
+                                                    {"aluminium 6061-T6", 6320.0, 3130.0},
+                                                    {"copper OFHC", 4700.0, 2260.0},
+                                                    {"brass 70/30", 4430.0, 2120.0},
+                                                    {"ice", 3980.0, 1990.0},
+                                                    {"lead", 2160.0, 700.0}}) {
+        CAPTURE(name);
+        const solid::Material& material = input::known_material(name)->material;
+        CHECK(std::sqrt(material.wave_modulus() / material.density) == Approx(longitudinal).epsilon(0.05));
+        CHECK(std::sqrt(material.mu() / material.density) == Approx(shear).epsilon(0.05));
+    }
+}
