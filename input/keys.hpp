@@ -28,6 +28,8 @@ struct Variety {
 [[nodiscard]] const Keys<BodySettings>& body_keys();  ///< of all bodies
 [[nodiscard]] const Keys<BodySettings>& part_keys();  ///< of a body of a file with several
 [[nodiscard]] const Keys<PairSettings>& pair_keys();
+[[nodiscard]] const Keys<PatternSettings>& pattern_keys();
+[[nodiscard]] const Keys<SymmetrySettings>& symmetry_keys();
 [[nodiscard]] const Keys<ObstacleSettings>& obstacle_keys();
 [[nodiscard]] const Keys<SupportSettings>& support_keys();
 [[nodiscard]] const Keys<TractionSettings>& traction_keys();

@@ -38,9 +38,18 @@ std::optional<mesh::Refinement<Dim>> refinement(const BodySettings& body, const 
                                  body.refinement->distance, body.refinement->uniform};
 }
 
+/// That a body of this shape may have where nothing says how many.
+double usual_most_cells(Shape shape) {
+    if (shape == Shape::structured_box || shape == Shape::fan_disc || shape == Shape::gear)
+        return mesh::most_structured_cells;
+    return shape == Shape::surface ? mesh::most_filled_cells : mesh::most_meshed_cells;
+}
+
+/// Copies of a pattern share the cells that may be made.
 mesh::MeshOptions mesh_options(const BodySettings& body) {
     mesh::MeshOptions options{.planarity_tolerance = body.planarity_tolerance, .non_planar = body.non_planar};
     if (std::isfinite(body.most_cells)) options.most_cells = body.most_cells;
+    if (body.n_copies > 1.0) options.most_cells = options.most_cells.value_or(usual_most_cells(body.shape)) / body.n_copies;
     return options;
 }
 

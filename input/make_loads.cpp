@@ -7,8 +7,10 @@
 #include <string>
 #include <utility>
 
+#include "abut/base/error.hpp"
 #include "abut/input/names.hpp"
 #include "abut/input/values.hpp"
+#include "abut/mesh/interpenetration.hpp"
 
 namespace abut::input {
 namespace {
@@ -81,6 +83,99 @@ void add_supports(run::Scene<Dim>& scene, const Settings& settings, const Names<
         set_value<Dim>(condition, support.value);
         scene.solid.boundary.dirichlet.push_back(std::move(condition));
     }
+}
+
+/// Faces of the boundary that lie on a plane, as near as bodies lie that touch, and look away from its normal.
+template <int Dim>
+std::vector<std::int32_t> faces_on(const mesh::Mesh<Dim>& mesh, const Vector<Dim>& point, const Vector<Dim>& normal) {
+    std::vector<std::int32_t> faces;
+    for (const std::int32_t face : mesh.boundary_faces) {
+        double size = 0.0, height = 0.0;
+        for (const std::int32_t vertex : mesh.face_vertices[face]) {
+            size = std::max(size, 2.0 * (mesh.vertices[vertex] - mesh.face_centroid[face]).norm());
+            height = std::max(height, std::abs(normal.dot(mesh.vertices[vertex] - point)));
+        }
+        if (height <= mesh::touching_tolerance * size && normal.dot(mesh.face_normal[face]) < 0.0) faces.push_back(face);
+    }
+    return faces;
+}
+
+/// Throws BadInput for a body that reaches behind a plane of symmetry.
+template <int Dim>
+void require_in_front(const mesh::Mesh<Dim>& mesh, const Vector<Dim>& point, const Vector<Dim>& normal) {
+    for (std::int32_t cell = 0; cell < mesh.n_cells(); ++cell) {
+        double lowest = 0.0, size = 0.0;
+        for (const std::int32_t vertex : mesh.cell_vertices[cell]) {
+            lowest = std::min(lowest, normal.dot(mesh.vertices[vertex] - point));
+            size = std::max(size, 2.0 * (mesh.vertices[vertex] - mesh.cell_centroid[cell]).norm());
+        }
+        if (lowest < -mesh::touching_tolerance * size)
+            throw BadInput(fmt::format(
+                "has a cell of body '{}' {:.6g} m behind it, 0 m is allowed: a half model has bodies in front of "
+                "its plane alone. Take their half, or turn the normal.",
+                mesh.body_names[static_cast<std::size_t>(mesh.cell_body[cell])], -lowest));
+    }
+}
+
+/// Throws BadInput for a body that a plane of symmetry cuts and that does not move as its other half does.
+template <int Dim>
+void require_symmetric(const run::Scene<Dim>& scene, std::int32_t body, solid::Kinematics kinematics,
+                       const Vector<Dim>& normal) {
+    const auto b = static_cast<std::size_t>(body);
+    const std::string name = "cuts body '" + scene.mesh.body_names[b] + "', ";
+    constexpr double rounding = 1e-12;
+    if (kinematics != solid::Kinematics::small)
+        throw BadInput(name +
+                       "which may turn: only small bodies can be held on a plane. Give it kinematics = \"small\", or run "
+                       "the whole of it.");
+    const Vector<Dim> velocity = scene.velocity[b];
+    if (std::abs(normal.dot(velocity)) > rounding * velocity.norm())
+        throw BadInput(
+            fmt::format("{}whose velocity has {:.6g} m/s along the normal, 0 m/s is needed: its halves would part.", name,
+                        normal.dot(velocity)));
+    if (scene.spin.empty()) return;
+    AxialVector<Dim> across = scene.spin[b];
+    if constexpr (Dim == 3) across -= normal.dot(across) * normal;
+    if (across.norm() > rounding * scene.spin[b].norm())
+        throw BadInput(name +
+                       "whose spin is not about the normal: its halves would turn against each other. Leave spin out.");
+}
+
+/// Bodies that a plane cuts have rollers on their faces there.
+template <int Dim>
+void add_symmetry(run::Scene<Dim>& scene, const Settings& settings, const SymmetrySettings& symmetry) {
+    const Vector<Dim> normal = head<Dim>(symmetry.normal).normalized(), gravity = head<Dim>(settings.gravity);
+    if (std::abs(normal.dot(gravity)) > 1e-12 * gravity.norm())
+        throw BadInput(
+            fmt::format("has a normal along which gravity is {:.6g} m/s^2, 0 m/s^2 is needed: the other half would fall "
+                        "to the other side. Turn one of them, or take an obstacle.",
+                        normal.dot(gravity)));
+    require_in_front<Dim>(scene.mesh, head<Dim>(symmetry.point), normal);
+    const std::vector<std::int32_t> faces = faces_on<Dim>(scene.mesh, head<Dim>(symmetry.point), normal);
+    if (faces.empty() && !settings.contact)
+        throw BadInput("has no face of a body on it, and contact is off: it does nothing. Move it to a face.");
+    if (faces.empty()) return;
+    const auto of_all = run::kinematics_of_all(settings.options.kinematics);
+    std::int32_t last = -1;
+    for (const std::int32_t face : faces) {
+        const std::int32_t body = scene.mesh.cell_body[scene.mesh.face_cells[face][0]];
+        if (std::exchange(last, body) == body) continue;
+        require_symmetric<Dim>(scene, body, of_all.value_or(scene.solid.kinematics[static_cast<std::size_t>(body)]), normal);
+    }
+    scene.mesh.groups.push_back({symmetry.path, faces});
+    solid::DirichletCondition<Dim> roller;
+    roller.group = symmetry.path;
+    roller.constraint = solid::Constraint::normal;
+    scene.solid.boundary.dirichlet.push_back(std::move(roller));
+}
+
+template <int Dim>
+void add_symmetries(run::Scene<Dim>& scene, const Settings& settings, std::vector<Fault>& faults) {
+    for (const SymmetrySettings& symmetry : settings.symmetries) try {
+            add_symmetry(scene, settings, symmetry);
+        } catch (const BadInput& error) {
+            faults.push_back({symmetry.where, symmetry.path + " " + error.what()});
+        }
 }
 
 /// Cuts a group into groups of faces with one normal each, which are appended to those of the mesh; their indices.
@@ -198,6 +293,7 @@ void add_moments(run::Scene<Dim>& scene, const Settings& settings, const Names<D
 template <int Dim>
 void add_loads(run::Scene<Dim>& scene, const Settings& settings, std::vector<Fault>& faults) {
     const Names<Dim> names(scene.mesh, settings.bodies, faults);
+    add_symmetries(scene, settings, faults);
     add_supports(scene, settings, names, faults);
     add_tractions(scene, settings, names, faults);
     add_springs(scene, settings, names);

@@ -218,7 +218,7 @@ void add_obstacle(run::Scene<Dim>& scene, const ObstacleSettings& settings, cons
     contact::RigidObstacle<Dim> obstacle{.faces = std::move(shell.faces), .path = {}};
     set_in_motion(obstacle, settings);
     const auto number = static_cast<std::int32_t>(scene.mesh.n_bodies() + (&settings - all.obstacles.data()));
-    if (all.contact)
+    if (all.contact && !settings.is_symmetry)  // which says so itself
         check_outside<Dim>(scene.mesh, obstacle,
                            {.settings = settings, .closed = shell.closed, .endless = is_endless(settings), .number = number},
                            scene.solid.ignored_pairs, faults);

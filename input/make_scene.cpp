@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
+#include <map>
 #include <optional>
 #include <set>
 #include <utility>
@@ -46,15 +48,23 @@ void append_bodies(run::Scene<Dim>& scene, const BodySettings& body, const std::
     }
 }
 
+/// The same of a body that a pattern makes with others.
+std::string of_pattern(const BodySettings& body, const std::string& message) {
+    return fmt::format("{} ({} makes {:g} of it, which share the cells that may be made)", message, body.pattern,
+                       body.n_copies);
+}
+
 template <int Dim>
 void add_bodies(run::Scene<Dim>& scene, const Settings& settings, std::vector<Fault>& faults) {
     std::vector<mesh::Mesh<Dim>> meshes;
+    std::set<std::string> failed;  // patterns: the first of their copies says what is wrong with all
     for (const BodySettings& body : settings.bodies) {
-        if (body.shape == Shape::none) continue;
+        if (body.shape == Shape::none || failed.contains(body.pattern)) continue;
         try {
             meshes.push_back(make_body<Dim>(body, settings.file.parent_path(), settings.meshes.get()));
         } catch (const Error& error) {
-            faults.push_back({body.where, error.what()});
+            faults.push_back({body.where, body.pattern.empty() ? error.what() : of_pattern(body, error.what())});
+            if (!body.pattern.empty()) failed.insert(body.pattern);
             continue;
         }
         append_bodies(scene, body, meshes.back().body_names, settings, faults);
@@ -63,7 +73,7 @@ void add_bodies(run::Scene<Dim>& scene, const Settings& settings, std::vector<Fa
 }
 
 /// The table that a body of the mesh comes from.
-const Named* table_of(const std::string& body, const std::vector<BodySettings>& tables) {
+const BodySettings* table_of(const std::string& body, const std::vector<BodySettings>& tables) {
     const auto found = std::ranges::find_if(
         tables, [&](const BodySettings& table) { return body == table.name || body.starts_with(table.name + "."); });
     return found == tables.end() ? nullptr : &*found;
@@ -74,18 +84,28 @@ template <int Dim>
 void check_apart(const mesh::Mesh<Dim>& mesh, const Settings& settings, mesh::IgnoredPairs ignored,
                  std::vector<Fault>& faults) {
     std::set<std::array<std::int32_t, 2>> seen;
+    std::map<std::string, std::int64_t> more;  // pairs of a pattern behind the first one
     for (const mesh::Interpenetration& pair :
          mesh::find_interpenetrations(mesh, settings.options.contact.search.broad_phase, ignored)) {
         if (!seen.insert(pair.bodies).second) continue;
         const std::string& first = mesh.body_names[static_cast<std::size_t>(pair.bodies[0])];
         const std::string& second = mesh.body_names[static_cast<std::size_t>(pair.bodies[1])];
-        const Named* table = table_of(second, settings.bodies);
+        const BodySettings* table = table_of(second, settings.bodies);
+        const bool is_copy = table && !table->pattern.empty();
+        if (is_copy && more.try_emplace(table->pattern, -1).first->second++ >= 0) continue;
         faults.push_back(
-            {table ? table->where : settings.file.string(),
+            {is_copy ? table->pattern_where
+             : table ? table->where
+                     : settings.file.string(),
              fmt::format("bodies '{}' and '{}' overlap at the start: two of their cells are {:.6g} m inside each "
-                         "other, 0 m is allowed. Move one of them with place.",
-                         first, second, pair.depth)});
+                         "other, 0 m is allowed. Move one of them with {}.",
+                         first, second, pair.depth, is_copy ? table->pattern : "place")});
     }
+    for (const auto& [pattern, n] : more)
+        if (n > 0)
+            for (Fault& fault : faults)
+                if (fault.text.ends_with("Move one of them with " + pattern + "."))
+                    fault.text += fmt::format(" {} more pairs of its bodies overlap.", n);
 }
 
 /// Names of the sides of pairs in a scene, by their number: bodies, obstacles behind them, and then groups of boundary faces. Nothing, and
@@ -178,6 +198,15 @@ void add_pairs(run::Scene<Dim>& scene, const Settings& settings, std::vector<Fau
     }
 }
 
+/// What touches its other half slides along with it.
+template <int Dim>
+void take_friction_from_mirrors(run::Scene<Dim>& scene, const Settings& settings) {
+    if (!settings.options.friction.acts()) return;
+    for (std::size_t i = 0; i < settings.obstacles.size(); ++i)
+        for (std::int32_t body = 0; settings.obstacles[i].is_symmetry && body < scene.mesh.n_bodies(); ++body)
+            scene.solid.body_friction.push_back({{body, scene.mesh.n_bodies() + static_cast<std::int32_t>(i)}, {}});
+}
+
 template <int Dim>
 void add_outputs(run::Scene<Dim>& scene, const Settings& settings, std::vector<Fault>& faults) {
     const Names<Dim> names(scene.mesh, settings.bodies, faults);
@@ -206,6 +235,7 @@ run::Scene<Dim> make_scene(const Settings& settings, std::vector<Fault>& faults)
     run::Scene<Dim> scene;
     add_bodies(scene, settings, faults);
     add_pairs(scene, settings, faults);
+    take_friction_from_mirrors(scene, settings);
     add_loads(scene, settings, faults);
     add_obstacles(scene, settings, faults);
     add_outputs(scene, settings, faults);

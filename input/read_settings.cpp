@@ -8,6 +8,7 @@
 #include "abut/input/keys.hpp"
 #include "abut/input/materials.hpp"
 #include "abut/input/nearest_word.hpp"
+#include "abut/input/patterns.hpp"
 
 namespace abut::input {
 namespace {
@@ -203,6 +204,53 @@ void read(MomentSettings& moment, const Node& table, const std::string& path, Re
         reader.fault(table, fmt::format("{} does nothing. Give its value [N m], its damping [N m s], or both.", path));
 }
 
+/// What makes a row, a grid, a ring or a table of places of it.
+void read(PatternSettings& pattern, const Node& table, const std::string& path, Reader& reader) {
+    read_table(pattern, table, path, pattern_keys(), reader);
+    const auto has = [&](const char* key) { return table.find(key) != nullptr; };
+    const auto fault = [&](const std::string& text) { reader.fault(table, path + text); };
+    const int n_kinds = int{has("step")} + int{has("centre")} + int{has("places")};
+    if (n_kinds != 1)
+        return fault(fmt::format(" has {} of step, of a row or a grid, centre, of a ring, and places. Give one of them.",
+                                 n_kinds == 0 ? "none" : std::to_string(n_kinds)));
+    if (has("count") == has("places"))
+        return fault(has("count") ? " has both count and places. Leave one of them out."
+                                  : ".count is missing: copies in a row or around the centre, or in a grid.");
+    if (has("centre") && table.find("count")->type == Node::Type::array)
+        return fault(".count is a list, and a ring has one whole number of copies.");
+    if (has("centre") && reader.dimension == 3 && !has("angle"))
+        return fault(".angle is missing: axis times angle from one copy to the next [rad], such as [0, 0, \"30 deg\"].");
+    for (const auto& [key, with] : {std::pair("shift", "step"), std::pair("angle", "centre"), std::pair("turns", "places")})
+        if (has(key) && !has(with)) return fault(fmt::format(" has {} without {}. Leave it out.", key, with));
+    if (!pattern.turns.empty() && pattern.turns.size() != pattern.places.size())
+        fault(fmt::format(" has {} turns for {} places. Give as many.", pattern.turns.size(), pattern.places.size()));
+}
+
+void read(SymmetrySettings& symmetry, const Node& table, const std::string& path, Reader& reader) {
+    const std::size_t before = reader.faults().size();
+    read_table(symmetry, table, path, symmetry_keys(), reader);
+    if (reader.faults().size() == before && symmetry.normal.isZero(0.0))
+        reader.fault(table, path + ".normal is zero. Give the direction to the side where bodies are.");
+}
+
+/// Tables in a list, [[patterns]]. What has a fault is left out.
+template <class Section>
+Key<Settings> list_key(const char* name, std::vector<Section> Settings::*member) {
+    const auto take = [member, name](Settings& settings, const Node& node, const std::string& key, Reader& reader) {
+        if (node.type != Node::Type::array) return reader.wrong_type(node, key, fmt::format("tables [[{}]]", name));
+        for (std::size_t i = 0; i < node.items.size(); ++i) {
+            Section section;
+            section.path = fmt::format("{}[{}]", key, i);
+            section.where = node.items[i].where;
+            if (!reader.is_table(node.items[i], section.path)) continue;
+            const std::size_t before = reader.faults().size();
+            read(section, node.items[i], section.path, reader);
+            if (reader.faults().size() == before) (settings.*member).push_back(std::move(section));
+        }
+    };
+    return {.name = name, .take = take};
+}
+
 /// Sections that are tables of keys.
 Key<Settings> table_key(const char* name, const Keys<Settings>& keys) {
     const auto take = [&keys](Settings& settings, const Node& node, const std::string& key, Reader& reader) {
@@ -271,6 +319,8 @@ Keys<Settings> all_keys() {
     keys.push_back(read_before("values"));
     keys.push_back(read_before("materials"));
     keys.push_back(bodies_key());
+    keys.push_back(list_key("patterns", &Settings::patterns));
+    keys.push_back(list_key("symmetry", &Settings::symmetries));
     keys.push_back(named_key("obstacles", &Settings::obstacles));
     keys.push_back(named_key("supports", &Settings::supports));
     keys.push_back(named_key("tractions", &Settings::tractions));
@@ -345,6 +395,21 @@ void check_options(const Settings& settings, std::vector<Fault>& faults) {
     }
 }
 
+/// To contact the other half of a body is a rigid plane, which each of its faces meets half way.
+void add_mirrors(Settings& settings) {
+    for (std::size_t i = 0; i < settings.symmetries.size(); ++i) {
+        const SymmetrySettings& symmetry = settings.symmetries[i];
+        ObstacleSettings mirror;
+        mirror.name = fmt::format("symmetry_{}", i);
+        mirror.where = symmetry.where;
+        mirror.shape = ObstacleShape::plane;
+        mirror.point = symmetry.point;
+        mirror.normal = symmetry.normal;
+        mirror.is_symmetry = true;
+        settings.obstacles.push_back(std::move(mirror));
+    }
+}
+
 ReadSettings settings_from(Node document, const std::filesystem::path& file, const Overrides& overrides) {
     ReadSettings read{.settings = {.file = file, .set = overrides.set, .meshes = overrides.meshes}};
     Reader reader;
@@ -358,6 +423,8 @@ ReadSettings settings_from(Node document, const std::filesystem::path& file, con
     read_table(read.settings, document, "", all_keys(), reader);
     if (read.settings.dim != 0 && document.find("bodies") && read.settings.bodies.empty())
         reader.fault(*document.find("bodies"), "bodies has no table. Give a body, [bodies.NAME].");
+    if (read.settings.dim != 0) lay_out_patterns(read.settings, reader);
+    if (read.settings.contact) add_mirrors(read.settings);
     check_numbers_used(overrides.set, reader);
     if (overrides.options) overrides.options(read.settings.options);
     check_options(read.settings, reader.faults());

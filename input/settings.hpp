@@ -84,6 +84,31 @@ struct BodySettings : Named {
     Vector<3> spin = Vector<3>::Zero();      ///< [rad/s]
     bool has_material = false;               ///< Young's modulus and density are given
     std::vector<BodySettings> parts;         ///< bodies of `mesh` with a table of their own, by their names in the file
+    std::string pattern;                     ///< PatternSettings::path of that which made it; empty: none did
+    std::string pattern_where;               ///< Fault::where
+    double n_copies = 1.0;                   ///< that `pattern` makes
+};
+
+/// Copies of a body in a row, a grid, a ring or at places.
+struct PatternSettings {
+    std::string where;  ///< Fault::where
+    std::string path;   ///< "patterns[0]"
+    std::string body;
+    std::vector<int> count;           ///< of a grid one for each direction
+    std::optional<Vector<3>> step;    ///< [m]
+    std::optional<Vector<3>> shift;   ///< [m]
+    std::optional<Vector<3>> centre;  ///< [m]
+    std::optional<Vector<3>> angle;   ///< axis times angle [rad]
+    std::vector<Vector<3>> places;    ///< [m]
+    std::vector<Vector<3>> turns;     ///< axis times angle [rad]; none, or one for each of `places`
+};
+
+/// A plane that the scene is one half of: bodies are where its normal points to.
+struct SymmetrySettings {
+    std::string where;                     ///< Fault::where
+    std::string path;                      ///< "symmetry[0]"
+    Vector<3> point = Vector<3>::Zero();   ///< [m]
+    Vector<3> normal = Vector<3>::Zero();  ///< [-]
 };
 
 enum class ObstacleShape { none, plane, box, polygon, surface };
@@ -106,6 +131,7 @@ struct ObstacleSettings : Named {
     Vector<3> spin = Vector<3>::Zero();      ///< [rad/s]
     std::optional<FieldSettings> rotation;   ///< axis times angle [rad]
     std::optional<Vector<3>> pivot;          ///< [m]; not given: the middle of the box around it
+    bool is_symmetry = false;                ///< the other half of the scene, for contact: it has no friction
 };
 
 struct SupportSettings : Named {
@@ -176,6 +202,8 @@ struct Settings {
     std::vector<PairSettings> pairs;
     std::vector<MaterialSettings> materials;
     std::vector<BodySettings> bodies;
+    std::vector<PatternSettings> patterns;
+    std::vector<SymmetrySettings> symmetries;
     std::vector<ObstacleSettings> obstacles;
     std::vector<SupportSettings> supports;
     std::vector<TractionSettings> tractions;
