@@ -20,13 +20,14 @@ namespace {
 
 constexpr std::size_t width_of_no_terminal = 80;
 
+bool is_topic(const std::string& word) { return std::ranges::find(topics(), word, &Topic::name) != topics().end(); }
+
 /// A topic, or a command as its own --help has it.
 std::string help_of(const Asked& asked) {
     if (asked.topic.empty())
         return "Topics, abut help TOPIC:\n" + topic_list() + "Of a command: abut help COMMAND, or abut COMMAND --help.\n";
-    const bool is_topic = std::ranges::any_of(topics(), [&](const Topic& topic) { return topic.name == asked.topic; });
     const auto help = asked.program->help_of(asked.topic);
-    if (help && !is_topic) return *help;
+    if (help && !is_topic(asked.topic)) return *help;
     return topic_text(asked.topic, terminal_width(STDOUT_FILENO).value_or(width_of_no_terminal));
 }
 
@@ -34,7 +35,8 @@ std::string completion_of(const CommandParser& program, const std::string& shell
     const std::vector<Command> commands = program.commands();
     std::vector<std::string> words;
     for (const Topic& topic : topics()) words.push_back(topic.name);
-    for (const Command& command : commands) words.push_back(command.name);
+    for (const Command& command : commands)
+        if (!is_topic(command.name)) words.push_back(command.name);
     return completion(shell, program.name(), commands, words);
 }
 

@@ -4,10 +4,11 @@ namespace abut::apps {
 
 const std::string& new_scene() {
     static const std::string text =
-        R"toml(# A disc falls on a block that stands on a floor. Units are SI; every number may be a formula: "sqrt(2)/2".
+        R"toml(# A disc falls on a block that stands on a floor. Units are SI; every number may be a formula, "sqrt(2)/2", or have a unit, "25 mm".
 #   abut check SCENE     what is wrong, and what a run would take
 #   abut run SCENE       runs it; --set bodies.ball.density=2 changes any value for one run
 #   abut keys            all keys, with units and defaults
+#   abut materials       those that are known by name: material = "steel S235"
 
 dim = 2                  # 2, plane strain, or 3
 gravity = [0, -10]       # [m/s^2]

@@ -20,6 +20,8 @@ prints all keys with units and defaults, `abut check FILE` says all that is wron
   dim = 2               2, plane strain, or 3
   gravity = [0, -10]    of all bodies
   [bodies.NAME]         shape, mesh file or surface; material; place; velocity
+  [[patterns]]          copies of a body in rows, grids, rings and tables
+  [[symmetry]]          a plane of which the scene is one half
   [obstacles.NAME]      rigid: plane, box, polygon; at rest or moving
   [supports.NAME]       a group of boundary faces that is held or moved
   [tractions.NAME]      a force per area on a group

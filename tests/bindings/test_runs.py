@@ -57,7 +57,7 @@ class Scenes(unittest.TestCase):
             self.assertIn(written.verdict.split(".")[0], (folder / "report.html").read_text())
 
     def test_a_dict_is_the_scene_of_the_file_with_its_keys(self):
-        for scene in ("colliding_bars", "rolling_disc", "two_blocks"):
+        for scene in ("colliding_bars", "rolling_disc", "two_blocks", "ring_of_discs", "half_punch"):
             path = SCENES / f"{scene}.toml"
             from_file, from_dict = (abut.run(given, steps=20, interval=1) for given in (path, tomllib.loads(path.read_text())))
             np.testing.assert_array_equal(from_file.ledger, from_dict.ledger)
@@ -68,6 +68,9 @@ class Scenes(unittest.TestCase):
         self.assertAlmostEqual(mass(None), 0.1, delta=1e-15)
         self.assertAlmostEqual(mass({"bodies.left.density": 2.0}), 0.2, delta=1e-15)
         self.assertAlmostEqual(mass({"bodies": {"left": {"density": np.float64(2.0)}}}), 0.2, delta=1e-15)
+        self.assertAlmostEqual(mass({"bodies.left.density": "2000 g/m^3"}), 0.2, delta=1e-15)
+        with self.assertRaisesRegex(abut.BadInput, "unit of a length"):
+            mass({"bodies.left.density": "2 mm"})
         self.assertEqual(abut.run(BARS, set={"run.filter": "none", "output.frames": 4}, steps=8).frames.step.tolist(), [0, 3, 6, 8])
 
     def test_nothing_is_written_unless_a_folder_is_given(self):

@@ -91,7 +91,7 @@ const std::vector<WrongScene>& wrong_scenes() {
         {"[symmetry]\npoint = [0, 0]\nnormal = [1, 0]",
          {},
          ".toml:19:",
-         {"symmetry is a table, tables [[symmetry]] is needed"}},
+         {"symmetry is a table, a list of tables, [[symmetry]], is needed"}},
         {"",
          {"bodies.left.young='210 Gpa'"},
          "--set bodies.left.young",

@@ -57,6 +57,15 @@ TEST_CASE("flags of options reach their members", "[programs][options]") {
     CHECK(soil.map == "here");
 }
 
+TEST_CASE("a flag takes the units of its dimension, and names them where another one is given", "[programs][options]") {
+    CHECK(parsed("--soil-stiffness 3kPa").stiffness == 3000.0);
+    CHECK(parsed("--soil-stiffness 2.5N/mm^2").stiffness == 2.5e6);
+    CHECK_THROWS_WITH(parsed("--soil-stiffness 3mm"),
+                      Contains("--soil-stiffness is '3mm'") && Contains("unit of a length") && Contains("kPa, MPa, GPa"));
+    CHECK_THROWS_WITH(parsed("--soil-stiffness 3kpa"), Contains("Did you mean 'kPa'?"));
+    CHECK_THROWS_WITH(parsed("--soil-stiffness -3kPa"), Contains("-3000 Pa is not allowed"));
+}
+
 TEST_CASE("a flag refuses what the table does not allow", "[programs][options]") {
     CHECK_THROWS_WITH(parsed("--soil-stiffness 0"), Contains("0 Pa is not allowed") && Contains("above 0 Pa"));
     CHECK_THROWS_WITH(parsed("--soil-layers 10"), Contains("from 1 to 9"));
