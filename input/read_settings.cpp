@@ -237,7 +237,8 @@ void read(SymmetrySettings& symmetry, const Node& table, const std::string& path
 template <class Section>
 Key<Settings> list_key(const char* name, std::vector<Section> Settings::*member) {
     const auto take = [member, name](Settings& settings, const Node& node, const std::string& key, Reader& reader) {
-        if (node.type != Node::Type::array) return reader.wrong_type(node, key, fmt::format("a list of tables, [[{}]],", name));
+        if (node.type != Node::Type::array)
+            return reader.wrong_type(node, key, fmt::format("a list of tables, [[{}]],", name));
         for (std::size_t i = 0; i < node.items.size(); ++i) {
             Section section;
             section.path = fmt::format("{}[{}]", key, i);
