@@ -81,8 +81,8 @@ NodalPair<Dim> NodalPairs<Dim>::make_pair(const NodalSurface<Dim>& surface, cons
 
 template <int Dim>
 void NodalPairs<Dim>::assign(const NodalSurface<Dim>& surface, std::vector<FacetPair>& facets,
-                             std::span<const FacetPair> in_contact, PointsView<Dim> x_0, PointsView<Dim> x_1, double reach,
-                             double compression) {
+                             std::span<const FacetPair> in_contact, std::span<const NodalPair<Dim>> watched,
+                             PointsView<Dim> x_0, PointsView<Dim> x_1, double reach, double compression) {
     compression_ = compression;
     pairs_.clear();
     for (const FacetPair& of_facets : facets) pairs_.push_back(make_pair(surface, of_facets));
@@ -98,7 +98,7 @@ void NodalPairs<Dim>::assign(const NodalSurface<Dim>& surface, std::vector<Facet
     }
     facets.resize(n);
     pairs_.resize(n);
-    index(surface);
+    index(surface, watched);
 }
 
 template <int Dim>
@@ -175,13 +175,14 @@ std::span<const NodalPair<Dim>> NodalPairs<Dim>::in_reach(PointsView<Dim> x) con
 }
 
 template <int Dim>
-void NodalPairs<Dim>::index(const NodalSurface<Dim>& surface) {
+void NodalPairs<Dim>::index(const NodalSurface<Dim>& surface, std::span<const NodalPair<Dim>> watched) {
     nodes_.clear();
     bodies_.clear();
     body_pairs_.clear();
     in_reach_.clear();
     pruned_at_.clear();
     const std::vector<std::int32_t>& body = surface.facets().body;
+    for (const NodalPair<Dim>& pair : watched) nodes_.insert(nodes_.end(), pair.node.begin(), pair.node.end());
     for (const NodalPair<Dim>& pair : pairs_) {
         nodes_.insert(nodes_.end(), pair.node.begin(), pair.node.end());
         const BodyPair of_bodies = in_order(body[pair.facet_1], body[pair.facet_2]);

@@ -59,12 +59,15 @@ public:
 
     /// For a step from x_0 to x_1, and for all positions in which no node is farther than `reach` from x_0 [m]. Leaves out
     /// of `facets` what cannot act there with |g| up to `compression` D, except those `in_contact` (increasing): boxes know
-    /// nothing of how faces lie to each other.
+    /// nothing of how faces lie to each other. The nodes of `watched` pairs are listed, too.
     void assign(const NodalSurface<Dim>& surface, std::vector<FacetPair>& facets, std::span<const FacetPair> in_contact,
-                PointsView<Dim> x_0, PointsView<Dim> x_1, double reach, double compression);
+                std::span<const NodalPair<Dim>> watched, PointsView<Dim> x_0, PointsView<Dim> x_1, double reach,
+                double compression);
     /// Pairs without an outlook: of a list that does not hold.
     void assign(const NodalSurface<Dim>& surface, std::span<const FacetPair> facets);
     [[nodiscard]] std::span<const NodalPair<Dim>> pairs() const { return pairs_; }
+    /// A pair that is in no list.
+    [[nodiscard]] NodalPair<Dim> make_pair(const NodalSurface<Dim>& surface, const FacetPair& facets) const;
 
     /// The list is pruned again and again while it holds: these of its pairs can act in the step from x_0 to x_1, and in the
     /// next ones as long as no node moves too far. They are chosen again where they must be; what leaves them is admitted from
@@ -79,9 +82,8 @@ public:
     [[nodiscard]] const std::vector<BodyPair>& body_pairs() const { return body_pairs_; }  ///< increasing
 
 private:
-    [[nodiscard]] NodalPair<Dim> make_pair(const NodalSurface<Dim>& surface, const FacetPair& facets) const;
     /// Lists nodes, bodies and pairs of bodies, and the indices of the pairs in these.
-    void index(const NodalSurface<Dim>& surface);
+    void index(const NodalSurface<Dim>& surface, std::span<const NodalPair<Dim>> watched = {});
     /// Fills `outlooks_` for the step from x_0 to x_1, and for nodes that are not farther than `reach` from x_0.
     void look_ahead(PointsView<Dim> x_0, PointsView<Dim> x_1, double reach);
     void prune(PointsView<Dim> x_0, PointsView<Dim> x_1, std::span<PairMemory> memory);

@@ -46,6 +46,8 @@ struct CompressionLimits {
 /// - `list`: takes on the pairs of a new list, and may leave out those that cannot act; `list_remembered`: takes on pairs to
 ///   ask about, of a list that is not valid; `drop_list`;
 /// - `is_pressed_in`, `decide_first`: of a pair of the list, by its index;
+/// - `sees_from_outside`: whether a pair that was no contact, since it lay inside of its body, has come out at the end of a
+///   step: the list does not have it; `seen_from_outside`, `set_seen_from_outside`: all that have come out; `lies_inside`;
 /// - `stored_energy`: what the memory of facets holds [J];
 /// - `forget_step`: no later call depends on the last step, which is refused;
 /// - `clear`: a result without a step; `step`: admission and forces of a step, gives the number of pairs that are pressed in
@@ -131,6 +133,7 @@ public:
         if (step_.report.compression > limits_.limit) refuse_depth();
         count_friction(report_, step_.report.friction, dt);
         facets_.end_step();
+        if (law_.sees_from_outside(path)) list_is_valid_ = false;
         return step_;
     }
 
@@ -148,10 +151,12 @@ public:
         const ContactReport report = report_;
         const double next_skin = candidates_.next_skin();
         const std::vector<Facet> new_facets = new_facets_;
+        const std::vector<FacetPair> seen = law_.seen_from_outside();
         const auto take_back = [&] {
             list_is_valid_ = false;
             pairs_ = pairs;
             new_facets_ = new_facets;
+            law_.set_seen_from_outside(seen);
             report_ = report;
             candidates_.restore_skin(next_skin);
         };
@@ -172,11 +177,13 @@ public:
     void clear_report() { report_ = {}; }
 
     [[nodiscard]] std::vector<std::byte> state() const {
-        return saved(state_key(), {has_searched_, candidates_.next_skin(), report_, pairs_, facets_, new_facets_});
+        return saved(state_key(), {has_searched_, candidates_.next_skin(), report_, pairs_, facets_, new_facets_,
+                                   law_.seen_from_outside()});
     }
 
     void restore(std::span<const std::byte> bytes) {
         SavedContact from = read_saved(state_key(), bytes);
+        law_.set_seen_from_outside(from.seen);
         candidates_.restore_skin(from.next_skin);
         pairs_ = std::move(from.pairs);
         facets_ = std::move(from.facets);
@@ -198,6 +205,10 @@ public:
         std::vector<Facet> new_facets;
         for (std::size_t i = 0; i < old_of_new.size(); ++i)
             if (old_of_new[i] < 0 || is_new(Facet{old_of_new[i]})) new_facets.push_back(Facet(i));
+        PairStore seen;
+        seen.follow(law_.seen_from_outside(), [](std::size_t) { return PairMemory{}; });
+        law.set_seen_from_outside(
+            seen.carried_over(old_of_new, [&](FacetPair pair) { return law.lies_inside(pair); }).pairs());
         // The views of the new search are of arrays that stay where they are when the law is moved.
         law_ = std::move(law);
         candidates_ = std::move(candidates);

@@ -15,10 +15,6 @@ namespace abut::contact {
 namespace {
 
 NodalOptions checked(NodalOptions options, bool has_shear_stiffness) {
-    if (options.search.self_contact)
-        throw BadInput(
-            "nodal contact: faces of one body do not touch each other; leave `self_contact` off, or number the "
-            "parts of a body that may touch as bodies.");
     check_options(options);
     check_friction(options.friction, has_shear_stiffness);
     const geometry::FacingFade& facing = options.facing;
@@ -29,6 +25,7 @@ NodalOptions checked(NodalOptions options, bool has_shear_stiffness) {
                        "defaults.");
     // 1 would list what is near alone, not what is deep
     options.search.facing_cosine = CandidateOptions{}.facing_cosine;
+    options.search.self_contact_rings = 0;  // what lies inside of a body is told from its shape at rest
     return options;
 }
 

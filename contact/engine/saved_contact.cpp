@@ -12,7 +12,7 @@
 namespace abut::contact {
 namespace {
 
-constexpr std::uint32_t state_version = 6;
+constexpr std::uint32_t state_version = 7;
 
 /// A new counter needs its line in `for_each_counter`, or it is lost where a state is saved; then a new version, too.
 static_assert(sizeof(ContactReport) == 24 * sizeof(double));
@@ -29,6 +29,11 @@ std::vector<std::byte> saved(const StateKey& key, const SavedContact& contact) {
     for (const Facet facet : contact.new_facets) state.put(number_of(facet));
     contact.pairs.save(state);
     contact.facets.save(state);
+    state.put(static_cast<std::uint64_t>(contact.seen.size()));
+    for (const FacetPair& pair : contact.seen) {
+        state.put(number_of(pair.facet_1));
+        state.put(number_of(pair.facet_2));
+    }
     return std::move(state).finish();
 }
 
@@ -49,6 +54,15 @@ SavedContact read_saved(const StateKey& key, std::span<const std::byte> bytes) {
     for (std::int32_t i = 0; i < n_new; ++i) contact.new_facets.push_back(Facet{state.get<std::int32_t>()});
     contact.pairs = PairStore::restored(state, key.n_facets);
     contact.facets = FacetStore::restored(state, key.n_facets, key.facet_memory);
+    const auto n_seen = state.get<std::uint64_t>();
+    for (std::uint64_t i = 0; i < n_seen; ++i) {  // `get` refuses to read past the end, whatever n_seen claims
+        contact.seen.push_back({Facet{state.get<std::int32_t>()}, Facet{state.get<std::int32_t>()}});
+        const auto [facet_1, facet_2] = contact.seen.back();
+        if (number_of(facet_1) < 0 || !(facet_1 < facet_2) || number_of(facet_2) >= key.n_facets)
+            throw BadInput("state of " + key.kind + ": facets " + std::to_string(number_of(facet_1)) + " and " +
+                           std::to_string(number_of(facet_2)) + " of " + std::to_string(key.n_facets) +
+                           " are no pair. It is damaged.");
+    }
     state.finish();
     return contact;
 }

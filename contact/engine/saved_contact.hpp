@@ -28,6 +28,7 @@ struct SavedContact {
     PairStore pairs;
     FacetStore facets;
     std::vector<Facet> new_facets;  ///< that no search has seen yet, increasing
+    std::vector<FacetPair> seen;    ///< that lay inside of their body at rest and have come out, increasing
 };
 
 [[nodiscard]] std::vector<std::byte> saved(const StateKey& key, const SavedContact& contact);

@@ -55,6 +55,11 @@ public:
     void forget_step() { friction_.forget(); }
     [[nodiscard]] bool is_pressed_in(std::size_t pair, State u) const;
     [[nodiscard]] FirstAdmission decide_first(std::size_t pair, State u, bool run_begins) const;
+    // Of one body, faces that share a corner or are near on the surface are left out instead.
+    [[nodiscard]] std::vector<FacetPair> seen_from_outside() const { return {}; }
+    [[nodiscard]] bool lies_inside(FacetPair) const { return false; }
+    void set_seen_from_outside(std::span<const FacetPair>) {}
+    [[nodiscard]] bool sees_from_outside(const Path&) { return false; }
 
     void clear(ContactStep<Dim>& step) const;
     std::int64_t step(double dt, const Path& path, std::span<PairMemory> memory, FacetStore& facets, ContactStep<Dim>& step);

@@ -9,6 +9,7 @@
 
 #include "abut/contact/admission.hpp"
 #include "abut/contact/facet_store.hpp"
+#include "abut/contact/inside_pairs.hpp"
 #include "abut/contact/law/pair_potential.hpp"
 #include "abut/contact/nodal_contact.hpp"
 #include "abut/contact/nodal_pairs.hpp"
@@ -49,19 +50,20 @@ public:
     [[nodiscard]] bool is_wanted(FacetPair pair) const {
         return !options_.wanted || options_.wanted(surface_.face_of(pair.facet_1), surface_.face_of(pair.facet_2));
     }
-    void list(std::vector<FacetPair>& pairs, std::span<const FacetPair> in_contact, State x_0, State x_1, double reach) {
-        pairs_.assign(surface_, pairs, in_contact, x_0, x_1, reach, options_.compression_limit);
-    }
+    void list(std::vector<FacetPair>& pairs, std::span<const FacetPair> in_contact, State x_0, State x_1, double reach);
     void list_remembered(std::span<const FacetPair> pairs) { pairs_.assign(surface_, pairs); }
     void drop_list() {
+        watched_.clear();
         pairs_.assign(surface_, {});
         forget_step();
     }
     void forget_step() { law_.forget_friction(); }
     [[nodiscard]] bool is_pressed_in(std::size_t pair, State x) const;
-    [[nodiscard]] FirstAdmission decide_first(std::size_t pair, State x, bool run_begins) const {
-        return contact::decide_first<Dim>(pairs_.pairs()[pair], x, sides_, run_begins);
-    }
+    [[nodiscard]] FirstAdmission decide_first(std::size_t pair, State x, bool run_begins) const;
+    [[nodiscard]] std::vector<FacetPair> seen_from_outside() const { return inside_.seen(); }
+    [[nodiscard]] bool lies_inside(FacetPair pair) const { return inside_.has(pair); }
+    void set_seen_from_outside(std::span<const FacetPair> pairs) { inside_.restore(pairs); }
+    [[nodiscard]] bool sees_from_outside(const Path& path);
 
     void clear(NodalStep<Dim>& step) const;
     std::int64_t step(double dt, const Path& path, std::span<PairMemory> memory, FacetStore& facets, NodalStep<Dim>& step);
@@ -72,10 +74,14 @@ public:
     [[nodiscard]] NodeLaw on(NodalSurface<Dim> surface) const { return {std::move(surface), options_, sharing_}; }
 
 private:
+    void set_inside_pairs_apart(std::vector<FacetPair>& pairs, State x_0, State x_1, double reach);
+
     NodalSurface<Dim> surface_;
     NodalOptions options_;
     Sharing* sharing_;
     SideOutlines<Dim> sides_;
+    InsidePairs<Dim> inside_;
+    std::vector<NodalPair<Dim>> watched_;  // of these, that may be seen from outside while the list is valid
     NodalPairs<Dim> pairs_;
     PairPotential<Dim> law_;
     std::int32_t least_force_size_ = 0;  // nodes up to the last one of a deformable face

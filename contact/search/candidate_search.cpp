@@ -186,8 +186,10 @@ private:
             return !(body_1.is_rigid && body_2.is_rigid) && !are_ignored(body_1, body_2);
         });
         if (options_.self_contact)
-            for (std::int32_t body = 0; body < static_cast<std::int32_t>(order_.bodies.size()); ++body)
-                pairs.push_back({body, body});
+            for (std::int32_t b = 0; b < static_cast<std::int32_t>(order_.bodies.size()); ++b)
+                if (const BodyFaces& body = order_.bodies[static_cast<std::size_t>(b)];
+                    !body.is_rigid && !are_ignored(body, body))
+                    pairs.push_back({b, b});
         return pairs;
     }
 

@@ -266,9 +266,6 @@ TEST_CASE("input of a host that cannot be used is refused by name", "[contact][n
     scene.faces.depth.pop_back();
     CHECK(has(message_of(scene), "`depth` has"));
     contact::NodalOptions options;
-    options.search.self_contact = true;
-    CHECK(has(message_of(good, options), "self_contact"));
-    options = {};
     options.compression_limit = 0.0;
     CHECK(has(message_of(good, options), "compression_limit"));
     options = {};
