@@ -84,7 +84,7 @@ Keys<Section> material_values() {
     keys.insert(behind,
                 From::word(
                     "law", [](Section& section) -> solid::MaterialLaw& { return section.material.law; }, material_laws(),
-                    "at large strains, of finite bodies: st_venant_kirchhoff up to strains of 0.1, neo_hookean and "
+                    "what it does beyond small strains: st_venant_kirchhoff up to 0.1, in finite bodies neo_hookean and "
                     "mooney_rivlin (rubber) beyond, j2: metal that yields"));
     return keys;
 }

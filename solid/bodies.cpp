@@ -166,7 +166,7 @@ void Bodies<Dim>::set_laws() {
         const Material& material = part_options_.materials[i];
         if (!stored[i] && !inelastic[i]) {
             stored[i] = stored_energy<Dim>(material);
-            inelastic[i] = inelastic_law<Dim>(material);
+            if (is_finite(deformable_bodies_[i])) inelastic[i] = inelastic_law<Dim>(material);
         }
         if (!stored[i] && !inelastic[i]) continue;
         const std::int32_t body = deformable_bodies_[i];

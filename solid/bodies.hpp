@@ -111,7 +111,7 @@ public:
 
 private:
     void check() const;
-    void check_damping(std::int32_t body) const;
+    void check_material(std::int32_t body) const;
     void check_pairs() const;
     void keep_groups();
     void set_laws();

@@ -19,7 +19,7 @@ void Bodies<Dim>::check() const {
     };
     require_one_each(options_.materials.size(), "materials");
     for (std::size_t body = 0; body < n_bodies; ++body) solid::check(options_.materials[body], static_cast<int>(body));
-    for (std::size_t body = 0; body < n_bodies; ++body) check_damping(static_cast<std::int32_t>(body));
+    for (std::size_t body = 0; body < n_bodies; ++body) check_material(static_cast<std::int32_t>(body));
     if (!options_.acceleration.empty()) require_one_each(options_.acceleration.size(), "accelerations");
     if (!options_.kinematics.empty()) require_one_each(options_.kinematics.size(), "kinematics");
     for (std::size_t body = 0; body < options_.acceleration.size(); ++body)
@@ -43,16 +43,24 @@ void Bodies<Dim>::check() const {
 }
 
 template <int Dim>
-void Bodies<Dim>::check_damping(std::int32_t body) const {
-    if (!options_.materials[static_cast<std::size_t>(body)].is_damped()) return;
-    const std::string who = mesh_.name + ": body '" + mesh_.body_names[static_cast<std::size_t>(body)] +
-                            "' is of a damped or viscous material, ";
+void Bodies<Dim>::check_material(std::int32_t body) const {
+    const Material& material = options_.materials[static_cast<std::size_t>(body)];
+    const std::string who = mesh_.name + ": body '" + mesh_.body_names[static_cast<std::size_t>(body)] + "' ";
+    if (material.law == MaterialLaw::j2 && is_rigid(body))
+        throw BadInput(who + "is rigid, and has a material that yields. Take other kinematics, or another law.");
+    if (material.kinematic_hardening > 0.0 && is_finite(body))
+        throw BadInput(who +
+                       "is of Kinematics::finite, whose plastic flow knows no kinematic_hardening. Take hardening, or "
+                       "Kinematics::floating.");
+    if (!material.is_damped()) return;
     if (is_rigid(body))
-        throw BadInput(who + "but rigid. Leave damping out, and give it a brake (SolidOptions::moments) or dashpots.");
+        throw BadInput(who +
+                       "is rigid, and has a damped or viscous material. Leave damping out, and give it a brake "
+                       "(SolidOptions::moments) or dashpots.");
     if (is_finite(body) && options_.finite.mean_force == MeanForce::discrete_gradient)
         throw BadInput(who +
-                       "for which there is no MeanForce::discrete_gradient. Take MeanForce::closed_trapezoid (--mean-force "
-                       "closed_trapezoid).");
+                       "has a damped or viscous material, for which there is no MeanForce::discrete_gradient. Take "
+                       "MeanForce::closed_trapezoid (--mean-force closed_trapezoid).");
 }
 
 /// Friction and contact of pairs that are named by number.

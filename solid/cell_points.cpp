@@ -12,10 +12,10 @@
 namespace abut::solid {
 namespace {
 
-constexpr int most_iterations = 20;
-constexpr double settled = 1e-13;      // of the second moments of the body
-constexpr double on_a_line = 1e-8;     // least second moment over the largest
-constexpr double stays_inside = 0.25;  // of the depth of its cell behind each face
+constexpr int most_placings = 20;
+constexpr double placed_well = 1e-13;         // of the second moments of the body
+constexpr double cells_on_a_line = 1e-8;  // least second moment over the largest
+constexpr double stays_inside = 0.25;     // of the depth of its cell behind each face
 
 template <int Dim>
 constexpr int n_pairs = Dim*(Dim + 1) / 2;
@@ -110,14 +110,14 @@ std::optional<CellPoints<Dim>> find_cell_points(const mesh::Mesh<Dim>& mesh, std
         return mesh.cell_measure[c] * arm * arm.transpose();
     });
     const Vector<Dim> moments = symmetric_eigenvalues(moment);
-    if (!(moments[0] > on_a_line * moments[Dim - 1])) return std::nullopt;
+    if (!(moments[0] > cells_on_a_line * moments[Dim - 1])) return std::nullopt;
     points.size = std::sqrt(moment.trace() / measure);
     points.slope.setZero();
     points.shift.setZero();
 
     // Newton's method in S and b. Columns: the values of both sides, then the derivatives of the left ones.
     bool found = false;
-    for (int iteration = 0; iteration < most_iterations; ++iteration) {
+    for (int iteration = 0; iteration < most_placings; ++iteration) {
         const Sums sums = sum(Sums(Sums::Zero()), [&](std::int32_t c) -> Sums {
             const Vector<Dim> x = (mesh.cell_centroid[c] - points.centre) / points.size;
             const Matrix<Dim> own = own_second_moment(mesh, c) / (mesh.cell_measure[c] * points.size * points.size);
@@ -134,7 +134,7 @@ std::optional<CellPoints<Dim>> find_cell_points(const mesh::Mesh<Dim>& mesh, std
             return mesh.cell_measure[c] / measure * of_cell;
         });
         const Unknowns missing = sums.col(1) - sums.col(0);
-        found = missing.norm() <= settled;
+        found = missing.norm() <= placed_well;
         if (found) break;
         const Eigen::Matrix<double, n, n> slope = sums.template rightCols<n>();
         const Unknowns step = slope.fullPivLu().solve(missing);

@@ -95,6 +95,10 @@ Solid<Dim>::Solid(const mesh::Mesh<Dim>& mesh, SolidOptions<Dim> options, const 
     if (!options_.contact) return;
     const ContactLaw law = bodies_->law();
     refuse_choices_of_other_law(law, options_);
+    if (law == ContactLaw::reconstruction && any_inelastic())
+        throw BadInput(mesh_.name +
+                       ": a body yields (law = \"j2\"), which is not made under the modified reconstruction. Take law = "
+                       "\"pair_potential\" (contact.law), or another material.");
     if (law == ContactLaw::pair_potential) {
         contact_ = std::make_unique<PairPotentialDriver<Dim>>(*bodies_, ccg_, *loads_, *frames_, times_, *part_);
     } else {

@@ -72,7 +72,7 @@ void Solid<Dim>::stiffness_of_cells(std::span<const Vector<Dim>> u, std::span<Ve
 /// Of bodies of Kinematics::finite; the energy does not show it.
 template <int Dim>
 void Solid<Dim>::require_no_collapse() {
-    if (!bodies_->any_finite()) return;
+    if (!bodies_->any_finite() && !any_inelastic()) return;
     Extremes now{ccg_.finite_extremes(part_->own_cells())};
     if (now.values.cell >= 0) {
         const std::int32_t cell = bodies_->mesh_cell(now.values.cell);

@@ -211,7 +211,7 @@ void Solid<Dim>::refuse_memory(const char* why) const {
 /// Bodies of Kinematics::finite are where they are, and what is linear is asked for in its frame.
 template <int Dim>
 StepEnds<Dim> Solid<Dim>::step_ends(const Ends& ends, const BoundaryLoad<Dim>& start_load, double dt) {
-    if (!ccg_.any_damped() || !frames_->any_turns())
+    if (!any_memory() || !frames_->any_turns())
         return {of_cells(ends.start), of_cells(ends.end), &start_load, &loads_->end(), dt};
     for (std::vector<Vector<Dim>>& in_frame : ends_in_frames_) in_frame.resize(of_cells(ends.start).size());
     frames_->displacement(all_cells_, of_cells(ends.start), frames_->start(), ends_in_frames_[0]);

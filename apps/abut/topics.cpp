@@ -52,7 +52,9 @@ const Topic materials{
 bends (kinematics = "finite") is of St. Venant and Kirchhoff's material: linear elastic in the strain of
 Green, good for strains up to 0.2. Beyond, `law` = "neo_hookean" or "mooney_rivlin" are rubber, the latter with
 `second_share`; at small strains all are the same. `law` = "j2" is metal: beyond `yield_stress` it flows, hardens by
-`hardening` and `saturation`, and remembers; what it dissipates is booked. A rigid body uses its density alone.
+`hardening`, `saturation` and, unless it is finite, `kinematic_hardening`, and remembers. `mass_damping` and
+`stiffness_damping` are Rayleigh's, `linear_viscosity` and `quadratic_viscosity` are for shocks. What all of these
+dissipate is booked. A rigid body uses its density alone.
 Bodies share those of [materials.NAME]; some are known by their names, material = "steel S235": `abut materials`.
 
 Poisson's ratio is below 0.5: an incompressible body has no stable explicit step. `eta` [Pa] is the stiffness

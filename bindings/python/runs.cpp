@@ -397,7 +397,7 @@ void add_runs(py::module_& module) {
     of_material.def_property(
         "law", [](const solid::Material& material) { return word_of(solid::material_law_words, material.law); },
         [](solid::Material& material, const std::string& law) { material.law = material_law(law); },
-        "at large strains, of finite bodies: 'st_venant_kirchhoff', 'neo_hookean', 'mooney_rivlin' or 'j2'");
+        "beyond small strains: 'st_venant_kirchhoff', of finite bodies 'neo_hookean' or 'mooney_rivlin', or 'j2', which yields");
     add_dimension<2>(module, "2D");
     add_dimension<3>(module, "3D");
     module.def(

@@ -11,6 +11,7 @@
 #include "abut/solid/ccg/arrays.hpp"
 #include "abut/solid/ccg/device_sweeps.hpp"
 #include "abut/solid/ccg/finite_cells.hpp"
+#include "abut/solid/ccg/plastic_cells.hpp"
 #include "abut/solid/ccg/region.hpp"
 #include "abut/solid/ccg/single_sweeps.hpp"
 #include "abut/solid/ccg/sweeps.hpp"
@@ -42,13 +43,14 @@ void refuse_finite(const mesh::Mesh<Dim>& mesh, std::span<const Kinematics> kine
 }
 
 template <int Dim>
-void refuse_damped(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials) {
+void refuse_memory(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials) {
     for (std::size_t body = 0; body < materials.size(); ++body)
-        if (materials[body].is_damped())
-            throw BadInput(mesh.name + ": body '" + mesh.body_names[body] +
-                           "' is of a damped or viscous material, whose steps are made in double precision on the host "
-                           "alone. Take Precision::double_precision (--precision double) and StepDevice::host (--device "
-                           "host), or no damping.");
+        if (materials[body].is_damped() || materials[body].law == MaterialLaw::j2)
+            throw BadInput(
+                mesh.name + ": body '" + mesh.body_names[body] +
+                "' is of a material that flows or is damped, whose steps are made in double precision on the host "
+                "alone. Take Precision::double_precision (--precision double) and StepDevice::host (--device "
+                "host), or another material.");
 }
 
 /// Null where steps are made in double precision on the host.
@@ -58,7 +60,7 @@ std::unique_ptr<StepSweeps<Dim>> step_sweeps(const mesh::Mesh<Dim>& mesh, std::s
                                              const FiniteCells<Dim>& finite, const CcgSweeps<Dim>& sweeps,
                                              Precision precision, StepDevice device) {
     const bool is_single = precision == Precision::single_precision;
-    if (is_single || device != StepDevice::host) refuse_damped(mesh, materials);
+    if (is_single || device != StepDevice::host) refuse_memory(mesh, materials);
     if (is_single)
         refuse_finite(mesh, kinematics, "in single precision", "Precision::double_precision (--precision double)");
     if (device == StepDevice::host) return is_single ? std::make_unique<SingleSweeps<Dim>>(arrays, finite) : nullptr;
@@ -79,6 +81,7 @@ struct Ccg<Dim>::Impl {
     CcgArrays<Dim> arrays;
     FiniteCells<Dim> finite;
     ViscousCells<Dim> viscous;
+    PlasticCells<Dim> plastic;
     CcgSweeps<Dim> sweeps;
     std::unique_ptr<StepSweeps<Dim>> steps;  // null: `sweeps` make them
     bool steps_were_last = false;            // to compute gradients
@@ -112,7 +115,8 @@ Ccg<Dim>::Impl::Impl(const mesh::Mesh<Dim>& mesh, std::span<const Material> mate
              form),
       finite(mesh, face_conditions, kinematics, finite_options),
       viscous(mesh, materials),
-      sweeps(arrays, arrays, finite, &viscous),
+      plastic(mesh, materials, kinematics, face_conditions, conditions.free_face_rule),
+      sweeps(arrays, arrays, finite, &viscous, &plastic),
       steps(step_sweeps(mesh, kinematics, materials, arrays, finite, sweeps, precision, device)) {
     const auto all = solid::boundary_faces(mesh);
     motion_bound.emplace(arrays, std::vector<BoundaryFace>(all.begin(), all.end()));
@@ -281,18 +285,19 @@ StepDefect<Dim> Ccg<Dim>::step_defect(std::int32_t cell, const Vector<Dim>& arm)
 
 template <int Dim>
 bool Ccg<Dim>::any_inelastic() const {
-    return impl_->finite.any_inelastic();
+    return impl_->finite.any_inelastic() || impl_->plastic.any();
 }
 
 template <int Dim>
 void Ccg<Dim>::begin_step(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load) {
-    if (any_inelastic()) impl_->sweeps.begin_step(u, load);
+    if (impl_->finite.any_inelastic()) impl_->sweeps.begin_step(u, load);
 }
 
 template <int Dim>
 void Ccg<Dim>::end_step() {
     impl_->sweeps.end_step();
     impl_->viscous.end_step();
+    impl_->plastic.end_step();
 }
 
 template <int Dim>
@@ -314,20 +319,22 @@ Vector<Dim> Ccg<Dim>::drag(std::int32_t cell, double mass, const Vector<Dim>& mo
 template <int Dim>
 StepLoss Ccg<Dim>::step_loss(std::int32_t cell) const {
     StepLoss loss = impl_->viscous.loss(cell);
-    if (any_inelastic()) loss += impl_->sweeps.step_loss(cell);
+    loss.in_cells = impl_->plastic.loss(cell);
+    if (impl_->finite.any_inelastic()) loss += impl_->sweeps.step_loss(cell);
     return loss;
 }
 
 template <int Dim>
 double Ccg<Dim>::plastic_strain(std::int32_t cell) const {
     const std::int32_t inelastic = impl_->finite.inelastic(cell);
-    if (inelastic < 0) return 0.0;
+    if (inelastic < 0) return impl_->plastic.plastic_strain(cell);
     return impl_->finite.inelastic_cell(inelastic).law->plastic_strain(impl_->sweeps.memory_of(inelastic));
 }
 
 template <int Dim>
 std::optional<double> Ccg<Dim>::out_of_plane_stress(std::int32_t cell) const {
     const std::int32_t inelastic = impl_->finite.inelastic(cell);
+    if (impl_->plastic.contains(cell)) return impl_->plastic.out_of_plane_stress(cell, displacement_gradient(cell));
     if (inelastic < 0) return std::nullopt;
     return impl_->finite.inelastic_cell(inelastic).law->out_of_plane_stress(impl_->sweeps.law_gradient(cell),
                                                                             impl_->sweeps.memory_of(inelastic));
@@ -336,7 +343,8 @@ std::optional<double> Ccg<Dim>::out_of_plane_stress(std::int32_t cell) const {
 template <int Dim>
 std::vector<std::int32_t> Ccg<Dim>::memory_sizes() const {
     std::vector<std::int32_t> sizes;
-    for (std::int32_t c = 0; c < n_cells(); ++c) sizes.push_back(impl_->viscous.memory_size(c));
+    for (std::int32_t c = 0; c < n_cells(); ++c)
+        sizes.push_back(impl_->viscous.memory_size(c) + impl_->plastic.memory_size(c));
     for (std::int32_t i = 0; i < static_cast<std::int32_t>(impl_->finite.n_inelastic()); ++i) {
         const auto& cell = impl_->finite.inelastic_cell(i);
         sizes[static_cast<std::size_t>(cell.cell)] += static_cast<std::int32_t>(cell.end - cell.begin);
@@ -354,6 +362,7 @@ std::vector<double> Ccg<Dim>::memory() const {
             values.insert(values.end(), all.begin() + cell.begin, all.begin() + cell.end);
         }
         impl_->viscous.put_memory(c, values);
+        impl_->plastic.put_memory(c, values);
     }
     return values;
 }
@@ -373,8 +382,9 @@ void Ccg<Dim>::set_memory(std::span<const double> values) {
             of_laws.insert(of_laws.end(), of_law.begin(), of_law.end());
         }
         if (impl_->viscous.contains(c)) impl_->viscous.set_memory(c, take(impl_->viscous.memory_size(c)));
+        if (impl_->plastic.contains(c)) impl_->plastic.set_memory(c, take(impl_->plastic.memory_size(c)));
     }
-    if (any_inelastic()) impl_->sweeps.set_memory(of_laws);
+    if (impl_->finite.any_inelastic()) impl_->sweeps.set_memory(of_laws);
 }
 
 template <int Dim>

@@ -33,6 +33,7 @@ void CcgSweeps<Dim, Real>::set_any_stress(std::int32_t c) {
         set_finite_stress(c);
     else
         element_.set_any_stress(c);
+    if (plastic_ && plastic_->contains(c)) add_stress(c, -plastic_->stress(c));
 }
 
 /// What contact adds to the stress of a cell, and what its free face does.
@@ -60,6 +61,7 @@ double CcgSweeps<Dim, Real>::energy(std::ptrdiff_t c) const {
     const LaneTensor<Dim, Real> sigma = finite ? finite_stress(c, strain) : elastic_stress(cell, g);
     double density = 0.0;
     for (int j = 0; j < Dim; ++j) density += dot(sigma.col[j], strain.col[j]);
+    if (plastic_ && plastic_->contains(c)) density += 2.0 * plastic_->energy(c, unload(g));
     if (has_law) density = 2.0 * law_response(static_cast<std::int32_t>(c), unload(g)).energy;
     double twice = density / cell.inverse_measure;
     for (std::int32_t i = arrays_.half_face_offsets[c]; i < arrays_.half_face_offsets[c + 1]; ++i) {
@@ -77,6 +79,9 @@ template <int Dim, class Real>
 Matrix<Dim> CcgSweeps<Dim, Real>::stress(std::int32_t c) const {
     if constexpr (takes_finite)
         if (finite_.contains(c)) return cauchy_stress(c);
+    if constexpr (takes_finite)
+        if (plastic_ && plastic_->contains(c))
+            return unload(elastic_stress(coefficients_.cells[c], present_gradient(c))) - plastic_->stress(c);
     return element_.units.in_pascals(unload(elastic_stress(coefficients_.cells[c], present_gradient(c))));
 }
 
@@ -128,7 +133,7 @@ void CcgSweeps<Dim, Real>::stresses_of_chunk(std::int32_t k) {
         for_runs(cells, [&](std::int32_t c) { set_finite_stress(c); });
     }
     if constexpr (takes_finite)
-        if (damps_ && !chunks_[k].has_finite) for_runs(cells, [&](std::int32_t c) { add_viscous_stress(c); });
+        if ((steps_ || plastic_) && !chunks_[k].has_finite) for_runs(cells, [&](std::int32_t c) { add_linear_stress(c); });
     for (const Run& run : cells) add_moments(run.begin, run.end);
     for (const CondensedCell& condensed : wanted_.condensed_stresses[k]) element_.condense(condensed);
 }

@@ -13,11 +13,11 @@ namespace abut::solid {
 template <int Dim, class Real>
 void CcgSweeps<Dim, Real>::load_change(const StepEnds<Dim>& ends) {
     has_change_ = finite_.any() && !finite_.takes_ends() && !ends.start.empty();
-    damps_ = viscous_ && viscous_->any() && !ends.start.empty();
-    if (!has_change_ && !damps_) return;
+    steps_ = (viscous_ || plastic_) && !ends.start.empty();
+    if (!has_change_ && !steps_) return;
     dt_ = ends.dt;
     load_change_.clear();
-    if (damps_ && ends.start_load && ends.end_load)
+    if (steps_ && ends.start_load && ends.end_load)
         for (std::size_t b = 0; b < ends.end_load->displacement.size(); ++b)
             load_change_.push_back(ends.end_load->displacement[b] - ends.start_load->displacement[b]);
     parallel_each(arrays_.n_cells(), [&](std::ptrdiff_t c) {
@@ -37,10 +37,9 @@ Lanes<Dim, Real> CcgSweeps<Dim, Real>::boundary_change(BoundaryFace face) const 
     return sum - load_packed<Dim>(Vector<Dim>(boundary.deficit[b] * unload<Dim>(origin)));
 }
 
-/// Of a cell whose strains are linear. The change of its gradient is made for it alone: few bodies are damped.
+/// Of the gradient of a cell whose strains are linear, in a step. It is made for this cell alone: few bodies ask for it.
 template <int Dim, class Real>
-void CcgSweeps<Dim, Real>::add_viscous_stress(std::int32_t c) {
-    if (!viscous_->contains(c)) return;
+Matrix<Dim> CcgSweeps<Dim, Real>::linear_change(std::int32_t c) const {
     const auto relative = [&](std::int32_t f) {
         const BoundaryFace b = arrays_.boundary_index[f];
         if (b == no_face) return element_.reconstructed(u_change_.data(), f);
@@ -48,11 +47,28 @@ void CcgSweeps<Dim, Real>::add_viscous_stress(std::int32_t c) {
         return load_change_.empty() ? change
                                     : change + load_packed<Dim>(load_change_[static_cast<std::size_t>(number_of(b))]);
     };
-    const Matrix<Dim> change = unload(element_.gradient_of(u_change_.data(), c, relative));
-    const LaneTensor<Dim, Real> added = load_packed<Dim>(viscous_->stress(c, Matrix<Dim>::Zero(), change, dt_));
+    return unload(element_.gradient_of(u_change_.data(), c, relative));
+}
+
+template <int Dim, class Real>
+void CcgSweeps<Dim, Real>::add_stress(std::int32_t c, const Matrix<Dim>& added) {
     LaneTensor<Dim, Real> sum = load_tensor<Dim>(s_, c);
-    for (int j = 0; j < Dim; ++j) sum.col[j] += added.col[j];
+    const LaneTensor<Dim, Real> other = load_packed<Dim>(added);
+    for (int j = 0; j < Dim; ++j) sum.col[j] += other.col[j];
     store_tensor(sum, s_, c);
+}
+
+/// What flow and damping add to the stress of a cell whose strains are linear.
+template <int Dim, class Real>
+void CcgSweeps<Dim, Real>::add_linear_stress(std::int32_t c) {
+    const bool flows = plastic_ && plastic_->contains(c), is_damped = steps_ && viscous_ && viscous_->contains(c);
+    if (!flows && !is_damped) return;
+    const Matrix<Dim> change = steps_ ? linear_change(c) : Matrix<Dim>(Matrix<Dim>::Zero());
+    if (is_damped) add_stress(c, viscous_->stress(c, Matrix<Dim>::Zero(), change, dt_));
+    if (!flows) return;
+    const Matrix<Dim> mean = unload(present_gradient(c));
+    add_stress(c, steps_ ? Matrix<Dim>(-plastic_->advance(c, mean - 0.5 * change, mean + 0.5 * change))
+                         : Matrix<Dim>(-plastic_->stress(c)));
 }
 
 /// S of the Green strain E, with the free faces where the energy of the cell is least.
@@ -257,7 +273,7 @@ void CcgSweeps<Dim, Real>::keep_end(std::int32_t c, const Response<Dim>& of_law,
     const LaneTensor<Dim, Real> start = load_tensor<Dim>(kept_.start.s, c);
     for (int j = 0; j < Dim; ++j) sum.col[j] = 0.5 * (start.col[j] + sum.col[j]);
     store(0.5 * (load_packed<Dim>(kept_.start.direct, c) + direct), direct_, c);
-    if (!damps_ || !viscous_->contains(c)) return;
+    if (!steps_ || !viscous_ || !viscous_->contains(c)) return;
     const std::int32_t position = finite_.free_position(c);
     const FreeCell<Dim>* free = position < 0 ? nullptr : &finite_.free()[static_cast<std::size_t>(position)];
     const Matrix<Dim> g_0 = unload(load_tensor<Dim>(kept_.start.g, c)), g_1 = unload(load_tensor<Dim>(g_, c));
@@ -328,6 +344,8 @@ FiniteExtremes CcgSweeps<Dim, Real>::finite_extremes(std::span<const std::int32_
     std::vector<FiniteExtremes> of_part((cells.size() + parallel_grain - 1) / parallel_grain);
     parallel_parts(cells.size(), parallel_grain, [&](std::size_t begin, std::size_t end) {
         for (const std::int32_t c : cells.subspan(begin, end - begin)) {
+            if (plastic_ && plastic_->contains(c))
+                take(of_part[begin / parallel_grain], {1.0, 0.0, -1, plastic_->end_plastic_strain(c)});
             if (!finite_.contains(c)) continue;
             const auto [determinant, strain] = end_stretch(c);
             const std::int32_t inelastic = finite_.inelastic(c);
@@ -356,7 +374,9 @@ Matrix<Dim> CcgSweeps<Dim, Real>::cauchy_stress(std::int32_t c) const {
 }
 
 #define ABUT_INSTANTIATE(Dim)                                                                             \
-    template void CcgSweeps<Dim>::add_viscous_stress(std::int32_t);                                       \
+    template Matrix<Dim> CcgSweeps<Dim>::linear_change(std::int32_t) const;                               \
+    template void CcgSweeps<Dim>::add_stress(std::int32_t, const Matrix<Dim>&);                           \
+    template void CcgSweeps<Dim>::add_linear_stress(std::int32_t);                                        \
     template void CcgSweeps<Dim>::take_ends(const StepEnds<Dim>&);                                        \
     template void CcgSweeps<Dim>::begin_step(std::span<const Vector<Dim>>, const BoundaryLoad<Dim>&);     \
     template void CcgSweeps<Dim>::end_step();                                                             \

@@ -24,8 +24,13 @@ void for_all(const std::vector<Id>& list, const Body& body) {
 
 template <int Dim, class Real>
 CcgSweeps<Dim, Real>::CcgSweeps(const CcgArrays<Dim>& arrays, const CcgCoefficients<Dim, Real>& coefficients,
-                                const FiniteCells<Dim>& finite, ViscousCells<Dim>* viscous)
-    : arrays_(arrays), coefficients_(coefficients), finite_(finite), kept_(arrays, finite), viscous_(viscous) {
+                                const FiniteCells<Dim>& finite, ViscousCells<Dim>* viscous, PlasticCells<Dim>* plastic)
+    : arrays_(arrays),
+      coefficients_(coefficients),
+      finite_(finite),
+      kept_(arrays, finite),
+      viscous_(viscous && viscous->any() ? viscous : nullptr),
+      plastic_(plastic && plastic->any() ? plastic : nullptr) {
     constexpr std::size_t width = lane_width<Dim>;
     u_.resize(width * arrays.cells.size());
     of_face_.resize(width * arrays.faces.size());
@@ -43,7 +48,7 @@ CcgSweeps<Dim, Real>::CcgSweeps(const CcgArrays<Dim>& arrays, const CcgCoefficie
     if (finite.any()) g_change_.resize(g_.size());
     flows_.resize(finite.n_inelastic());
     const bool has_gradients = finite.any() && !finite.takes_ends();
-    if (has_gradients || (viscous && viscous->any())) u_change_.resize(u_.size());
+    if (has_gradients || viscous_ || plastic_) u_change_.resize(u_.size());
     if (has_gradients) relative_change_.resize(of_face_.size());
     element_ = {tables_of(arrays, coefficients), coefficients.units};
     SweepTables<Dim, Real>& tables = element_.tables;
@@ -122,7 +127,7 @@ void CcgSweeps<Dim, Real>::run_sweeps(const LoadCell& load_cell, const BoundaryL
                 return cell_gradients_of_chunk(chunk, result);
         }
     });
-    has_change_ = damps_ = false;
+    has_change_ = steps_ = false;
     keeps_ = nullptr;
     end_ = {};
     advances_ = false;
@@ -252,7 +257,7 @@ template class CcgSweeps<3>;
 // In single precision there are whole steps alone.
 #define ABUT_INSTANTIATE(Dim)                                                                                    \
     template CcgSweeps<Dim, float>::CcgSweeps(const CcgArrays<Dim>&, const CcgCoefficients<Dim, float>&,         \
-                                              const FiniteCells<Dim>&, ViscousCells<Dim>*);                      \
+                                              const FiniteCells<Dim>&, ViscousCells<Dim>*, PlasticCells<Dim>*);  \
     template void CcgSweeps<Dim, float>::gradient(std::span<const Vector<Dim>>, const BoundaryLoad<Dim>&,        \
                                                   const FaceCorrections<Dim>&, std::span<Vector<Dim>>);          \
     template void CcgSweeps<Dim, float>::mean_gradient(const StepEnds<Dim>&, const BoundaryLoad<Dim>&,           \

@@ -14,6 +14,7 @@
 #include "abut/solid/ccg/finite_cells.hpp"
 #include "abut/solid/ccg/kept_ends.hpp"
 #include "abut/solid/ccg/placed_corrections.hpp"
+#include "abut/solid/ccg/plastic_cells.hpp"
 #include "abut/solid/ccg/sweep_elements.hpp"
 #include "abut/solid/ccg/sweep_lists.hpp"
 #include "abut/solid/ccg/sweep_schedule.hpp"
@@ -44,9 +45,9 @@ namespace abut::solid {
 template <int Dim, class Real = double>
 class CcgSweeps {
 public:
-    /// All must outlive the sweeps. Without `viscous` no cell is.
+    /// All must outlive the sweeps. Without `viscous` or `plastic` no cell is.
     CcgSweeps(const CcgArrays<Dim>& arrays, const CcgCoefficients<Dim, Real>& coefficients, const FiniteCells<Dim>& finite,
-              ViscousCells<Dim>* viscous = nullptr);
+              ViscousCells<Dim>* viscous = nullptr, PlasticCells<Dim>* plastic = nullptr);
     CcgSweeps(const CcgSweeps&) = delete;
     CcgSweeps& operator=(const CcgSweeps&) = delete;
 
@@ -143,7 +144,9 @@ private:
     void set_finite_displacement_gradient(std::int32_t c);
     void set_finite_stress(std::int32_t c);
     void load_change(const StepEnds<Dim>& ends);
-    void add_viscous_stress(std::int32_t c);
+    [[nodiscard]] Matrix<Dim> linear_change(std::int32_t c) const;
+    void add_stress(std::int32_t c, const Matrix<Dim>& added);
+    void add_linear_stress(std::int32_t c);
     void take_ends(const StepEnds<Dim>& ends);
     [[nodiscard]] bool is_kept(const KeptEnd<Dim>& kept, std::span<const Vector<Dim>> u,
                                const BoundaryLoad<Dim>& load) const;
@@ -202,9 +205,10 @@ private:
     LargeArray<Real> relative_change_;
     LargeArray<Real> g_change_;
     bool has_change_ = false;
-    // Of damped materials
+    // Of damped materials, and of linear ones that flow; null where there are none
     ViscousCells<Dim>* viscous_;
-    bool damps_ = false;                    // while the sweeps make a step
+    PlasticCells<Dim>* plastic_;
+    bool steps_ = false;                    // while the sweeps make a step of theirs
     double dt_ = 0.0;                       // of that
     std::vector<Vector<Dim>> load_change_;  // of BoundaryLoad::displacement in it; empty: none
     std::vector<Chunk> chunks_;             // one more at the end

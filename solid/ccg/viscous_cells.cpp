@@ -12,7 +12,7 @@ constexpr double simplices_in_a_cube = Dim == 2 ? 2.0 : 6.0;
 
 /// C : strain, without stress on free faces.
 template <int Dim>
-Matrix<Dim> stiffness(const Material& material, const FreeCell<Dim>* free, const Matrix<Dim>& strain) {
+Matrix<Dim> stress_of_rate(const Material& material, const FreeCell<Dim>* free, const Matrix<Dim>& strain) {
     if (free) return condensed_stress(*free, material.lambda(), material.mu(), strain);
     return 2.0 * material.mu() * strain + material.lambda() * strain.trace() * Matrix<Dim>::Identity();
 }
@@ -37,7 +37,7 @@ Matrix<Dim> volume_of_strain(const Material& material, const FreeCell<Dim>* free
 
 /// Adds what a force c (now + before)/2 does in a step whose rate is `now`: `work`. Of it dt/4 c (now + before)^2 is dissipated, and
 /// the rest is lagged: it is the change of dt/4 c rate^2.
-void add(StepLoss& loss, double work, double dissipated) {
+void add_lagged(StepLoss& loss, double work, double dissipated) {
     loss.by_rates += dissipated;
     loss.lagged += work - dissipated;
 }
@@ -73,12 +73,12 @@ Matrix<Dim> ViscousCells<Dim>::stress(std::ptrdiff_t cell, const Matrix<Dim>& g,
     if (material.stiffness_damping > 0.0) {
         const Matrix<Dim> before = of.before.deforms_known ? of.before.strain : of.now.strain;
         const Matrix<Dim> mean = 0.5 * (of.now.strain + before);
-        const Matrix<Dim> of_mean = material.stiffness_damping * stiffness<Dim>(material, free, mean);
+        const Matrix<Dim> of_mean = material.stiffness_damping * stress_of_rate<Dim>(material, free, mean);
         const double measure = dt * of.measure;
         const double most = measure * of_mean.cwiseProduct(mean).sum();  // dt/4 c (now + before)^2
         const double work = measure * of_mean.cwiseProduct(of.now.strain).sum();
         const double first = of.before.deforms_known ? 1.0 : 0.75;  // the lag begins with the first step
-        add(of.of_stress, work, first * most);
+        add_lagged(of.of_stress, work, first * most);
         result += f * of_mean;
     }
     if (material.linear_viscosity > 0.0 || material.quadratic_viscosity > 0.0) {
@@ -112,7 +112,7 @@ Vector<Dim> ViscousCells<Dim>::drag(std::ptrdiff_t cell, double mass, const Vect
     const Vector<Dim> before = of.before.moves_known ? of.before.velocity : of.now.velocity;
     const Vector<Dim> mean = 0.5 * (of.now.velocity + before);
     const double first = of.before.moves_known ? 1.0 : 0.75;
-    add(of.of_drag, damping * mean.dot(motion), first * dt * damping * mean.squaredNorm());
+    add_lagged(of.of_drag, damping * mean.dot(motion), first * dt * damping * mean.squaredNorm());
     return -damping * mean;
 }
 

@@ -23,7 +23,8 @@ public:
     ViscousCells(const ViscousCells&) = delete;
     ViscousCells& operator=(const ViscousCells&) = delete;
 
-    [[nodiscard]] bool any() const { return !cells_.empty(); }
+    /// Whether a body is damped, on any rank.
+    [[nodiscard]] bool any() const { return !index_.empty(); }
     [[nodiscard]] bool contains(std::ptrdiff_t cell) const { return any() && index_[static_cast<std::size_t>(cell)] >= 0; }
     /// Viscous stress (P) of a step in which F - I of a cell changes by `change` about the mean `g`, for small strains 0 [Pa].
     /// `free`: the free faces of the cell, where `g` is of affine ones; null: it has none, or `g` knows where they are.
@@ -68,7 +69,7 @@ private:
     }
 
     std::vector<Material> materials_;
-    std::vector<std::int32_t> index_;  // of each cell; empty without any
+    std::vector<std::int32_t> index_;  // of each cell; empty where no body is damped
     std::vector<Cell> cells_;
 };
 

@@ -15,7 +15,7 @@
 namespace abut::solid {
 namespace {
 
-constexpr int most_iterations = 50;
+constexpr int most_projections = 50;
 constexpr double settled = 1e-15;  // the last turn of Newton's method [rad]
 
 /// Corners of a regular simplex about the origin, as columns: the sum of their outer products is the identity times their
@@ -203,7 +203,7 @@ Matrix<Dim> RigidBodies<Dim>::constrain(Body& body, const Matrix<Dim>& lines, co
         const AxialVector<Dim> rest = axial<Dim>(target - back * turn * body.second_moment);
         const AxialVector<Dim> w = slope.inverse() * rest;
         const double size = w.norm();
-        if (!std::isfinite(size) || iteration == most_iterations)
+        if (!std::isfinite(size) || iteration == most_projections)
             throw Diverged("rigid body " + std::to_string(body.mesh_body) +
                            " turns too far in a step for its distances to be held: shorten the step to 1/10 of a turn.");
         if (size <= settled || (size <= 1e-12 && size >= last)) break;

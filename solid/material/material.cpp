@@ -28,7 +28,8 @@ void check_plasticity(const Material& material, int body) {
     const bool yields = material.law == MaterialLaw::j2;
     for (const auto& [name, value] :
          {Value{"yield_stress", material.yield_stress}, Value{"hardening", material.hardening},
-          Value{"saturation", material.saturation}, Value{"saturation_rate", material.saturation_rate}}) {
+          Value{"saturation", material.saturation}, Value{"saturation_rate", material.saturation_rate},
+          Value{"kinematic_hardening", material.kinematic_hardening}}) {
         require(yields || value == 0.0, body, name, value, "0, as its law is not j2.");
         require(std::isfinite(value) && value >= 0.0, body, name, value, "finite and >= 0.");
     }

@@ -6,13 +6,13 @@
 
 namespace abut::solid {
 
-/// How a body of Kinematics::finite answers to large strains. At small ones, and below the yield stress, all are isotropic and
-/// linear, as other bodies are.
+/// How a body answers to strain. At small strains, and below the yield stress, all are isotropic and linear; large ones, and with
+/// them rubber, are for bodies of Kinematics::finite.
 enum class MaterialLaw {
     st_venant_kirchhoff,  ///< linear in Green's strain: up to strains of some 0.1
     neo_hookean,          ///< rubber: it stiffens without end where it is squeezed
     mooney_rivlin,        ///< the same with a share of the second invariant, `second_share`
-    j2,                   ///< metal: it yields by von Mises's rule at `yield_stress`, hardens, and remembers
+    j2,                   ///< metal: it yields by von Mises's rule at `yield_stress`, hardens, and remembers; of all bodies that deform
 };
 
 /// Isotropic elasticity, and plasticity where the law has it; plane strain in 2D. One for each body.
@@ -31,6 +31,8 @@ struct Material {
     double hardening = 0.0;        ///< [Pa], >= 0: per plastic strain
     double saturation = 0.0;       ///< Voce's rise of the yield stress in the end [Pa], >= 0
     double saturation_rate = 0.0;  ///< per plastic strain [-]; > 0 with `saturation`
+    double kinematic_hardening =
+        0.0;  ///< Prager's: by how much yielding shifts the stresses at which it does [Pa], >= 0; not of finite bodies
 
     // Of bodies that deform, with schemes that take mean forces.
     double mass_damping = 0.0;         ///< Rayleigh's alpha: a force alpha M v against the motion [1/s], >= 0

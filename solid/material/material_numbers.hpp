@@ -44,6 +44,11 @@ inline constexpr std::array material_numbers{
                    &Material::saturation_rate,
                    {.above = 0.0, .zero = true},
                    "of j2: how fast it comes, per equivalent plastic strain"},
+    MaterialNumber{
+        "kinematic_hardening",
+        &Material::kinematic_hardening,
+        {.unit = "Pa", .above = 0.0, .zero = true},
+        "of j2: rise of the stress that shifts the yield surface (Prager), per plastic strain; not of finite bodies"},
     MaterialNumber{"mass_damping",
                    &Material::mass_damping,
                    {.unit = "1/s", .above = 0.0, .zero = true},

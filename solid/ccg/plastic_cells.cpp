@@ -1,0 +1,236 @@
+#include "abut/solid/ccg/plastic_cells.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+namespace abut::solid {
+namespace {
+
+constexpr double free_direction = 1e-10;  // an eigenvalue of B^T C B over the largest, below which it counts as none
+constexpr double no_answer = 1e-12;       // the same of dev C_e dev, over 2 mu
+constexpr int most_root_steps = 60;
+constexpr double two_thirds = 2.0 / 3.0;
+
+/// The sides of the shear components, in their order.
+template <int Dim>
+constexpr std::array<std::pair<int, int>, Dim == 2 ? 1 : 3> shears = [] {
+    if constexpr (Dim == 2)
+        return std::array{std::pair{0, 1}};
+    else
+        return std::array{std::pair{1, 2}, std::pair{0, 2}, std::pair{0, 1}};
+}();
+
+/// Less its mean of the normal components, which are the first three.
+template <class Strain>
+Strain deviator_of(Strain strain) {
+    const double mean = strain.template head<3>().sum() / 3.0;
+    strain.template head<3>().array() -= mean;
+    return strain;
+}
+
+}  // namespace
+
+template <int Dim>
+auto PlasticCells<Dim>::packed(const Matrix<Dim>& tensor) -> Strain {
+    Strain strain = Strain::Zero();
+    for (int i = 0; i < Dim; ++i) strain[i] = tensor(i, i);
+    for (std::size_t k = 0; k < shears<Dim>.size(); ++k) {
+        const auto [i, j] = shears<Dim>[k];
+        strain[3 + static_cast<int>(k)] = (tensor(i, j) + tensor(j, i)) / std::numbers::sqrt2;
+    }
+    return strain;
+}
+
+template <int Dim>
+Matrix<Dim> PlasticCells<Dim>::unpacked(const Strain& strain) {
+    Matrix<Dim> tensor = Matrix<Dim>::Zero();
+    for (int i = 0; i < Dim; ++i) tensor(i, i) = strain[i];
+    for (std::size_t k = 0; k < shears<Dim>.size(); ++k) {
+        const auto [i, j] = shears<Dim>[k];
+        tensor(i, j) = tensor(j, i) = strain[3 + static_cast<int>(k)] / std::numbers::sqrt2;
+    }
+    return tensor;
+}
+
+/// C_e = C - C B (B^T C B)^+ B^T C with the strains of free faces in the columns of B.
+template <int Dim>
+auto PlasticCells<Dim>::response_of(const Material& material, const std::vector<Strain>& free) -> Response {
+    Response response;
+    Stiffness& stiffness = response.stiffness;
+    stiffness = 2.0 * material.mu() * Stiffness::Identity();
+    stiffness.template topLeftCorner<3, 3>().array() += material.lambda();
+    if (!free.empty()) {
+        Eigen::MatrixXd strains(n_strains, static_cast<Eigen::Index>(free.size()));
+        for (std::size_t i = 0; i < free.size(); ++i) strains.col(static_cast<Eigen::Index>(i)) = free[i];
+        const Eigen::MatrixXd stresses = stiffness * strains;
+        const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(strains.transpose() * stresses);
+        const double largest = solver.eigenvalues().maxCoeff();
+        for (Eigen::Index i = 0; i < solver.eigenvalues().size(); ++i) {
+            if (solver.eigenvalues()[i] <= free_direction * largest) continue;
+            const Eigen::VectorXd relaxed = stresses * solver.eigenvectors().col(i);
+            stiffness -= relaxed * relaxed.transpose() / solver.eigenvalues()[i];
+        }
+    }
+    Stiffness of_deviators;
+    for (int j = 0; j < n_strains; ++j)
+        of_deviators.col(j) = deviator_of(Strain(stiffness * deviator_of(Strain(Strain::Unit(j)))));
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, n_strains, n_strains>> solver(
+        Eigen::Matrix<double, n_strains, n_strains>(0.5 * (of_deviators + of_deviators.transpose())));
+    response.axes = solver.eigenvectors();
+    response.values = solver.eigenvalues();
+    for (int i = 0; i < n_strains; ++i)
+        if (response.values[i] <= no_answer * 2.0 * material.mu()) response.values[i] = 0.0;
+    return response;
+}
+
+template <int Dim>
+PlasticCells<Dim>::PlasticCells(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials,
+                                std::span<const Kinematics> kinematics, const FaceConditions<Dim>& conditions,
+                                FreeFaceRule rule)
+    : materials_(materials.begin(), materials.end()) {
+    const auto flows = [&](std::size_t body) {
+        return materials_[body].law == MaterialLaw::j2 && (kinematics.empty() || kinematics[body] != Kinematics::finite);
+    };
+    bool any = false;
+    for (std::size_t body = 0; body < materials_.size(); ++body) {
+        any = any || flows(body);
+        responses_.push_back(response_of(materials_[body], {}));
+    }
+    if (!any) return;
+    index_.assign(static_cast<std::size_t>(mesh.n_cells()), -1);
+    std::vector<std::vector<Strain>> free(index_.size());
+    std::vector<char> is_loaded(static_cast<std::size_t>(boundary_faces(mesh).size()), 0);
+    for (const std::vector<BoundaryFace>& faces : conditions.traction)
+        for (const BoundaryFace b : faces) is_loaded[static_cast<std::size_t>(b)] = 1;
+    for (const BoundaryFace b : boundary_faces(mesh)) {
+        if (rule != FreeFaceRule::local_equilibrium || is_loaded[static_cast<std::size_t>(b)]) continue;
+        const Matrix<Dim> directions = Matrix<Dim>::Identity() - conditions.prescribed[b];
+        const Vector<Dim>& normal = mesh.face_normal[mesh_face(mesh, b)];
+        for (int i = 0; i < Dim; ++i) {
+            const Vector<Dim> direction = directions.col(i);
+            if (!direction.isZero(0.0)) free[cell_of(mesh, b)].push_back(packed(direction * normal.transpose()));
+        }
+    }
+    for (std::int32_t c = 0; c < mesh.n_cells(); ++c) {
+        const auto body = static_cast<std::size_t>(mesh.cell_body[c]);
+        if (!flows(body)) continue;
+        auto number = static_cast<std::int32_t>(body);
+        if (const auto& of_cell = free[static_cast<std::size_t>(c)]; !of_cell.empty()) {
+            number = static_cast<std::int32_t>(responses_.size());
+            responses_.push_back(response_of(materials_[body], of_cell));
+        }
+        index_[static_cast<std::size_t>(c)] = static_cast<std::int32_t>(cells_.size());
+        cells_.push_back({&materials_[body], number, mesh.cell_measure[c], {}, {}, 0.0});
+    }
+}
+
+template <int Dim>
+Matrix<Dim> PlasticCells<Dim>::stress(std::ptrdiff_t cell) const {
+    const Cell& of = at(cell);
+    return unpacked(response(of).stiffness * of.memory.plastic);
+}
+
+/// How far a cell flows (|change of p|) from the trial state xi = dev C_e : (eps - p) - 2/3 H p, and `normal`, its direction at the end:
+/// the root of sum of y^2/(rho + g b)^2 = 1 over the axes, with y = xi along one, b its answer and rho the radius at the end.
+template <int Dim>
+double PlasticCells<Dim>::flow(const Cell& cell, const Strain& trial, Strain& normal) const {
+    const Material& material = *cell.material;
+    const double alpha = cell.memory.equivalent, slope = std::sqrt(two_thirds);
+    const auto radius = [&](double g) { return slope * material.flow_stress(alpha + slope * g); };
+    if (trial.norm() <= radius(0.0)) return 0.0;
+    const Response& of = response(cell);
+    const Strain y = of.axes.transpose() * trial;
+    const Strain b = of.values + two_thirds * material.kinematic_hardening * Strain::Ones();
+    // Of the sum S the root of S^-1/2 = 1, which is nearly a line in g.
+    const auto excess = [&](double g) {
+        const double rho = radius(g), rise = two_thirds * material.hardening_modulus(alpha + slope * g);
+        double sum = 0.0, change = 0.0;
+        for (int k = 0; k < n_strains; ++k) {
+            const double at = y[k] / (rho + g * b[k]);
+            sum += at * at;
+            change -= 2.0 * at * at * (rise + b[k]) / (rho + g * b[k]);
+        }
+        return std::pair{1.0 / std::sqrt(sum) - 1.0, -0.5 * change / (sum * std::sqrt(sum))};
+    };
+    double low = 0.0, high = trial.norm() / (2.0 * material.mu());
+    for (int i = 0; excess(high).first < 0.0; high *= 2.0)
+        if (++i == most_root_steps) return 0.0;  // what a load on a face fixes does not answer to flow
+    double g = 0.0;
+    for (int i = 0; i < most_root_steps; ++i) {
+        const auto [value, change] = excess(g);
+        (value < 0.0 ? low : high) = g;
+        double next = g - value / change;
+        if (!(next >= low && next <= high)) next = 0.5 * (low + high);
+        if (std::abs(next - g) <= 1e-16 * high || next == g) break;
+        g = next;
+    }
+    const double rho = radius(g);
+    Strain end;
+    for (int k = 0; k < n_strains; ++k) end[k] = y[k] / (rho + g * b[k]);
+    normal = of.axes * end;
+    return g;
+}
+
+template <int Dim>
+Matrix<Dim> PlasticCells<Dim>::advance(std::ptrdiff_t cell, const Matrix<Dim>& g_0, const Matrix<Dim>& g_1) {
+    Cell& of = at(cell);
+    const Stiffness& stiffness = response(of).stiffness;
+    const double back = two_thirds * of.material->kinematic_hardening;
+    const auto driving = [&](const Matrix<Dim>& g) {
+        return Strain(deviator_of(Strain(stiffness * (packed(g) - of.memory.plastic))) - back * of.memory.plastic);
+    };
+    of.next = of.memory;
+    of.loss = 0.0;
+    Strain normal;
+    if (const double g = flow(of, driving(g_1), normal); g > 0.0) {
+        of.next.plastic += g * normal;
+        of.next.equivalent += std::sqrt(two_thirds) * g;
+        const double radius = std::sqrt(two_thirds) * of.material->flow_stress(of.next.equivalent);
+        of.loss = 0.5 * of.measure * g * (normal.dot(driving(g_0)) + radius);
+    }
+    return unpacked(stiffness * (0.5 * (of.memory.plastic + of.next.plastic)));
+}
+
+template <int Dim>
+double PlasticCells<Dim>::energy(std::ptrdiff_t cell, const Matrix<Dim>& g) const {
+    const Cell& of = at(cell);
+    const Strain& plastic = of.memory.plastic;
+    return plastic.dot(response(of).stiffness * (0.5 * plastic - packed(g))) +
+           of.material->kinematic_hardening / 3.0 * plastic.squaredNorm();
+}
+
+template <int Dim>
+double PlasticCells<Dim>::out_of_plane_stress(std::ptrdiff_t cell, const Matrix<Dim>& g) const {
+    const Cell& of = at(cell);
+    return of.material->lambda() * g.trace() - (response(of).stiffness * of.memory.plastic)[2];
+}
+
+template <int Dim>
+void PlasticCells<Dim>::end_step() {
+    for (Cell& cell : cells_) cell.memory = cell.next;
+}
+
+template <int Dim>
+void PlasticCells<Dim>::put_memory(std::ptrdiff_t cell, std::vector<double>& values) const {
+    if (!contains(cell)) return;
+    const Memory& memory = at(cell).memory;
+    values.insert(values.end(), memory.plastic.data(), memory.plastic.data() + n_strains);
+    values.push_back(memory.equivalent);
+}
+
+template <int Dim>
+void PlasticCells<Dim>::set_memory(std::ptrdiff_t cell, std::span<const double> values) {
+    Memory& memory = at(cell).memory;
+    memory.plastic = Eigen::Map<const Strain>(values.data());
+    memory.equivalent = values[n_strains];
+    at(cell).next = memory;
+}
+
+template class PlasticCells<2>;
+template class PlasticCells<3>;
+
+}  // namespace abut::solid

@@ -1,0 +1,103 @@
+#pragma once
+// Private to the sources of this layer.
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "abut/mesh/mesh.hpp"
+#include "abut/solid/boundary_conditions.hpp"
+#include "abut/solid/ccg/ccg.hpp"
+#include "abut/solid/kinematics/kinematics.hpp"
+#include "abut/solid/material/material.hpp"
+
+namespace abut::solid {
+
+/// Cells of MaterialLaw::j2 whose strains are linear: they flow by von Mises's rule, with isotropic and kinematic hardening. Per
+/// volume a cell stores, eps being the strain of its displacement gradient and p its plastic strain, both in space,
+///
+///     1/2 eps : C : eps - eps : C_e : p + 1/2 p : C_e : p + H/3 p : p
+///
+/// with C_e, what free faces leave of C. docs/method.md, Metal that yields.
+///
+/// Only a step that has ended is remembered. Functions of different cells may be called from several threads at once.
+template <int Dim>
+class PlasticCells {
+public:
+    /// One material and kinematics per body, the latter empty where all are small. Bodies of Kinematics::finite have none of them.
+    PlasticCells(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials, std::span<const Kinematics> kinematics,
+                 const FaceConditions<Dim>& conditions, FreeFaceRule rule);
+    PlasticCells(const PlasticCells&) = delete;
+    PlasticCells& operator=(const PlasticCells&) = delete;
+
+    /// Whether a body is of them, on any rank.
+    [[nodiscard]] bool any() const { return !index_.empty(); }
+    [[nodiscard]] bool contains(std::ptrdiff_t cell) const { return any() && index_[static_cast<std::size_t>(cell)] >= 0; }
+    /// C_e : p, which stress is less by [Pa].
+    [[nodiscard]] Matrix<Dim> stress(std::ptrdiff_t cell) const;
+    /// Flows in a step from the displacement gradient g_0 to g_1; returns the mean of `stress` at both ends [Pa].
+    [[nodiscard]] Matrix<Dim> advance(std::ptrdiff_t cell, const Matrix<Dim>& g_0, const Matrix<Dim>& g_1);
+    /// The terms of the energy that p is in [J/m^3].
+    [[nodiscard]] double energy(std::ptrdiff_t cell, const Matrix<Dim>& g) const;
+    /// In the plane: the stress out of it [Pa].
+    [[nodiscard]] double out_of_plane_stress(std::ptrdiff_t cell, const Matrix<Dim>& g) const;
+    /// The equivalent plastic strain [-]; 0 elsewhere.
+    [[nodiscard]] double plastic_strain(std::ptrdiff_t cell) const {
+        return contains(cell) ? at(cell).memory.equivalent : 0.0;
+    }
+    /// The same at the end of the step, which may not have ended yet.
+    [[nodiscard]] double end_plastic_strain(std::ptrdiff_t cell) const { return at(cell).next.equivalent; }
+    /// Energy that a cell has dissipated in the step [J].
+    [[nodiscard]] double loss(std::ptrdiff_t cell) const { return contains(cell) ? at(cell).loss : 0.0; }
+    /// The next step begins where this one ends.
+    void end_step();
+
+    /// How many numbers a cell remembers.
+    [[nodiscard]] std::int32_t memory_size(std::ptrdiff_t cell) const { return contains(cell) ? n_strains + 1 : 0; }
+    /// Writes them behind `values`.
+    void put_memory(std::ptrdiff_t cell, std::vector<double>& values) const;
+    void set_memory(std::ptrdiff_t cell, std::span<const double> values);
+
+private:
+    /// Of a symmetric tensor in space; in the plane of one without shear out of it. Products of vectors are those of tensors.
+    static constexpr int n_strains = Dim == 2 ? 4 : 6;
+    using Strain = Eigen::Matrix<double, n_strains, 1, Eigen::DontAlign>;
+    using Stiffness = Eigen::Matrix<double, n_strains, n_strains, Eigen::DontAlign>;
+    [[nodiscard]] static Strain packed(const Matrix<Dim>& tensor);
+    [[nodiscard]] static Matrix<Dim> unpacked(const Strain& strain);
+
+    /// C_e, and the directions in which its deviator answers.
+    struct Response {
+        Stiffness stiffness;
+        Stiffness axes;  // of dev C_e dev, by column
+        Strain values;   // the eigenvalues
+    };
+    [[nodiscard]] static Response response_of(const Material& material, const std::vector<Strain>& free);
+    struct Memory {
+        Strain plastic = Strain::Zero();
+        double equivalent = 0.0;
+    };
+    struct Cell {
+        const Material* material;
+        std::int32_t response;
+        double measure;
+        Memory memory, next;
+        double loss;
+    };
+    [[nodiscard]] double flow(const Cell& cell, const Strain& trial, Strain& normal) const;
+    [[nodiscard]] Cell& at(std::ptrdiff_t cell) {
+        return cells_[static_cast<std::size_t>(index_[static_cast<std::size_t>(cell)])];
+    }
+    [[nodiscard]] const Cell& at(std::ptrdiff_t cell) const {
+        return cells_[static_cast<std::size_t>(index_[static_cast<std::size_t>(cell)])];
+    }
+    [[nodiscard]] const Response& response(const Cell& cell) const {
+        return responses_[static_cast<std::size_t>(cell.response)];
+    }
+
+    std::vector<Material> materials_;
+    std::vector<Response> responses_;  // of each body inside, then of cells with free faces
+    std::vector<std::int32_t> index_;  // of each cell; empty where no body is of them
+    std::vector<Cell> cells_;
+};
+
+}  // namespace abut::solid

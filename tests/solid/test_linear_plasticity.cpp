@@ -1,0 +1,203 @@
+// J2 plasticity of bodies whose strains are linear: small and floating ones.
+#include <array>
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "abut/base/error.hpp"
+#include "abut/contact/obstacle.hpp"
+#include "solid/finite_scenes.hpp"
+
+using namespace abut;
+using namespace abut::test;
+using solid::Kinematics;
+using solid::Material;
+using solid::MaterialLaw;
+
+namespace {
+
+Material metal(double hardening, double kinematic, double saturation = 0.0) {
+    Material material{.young = 1.0, .poisson = 0.3, .density = 1.0, .law = MaterialLaw::j2, .yield_stress = 1e-3};
+    material.hardening = hardening;
+    material.kinematic_hardening = kinematic;
+    material.saturation = saturation;
+    material.saturation_rate = saturation > 0.0 ? 200.0 : 0.0;
+    return material;
+}
+
+std::vector<Material> metals() { return {metal(0.0, 0.0), metal(0.05, 0.0), metal(0.0, 0.05), metal(0.02, 0.03, 5e-4)}; }
+
+/// The radial return of textbooks in space, with linear hardening.
+struct Radial {
+    Material material;
+    Matrix<3> plastic = Matrix<3>::Zero();
+    double alpha = 0.0;
+
+    Matrix<3> step(const Matrix<3>& strain) {
+        const auto deviator = [](const Matrix<3>& a) -> Matrix<3> { return a - a.trace() / 3.0 * Matrix<3>::Identity(); };
+        const double mu = material.mu(), back = 2.0 / 3.0 * material.kinematic_hardening;
+        const Matrix<3> trial = 2.0 * mu * (deviator(strain) - plastic) - back * plastic;
+        const double over = trial.norm() - std::sqrt(2.0 / 3.0) * (material.yield_stress + material.hardening * alpha);
+        if (over > 0.0) {
+            const double gamma = over / (2.0 * mu + back + 2.0 / 3.0 * material.hardening);
+            plastic += gamma * trial / trial.norm();
+            alpha += std::sqrt(2.0 / 3.0) * gamma;
+        }
+        return 2.0 * mu * (deviator(strain) - plastic) +
+               (material.lambda() + 2.0 / 3.0 * mu) * strain.trace() * Matrix<3>::Identity();
+    }
+};
+
+}  // namespace
+
+TEMPLATE_TEST_CASE_SIG("a body that is strained alike everywhere has the stress of the radial return, there and back",
+                       "[solid][material]", ((int Dim), Dim), 2, 3) {
+    for (const Material& material : {metal(0.0, 0.0), metal(0.05, 0.0), metal(0.0, 0.05), metal(0.04, 0.03)})
+        for (const auto& [name, mesh] : boxes<Dim>()) {
+            CAPTURE(name, material.hardening, material.kinematic_hardening);
+            auto options = alone<Dim>(material);
+            options.kinematics = {Kinematics::small};
+            const Matrix<Dim> way = some_gradient<Dim>(5, 6e-3);
+            const auto strain_at = [&](double t) -> Matrix<Dim> { return std::sin(t) * way; };
+            for (const auto& group : mesh.groups)
+                options.boundary.dirichlet.push_back(
+                    {.group = group.name,
+                     .history = [strain_at](double t, const Vector<Dim>& x) -> Vector<Dim> { return strain_at(t) * x; }});
+            solid::Solid<Dim> solid(mesh, options);
+            Radial exact{material};
+            std::vector<double> q_0(solid.size(), 0.0), q_1 = q_0, force(solid.size());
+            constexpr double dt = 0.1;
+            double off = 0.0, largest = 0.0;
+            for (int i = 1; i <= 90; ++i) {  // into flow, back, and into flow on the other side
+                for (std::int32_t c = 0; c < mesh.n_cells(); ++c)
+                    vectors<Dim>(q_1)[c] = strain_at(i * dt) * mesh.cell_centroid[c];
+                solid.mean_force(q_0, q_1, (i - 1) * dt, dt, force);
+                std::swap(q_0, q_1);
+                Matrix<3> strain = Matrix<3>::Zero();
+                const Matrix<Dim> now = strain_at(i * dt);
+                strain.template topLeftCorner<Dim, Dim>() = 0.5 * (now + now.transpose());
+                const Matrix<3> expected = exact.step(strain);
+                (void)solid.potential(q_0);
+                for (std::int32_t c = 0; c < mesh.n_cells(); ++c) {
+                    const Matrix<Dim> in_plane = expected.template topLeftCorner<Dim, Dim>();
+                    raise(off, (solid.stress(c) - in_plane).norm());
+                    if (Dim == 2) raise(off, std::abs(solid.out_of_plane_stress(c) - expected(2, 2)));
+                    raise(off, std::abs(solid.plastic_strain(c) - exact.alpha));
+                    raise(largest, in_plane.norm());
+                }
+            }
+            CHECK(exact.alpha > 2e-3);
+            CHECK(off <= 1e-12 * largest);
+        }
+}
+
+TEMPLATE_TEST_CASE_SIG(
+    "small and floating metal that rings flows, keeps H~ + D, momentum and J~, and feeds no alternating mode",
+    "[solid][material]", ((int Dim), Dim), 2, 3) {
+    for (const Material& material : metals())
+        for (const Kinematics kinematics : {Kinematics::small, Kinematics::floating})
+            for (const auto& [name, mesh] : boxes<Dim>()) {
+                CAPTURE(name, static_cast<int>(kinematics), material.hardening, material.kinematic_hardening);
+                const Motion<Dim> spinning{Vector<Dim>::Constant(0.003),
+                                           some_spin<Dim>(kinematics == Kinematics::small ? 0.0 : 0.01)};
+                TurningScene<Dim> scene(mesh, alone<Dim>(material), {spinning}, 0.9, kinematics, 0.005);
+                double least = 0.0, last = 0.0;
+                for (int step = 0; step < 300; ++step) {
+                    scene.run(1);
+                    raise(least, last - scene.solid.dissipated().in_cells);
+                    last = scene.solid.dissipated().in_cells;
+                }
+                const Drifts drifts = scene.drifts();
+                CHECK(last > 0.02 * scene.ledger.largest_energy());
+                CHECK(least <= 0.0);
+                CHECK(drifts.pseudo_energy <= 1e-13);
+                CHECK(drifts.momentum <= 1e-13);
+                if (kinematics == Kinematics::floating)
+                    CHECK(drifts.pseudo_moment <= 1e-13);
+                else
+                    CHECK(drifts.parasitic <= 1e-13);
+            }
+}
+
+TEST_CASE(
+    "a bar all of whose cells have free edges yields at sigma_y when it is pulled, and back at the sum of its hardening",
+    "[solid][material]") {
+    // Slowly there and back, and damped: uniaxial stress. With E_t the slope of hardening the stress is sigma_y + E_t (eps - eps_y), and
+    // after the turn it yields again after 2 sigma_y where hardening is kinematic.
+    constexpr double modulus = 0.05, tangent = modulus / (1.0 + modulus);
+    for (const CellShape shape : {CellShape::hexahedron, CellShape::tetrahedron}) {
+        Material material = metal(0.0, modulus);
+        material.mass_damping = 0.5;
+        const auto mesh = mesh::structured_box<3>({0.0, 0.0, 0.0}, {3.0, 1.0, 1.0}, {6, 2, 2}, shape);
+        auto options = alone<3>(material);
+        constexpr double duration = 400.0, most = 6e-3;
+        const auto strain_at = [](double t) {
+            return most * (t < 0.5 * duration ? 2.0 * t / duration : 2.0 - 2.0 * t / duration);
+        };
+        const std::array<bool, 3> along{true, false, false};
+        options.boundary.dirichlet = {{.group = "xmin", .constraint = solid::Constraint::components, .components = along},
+                                      {.group = "xmax",
+                                       .constraint = solid::Constraint::components,
+                                       .components = along,
+                                       .history = [&](double t, const Vector<3>&) -> Vector<3> {
+                                           return {3.0 * strain_at(t), 0.0, 0.0};
+                                       }}};
+        TurningScene<3> scene(mesh, options, {moving<3>(Vector<3>::Zero())}, 0.9, Kinematics::small);
+        const auto mean_stress = [&] {
+            (void)scene.solid.potential(scene.memm.q());
+            double sum = 0.0;
+            for (std::int32_t c = 0; c < mesh.n_cells(); ++c) sum += mesh.cell_measure[c] * scene.solid.stress(c)(0, 0);
+            return sum / 3.0;
+        };
+        const double yield = material.yield_stress, at_top = yield + tangent * (most - yield);
+        scene.run_until(0.5 * duration);
+        CAPTURE(static_cast<int>(shape));
+        CHECK(mean_stress() == Approx(at_top).epsilon(0.03));
+        scene.run_until(0.5 * duration * (1.0 + yield / most));  // half of the way that is elastic
+        CHECK(mean_stress() == Approx(at_top - yield).margin(0.05 * yield));
+        scene.run_until(duration);
+        CHECK(mean_stress() == Approx(at_top - 2.0 * yield - tangent * (most - 2.0 * yield)).epsilon(0.03));
+        CHECK(scene.drifts().pseudo_energy <= 1e-12);
+    }
+}
+
+TEMPLATE_TEST_CASE_SIG("metal bodies that collide under the pair potential flow, and keep H~ + D and momentum",
+                       "[solid][material]", ((int Dim), Dim), 2, 3) {
+    for (const Kinematics kinematics : {Kinematics::small, Kinematics::floating}) {
+        Material material = metal(0.05, 0.05);
+        material.yield_stress = 4e-3;
+        auto options = bodies<Dim>(2);
+        options.materials.assign(2, material);
+        options.law = solid::ContactLaw::pair_potential;
+        std::vector<Motion<Dim>> motion(2);
+        mesh::Mesh<Dim> mesh;
+        for (int body = 0; body < 2; ++body) {
+            if constexpr (Dim == 2)
+                motion[body].velocity = disc_velocities[body];
+            else
+                motion[body].velocity = box_velocities[body];
+        }
+        if constexpr (Dim == 2)
+            mesh = two_discs(0.5);
+        else
+            mesh = two_boxes(3);
+        TurningScene<Dim> scene(mesh, options, motion, 0.6, kinematics);
+        scene.run(steps_of_collision<Dim>);
+        CHECK(scene.solid.contact_report().active_pairs_max > 0);
+        CHECK(scene.solid.contact_report().missed_contacts == 0);
+        CHECK(scene.solid.dissipated().in_cells > 1e-3 * scene.ledger.largest_energy());
+        CHECK(scene.drifts().pseudo_energy <= 1e-12);
+        CHECK(scene.drifts().momentum <= 1e-13);
+    }
+}
+
+TEST_CASE("what small metal bodies cannot have is refused by name", "[solid][material]") {
+    const auto mesh = mesh::structured_box<2>({0.0, 0.0}, {1.0, 1.0}, {3, 3}, CellShape::quadrangle);
+    auto options = alone<2>(metal(0.0, 0.1));
+    REQUIRE_THROWS_WITH(solid::Solid<2>(mesh, options), Catch::Contains("kinematic_hardening"));
+    options.kinematics = {Kinematics::rigid};
+    REQUIRE_THROWS_WITH(solid::Solid<2>(mesh, options), Catch::Contains("yields"));
+    options = bodies<2>(1);
+    options.materials = {metal(0.1, 0.0)};
+    options.law = solid::ContactLaw::reconstruction;
+    REQUIRE_THROWS_WITH(solid::Solid<2>(mesh, options), Catch::Contains("pair_potential"));
+}
