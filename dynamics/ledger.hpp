@@ -55,7 +55,7 @@ struct LedgerEntry {
     double friction_energy;       ///< part of `potential` that friction holds [J]
     std::int64_t sticking_faces;  ///< in the last step
     std::int64_t sliding_faces;   ///< the same
-    double material_dissipated;   ///< part of `dissipated` that materials have taken: plastic flow [J]
+    double material_dissipated;   ///< part of `dissipated` that materials have taken as they flow, and bonds that broke [J]
 
     /// Energy that H~ has received since the start: work and jumps of restarts, less dissipation by friction and materials [J].
     [[nodiscard]] double received() const { return work + restart_jumps - dissipated; }

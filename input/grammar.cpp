@@ -51,11 +51,12 @@ std::string grammar() {
            varied("[bodies.NAME]", body_varieties(), body_keys()) + table("[bodies.NAME.refinement]", refinement_keys()) +
            table("[bodies.NAME.BODY], BODY being one of the bodies of `mesh`", part_keys()) +
            table("[[patterns]]", pattern_keys()) + table("[[symmetry]]", symmetry_keys()) +
-           table("[[contact.pairs]]", pair_keys()) + varied("[obstacles.NAME]", obstacle_varieties(), obstacle_keys()) +
-           table("[supports.NAME]", support_keys()) + table("[tractions.NAME]", traction_keys()) +
-           table("[springs.NAME]", spring_keys()) + table("[springs.NAME.from], [springs.NAME.to]", anchor_keys()) +
-           table("[moments.NAME]", moment_keys()) + table("[run]", run_keys()) + table("[contact]", contact_keys()) +
-           table("[output]", output_keys()) + table("[output.probes.NAME]", probe_keys());
+           table("[[contact.pairs]]", pair_keys()) + table("[[bonds]]", bond_keys()) +
+           varied("[obstacles.NAME]", obstacle_varieties(), obstacle_keys()) + table("[supports.NAME]", support_keys()) +
+           table("[tractions.NAME]", traction_keys()) + table("[springs.NAME]", spring_keys()) +
+           table("[springs.NAME.from], [springs.NAME.to]", anchor_keys()) + table("[moments.NAME]", moment_keys()) +
+           table("[run]", run_keys()) + table("[contact]", contact_keys()) + table("[output]", output_keys()) +
+           table("[output.probes.NAME]", probe_keys());
 }
 
 }  // namespace abut::input

@@ -30,6 +30,7 @@ struct Variety {
 [[nodiscard]] const Keys<PairSettings>& pair_keys();
 [[nodiscard]] const Keys<PatternSettings>& pattern_keys();
 [[nodiscard]] const Keys<SymmetrySettings>& symmetry_keys();
+[[nodiscard]] const Keys<BondSettings>& bond_keys();
 [[nodiscard]] const Keys<ObstacleSettings>& obstacle_keys();
 [[nodiscard]] const Keys<SupportSettings>& support_keys();
 [[nodiscard]] const Keys<TractionSettings>& traction_keys();

@@ -207,6 +207,21 @@ void take_friction_from_mirrors(run::Scene<Dim>& scene, const Settings& settings
             scene.solid.body_friction.push_back({{body, scene.mesh.n_bodies() + static_cast<std::int32_t>(i)}, {}});
 }
 
+/// Sides by their numbers, as pairs have them.
+template <int Dim>
+void add_bonds(run::Scene<Dim>& scene, const Settings& settings, std::vector<Fault>& faults) {
+    const Names<Dim> names(scene.mesh, settings.bodies, faults);
+    const PairSides<Dim> sides(scene, settings, faults);
+    for (const BondSettings& bond : settings.bonds) {
+        std::vector<std::int32_t> numbers;
+        for (const std::string& name : bond.bodies)
+            if (const auto number = names.body(name, bond.where, "bonds.bodies")) numbers.push_back(*number);
+        for (const std::string& name : bond.groups)
+            if (const auto number = sides.group(name, bond.where, "bonds.groups")) numbers.push_back(*number);
+        if (numbers.size() == 2) scene.solid.bonds.push_back({.sides = {numbers[0], numbers[1]}, .strength = bond.strength});
+    }
+}
+
 template <int Dim>
 void add_outputs(run::Scene<Dim>& scene, const Settings& settings, std::vector<Fault>& faults) {
     const Names<Dim> names(scene.mesh, settings.bodies, faults);
@@ -236,6 +251,7 @@ run::Scene<Dim> make_scene(const Settings& settings, std::vector<Fault>& faults)
     add_bodies(scene, settings, faults);
     add_pairs(scene, settings, faults);
     take_friction_from_mirrors(scene, settings);
+    add_bonds(scene, settings, faults);
     add_loads(scene, settings, faults);
     add_obstacles(scene, settings, faults);
     add_outputs(scene, settings, faults);

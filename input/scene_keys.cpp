@@ -51,30 +51,41 @@ std::optional<std::vector<std::string>> names(Reader& reader, const Node& node, 
     return all;
 }
 
-Key<Settings> pairs() {
-    const auto take = [](Settings& settings, const Node& node, const std::string& key, Reader& reader) {
-        if (node.type != Node::Type::array) return reader.wrong_type(node, key, "tables [[contact.pairs]]");
+/// Tables [[name]], each of two sides: bodies and groups together.
+template <class Section>
+Key<Settings> tables_of_two(const char* name, const char* help, const Keys<Section>& (*keys)(),
+                            std::vector<Section> Settings::*member, const char* examples) {
+    const auto take = [keys, member, examples](Settings& settings, const Node& node, const std::string& key,
+                                               Reader& reader) {
+        if (node.type != Node::Type::array) return reader.wrong_type(node, key, "tables [[" + key + "]]");
         for (std::size_t i = 0; i < node.items.size(); ++i) {
             const std::string path = key + "[" + std::to_string(i) + "]";
             if (!reader.is_table(node.items[i], path)) continue;
-            PairSettings pair;
-            pair.where = node.items[i].where;
+            Section section;
+            section.where = node.items[i].where;
             const std::size_t n_faults = reader.faults().size();
-            read_table(pair, node.items[i], path, pair_keys(), reader);
-            const std::size_t n_sides = pair.bodies.size() + pair.groups.size();
+            read_table(section, node.items[i], path, keys(), reader);
+            const std::size_t n_sides = section.bodies.size() + section.groups.size();
             if (n_sides == 2)
-                settings.pairs.push_back(std::move(pair));
+                (settings.*member).push_back(std::move(section));
             else if (reader.faults().size() == n_faults)
-                reader.fault(node.items[i],
-                             path + ": bodies and groups name " + std::to_string(n_sides) +
-                                 " together, 2 are needed: bodies = [\"left\", \"floor\"], groups = [\"left.xmin\", "
-                                 "\"right.xmax\"], or one of each.");
+                reader.fault(node.items[i], path + ": bodies and groups name " + std::to_string(n_sides) +
+                                                " together, 2 are needed: " + examples + ", or one of each.");
         }
     };
-    return {.name = "pairs",
-            .value = "tables",
-            .help = "two bodies, obstacles or groups of faces with a law of friction of their own, [[contact.pairs]]",
-            .take = take};
+    return {.name = name, .value = "tables", .help = help, .take = take};
+}
+
+Key<Settings> pairs() {
+    return tables_of_two(
+        "pairs", "two bodies, obstacles or groups of faces with a law of friction of their own, [[contact.pairs]]",
+        pair_keys, &Settings::pairs, "bodies = [\"left\", \"floor\"], groups = [\"left.xmin\", \"right.xmax\"]");
+}
+
+Key<Settings> bonds() {
+    return tables_of_two("bonds", "two bodies or groups of faces that are glued where they touch at rest, [[bonds]]",
+                         bond_keys, &Settings::bonds,
+                         "bodies = [\"left\", \"right\"], groups = [\"left.xmax\", \"right.xmin\"]");
 }
 
 }  // namespace
@@ -86,7 +97,8 @@ const Keys<Settings>& top_keys() {
         Of::text("comment", &Settings::comment, "text", "what the scene is about, for the report"),
         Of::vector("gravity", &Settings::gravity, "m/s^2", "0", "acceleration of all bodies"),
         Of::number("energy_scale", &Settings::energy_scale, {.unit = "J", .above = 0.0, .zero = true},
-                   "what energies are measured with; 0: the largest of kinetic energy, V and work from outside so far")};
+                   "what energies are measured with; 0: the largest of kinetic energy, V and work from outside so far"),
+        bonds()};
     return keys;
 }
 
@@ -126,6 +138,18 @@ const Keys<PairSettings>& pair_keys() {
         all.insert(all.end(), of_friction.begin(), of_friction.end());
         return all;
     }();
+    return keys;
+}
+
+const Keys<BondSettings>& bond_keys() {
+    static const Keys<BondSettings> keys = {
+        key_of<BondSettings>("bodies", "names", "two bodies; one of them beside one of `groups`", &BondSettings::bodies,
+                             names),
+        key_of<BondSettings>("groups", "names",
+                             "two groups of boundary faces, \"<body>.<group>\"; one of them beside one of `bodies`",
+                             &BondSettings::groups, names),
+        Make<BondSettings>::number("strength", &BondSettings::strength, {.unit = "Pa", .above = 0.0},
+                                   "largest traction that it bears, pressure not counted; not given: it holds for ever")};
     return keys;
 }
 

@@ -183,6 +183,14 @@ struct PairSettings {
     contact::Friction friction;
 };
 
+/// Two bodies or groups of boundary faces that are glued: `bodies` and `groups` together name two.
+struct BondSettings {
+    std::vector<std::string> bodies;
+    std::vector<std::string> groups;
+    std::string where;                                          ///< Fault::where
+    double strength = std::numeric_limits<double>::infinity();  ///< [Pa]
+};
+
 struct ProbeSettings : Named {
     std::string body;
     std::optional<Vector<3>> point;  ///< [m]
@@ -200,6 +208,7 @@ struct Settings {
     bool contact = true;
     std::vector<IgnoredPair> ignored_pairs;
     std::vector<PairSettings> pairs;
+    std::vector<BondSettings> bonds;
     std::vector<MaterialSettings> materials;
     std::vector<BodySettings> bodies;
     std::vector<PatternSettings> patterns;

@@ -53,6 +53,7 @@ constexpr std::array names_of_cpp = std::to_array<Name>({
     {"Solid::own_cells", "own_cells"},
     {"SolidOptions::acceleration", "gravity"},
     {"SolidOptions::body_load", "the load on its cells"},
+    {"SolidOptions::bonds", "[[bonds]]"},
     {"SolidOptions::contact", "contact.enabled = true"},
     {"SolidOptions::ignored_pairs", "contact.ignored_pairs"},
     {"SolidOptions::body_friction", "contact.pairs"},

@@ -1,5 +1,7 @@
 #pragma once
+#include <array>
 #include <cstdint>
+#include <limits>
 
 #include "abut/base/vector.hpp"
 
@@ -28,6 +30,14 @@ struct Spring {
     double stiffness = 0.0;  ///< k [N/m], >= 0
     double length = 0.0;     ///< L [m], >= 0
     double damping = 0.0;    ///< c [N s/m], >= 0
+};
+
+/// Faces that are glued where they lie on each other at rest, whether their meshes match or not: of two bodies or of two groups.
+/// They have no contact with each other. docs/method.md, Bonds.
+struct Bond {
+    std::array<std::int32_t, 2> sides;  ///< numbered as BodyFriction::bodies, without obstacles
+    /// Largest traction that it bears [Pa], of which pressure is no part; infinity: it holds for ever
+    double strength = std::numeric_limits<double>::infinity();
 };
 
 /// A moment on a body as a whole, as of a drive or a brake: a constant part and one against its spin. Its work is booked.

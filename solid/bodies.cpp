@@ -220,9 +220,14 @@ ContactLaw Bodies<Dim>::law() const {
             mesh_.name +
             ": a body or an obstacle may turn, and the modified reconstruction knows normals at rest alone. Choose "
             "ContactLaw::pair_potential or ContactLaw::automatic.");
+    if (!options_.bonds.empty() && options_.law == ContactLaw::reconstruction)
+        throw BadInput(mesh_.name +
+                       ": bonds are given, which the modified reconstruction does not know. Choose "
+                       "ContactLaw::pair_potential or ContactLaw::automatic.");
     if (options_.law != ContactLaw::automatic) return options_.law;
-    return !any_turns && asks_for(ContactLaw::reconstruction, options_) ? ContactLaw::reconstruction
-                                                                        : ContactLaw::pair_potential;
+    return !any_turns && options_.bonds.empty() && asks_for(ContactLaw::reconstruction, options_)
+               ? ContactLaw::reconstruction
+               : ContactLaw::pair_potential;
 }
 
 // Cells and points ---------------------------------------------------------------------------------------------------

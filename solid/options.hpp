@@ -41,6 +41,7 @@ struct SolidOptions {
         body_load;  ///< force density [N/m^3], constant in time; empty: none
     std::vector<Spring<Dim>> springs;
     std::vector<BodyMoment<Dim>> moments;
+    std::vector<Bond> bonds;
     std::optional<contact::ContactOptions> contact;  ///< empty: bodies pass through each other, at no cost
     ContactLaw law = ContactLaw::automatic;
     geometry::FacingFade facing;                         ///< of `pair_potential` (contact::NodalOptions)

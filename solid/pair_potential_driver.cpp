@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <tuple>
 #include <utility>
 
 #include "abut/base/error.hpp"
@@ -33,8 +34,36 @@ std::vector<std::array<std::int32_t, 2>> ignored_pairs(const Bodies<Dim>& bodies
     return pairs;
 }
 
+/// All pairs of faces but those of which one is bonded to the body of the other, as the bonds are when it is asked.
 template <int Dim>
-contact::NodalOptions nodal_options(const Bodies<Dim>& bodies, const CornerSurface<Dim>& corners) {
+std::function<bool(contact::Face, contact::Face)> wanted_beside(const Bodies<Dim>& bodies, const CornerSurface<Dim>& corners,
+                                                                const Bonds<Dim>& bonds) {
+    if (!bonds.any()) return {};
+    using Bonded = std::tuple<BoundaryFace, std::int32_t, std::size_t>;  // a face, a body that it is bonded to, and where
+    std::vector<Bonded> bonded;
+    const mesh::Mesh<Dim>& mesh = bodies.mesh();
+    for (std::size_t place = 0; place < bonds.places().size(); ++place)
+        for (std::size_t side = 0; side < 2; ++side) {
+            const auto& faces = bonds.places()[place].faces;
+            bonded.emplace_back(faces[side], mesh.cell_body[cell_of(mesh, faces[1 - side])], place);
+        }
+    std::ranges::sort(bonded);
+    return [bonded = std::move(bonded), &corners, &mesh, &bonds](contact::Face face_1, contact::Face face_2) {
+        const BoundaryFace b_1 = corners.mesh_boundary(face_1), b_2 = corners.mesh_boundary(face_2);
+        if (b_1 == no_face || b_2 == no_face) return true;
+        const auto is_bonded_to = [&](BoundaryFace face, BoundaryFace other) {
+            const std::int32_t body = mesh.cell_body[cell_of(mesh, other)];
+            for (auto at = std::ranges::lower_bound(bonded, Bonded(face, body, 0));
+                 at != bonded.end() && std::get<0>(*at) == face && std::get<1>(*at) == body; ++at)
+                if (!bonds.is_broken(std::get<2>(*at))) return true;
+            return false;
+        };
+        return !is_bonded_to(b_1, b_2) && !is_bonded_to(b_2, b_1);
+    };
+}
+
+template <int Dim>
+contact::NodalOptions nodal_options(const Bodies<Dim>& bodies, const CornerSurface<Dim>& corners, const Bonds<Dim>& bonds) {
     const SolidOptions<Dim>& options = bodies.deformable_options();
     const contact::ContactOptions& contact = *options.contact;
     contact::CandidateOptions search = contact.search;
@@ -46,14 +75,15 @@ contact::NodalOptions nodal_options(const Bodies<Dim>& bodies, const CornerSurfa
             .compression_limit = contact.compression_limit,
             .friction = friction_between(options, bodies.mesh().n_bodies(), corners.bodies_of_faces(),
                                          [&](std::size_t group) { return corners.faces_in_group(group); }),
-            .wanted = {}};
+            .wanted = wanted_beside(bodies, corners, bonds)};
 }
 
 }  // namespace
 
 template <int Dim>
 PairPotentialDriver<Dim>::PairPotentialDriver(const Bodies<Dim>& bodies, Ccg<Dim>& ccg, const Loads<Dim>& loads,
-                                              const BodyFrames<Dim>& frames, SolidTimes& times, const RankPart<Dim>& part)
+                                              const BodyFrames<Dim>& frames, SolidTimes& times, const RankPart<Dim>& part,
+                                              const Bonds<Dim>& bonds)
     : bodies_(bodies),
       ccg_(ccg),
       loads_(loads),
@@ -62,7 +92,7 @@ PairPotentialDriver<Dim>::PairPotentialDriver(const Bodies<Dim>& bodies, Ccg<Dim
       ranks_(part.ranks()),
       obstacles_(bodies.deformable_options().obstacles),
       corners_(bodies, ccg, frames, obstacles_, part),
-      contact_(corners_.for_contact(), nodal_options(bodies, corners_), corners_.sharing()),
+      contact_(corners_.for_contact(), nodal_options(bodies, corners_, bonds), corners_.sharing()),
       all_(corners_.list_all()),
       x_0_(corners_.rest()),
       x_1_(x_0_),

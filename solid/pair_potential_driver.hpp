@@ -8,6 +8,7 @@
 
 #include "abut/contact/nodal_contact.hpp"
 #include "abut/solid/bodies.hpp"
+#include "abut/solid/bonds.hpp"
 #include "abut/solid/contact_driver.hpp"
 #include "abut/solid/contact_patches.hpp"
 #include "abut/solid/corner_surface.hpp"
@@ -20,9 +21,9 @@ template <int Dim>
 class PairPotentialDriver final : public ContactDriver<Dim> {
 public:
     /// All arguments must outlive the driver; `frames` are led along each step before it. Where the time goes is added to
-    /// `times`. On several ranks each does its share of the pairs, and all that places nodes is a call of all. Throws as contact::NodalContact, and BadInput for a choice of ContactOptions that is of another law.
+    /// `times`. On several ranks each does its share of the pairs, and all that places nodes is a call of all. Faces that are bonded do not touch the bodies that they are bonded to, until all of it is broken. Throws as contact::NodalContact, and BadInput for a choice of ContactOptions that is of another law.
     PairPotentialDriver(const Bodies<Dim>& bodies, Ccg<Dim>& ccg, const Loads<Dim>& loads, const BodyFrames<Dim>& frames,
-                        SolidTimes& times, const RankPart<Dim>& part);
+                        SolidTimes& times, const RankPart<Dim>& part, const Bonds<Dim>& bonds);
 
     void follow(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1, double cell_motion, double time,
                 double dt) override;

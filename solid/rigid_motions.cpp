@@ -7,6 +7,7 @@
 
 #include "abut/base/decompositions.hpp"
 #include "abut/base/messages.hpp"
+#include "abut/solid/bond_places.hpp"
 
 namespace abut::solid {
 namespace {
@@ -58,7 +59,7 @@ Motions<Dim> motions_at(const Frame<Dim>& frame, const Vector<Dim>& x) {
     return result;
 }
 
-/// How firmly motions are held: half of |what prescribed displacements and closed pairs take out of them|^2.
+/// How firmly motions are held: half of |what prescribed displacements, closed pairs and bonds take out of them|^2.
 template <int Dim>
 Eigen::MatrixXd hold(Solid<Dim>& solid, std::span<const double> q, const std::vector<Frame<Dim>>& frame) {
     const mesh::Mesh<Dim>& mesh = solid.mesh();
@@ -85,6 +86,15 @@ Eigen::MatrixXd hold(Solid<Dim>& solid, std::span<const double> q, const std::ve
         add(pair.face_1, -1.0);
         add(pair.face_2, 1.0);
         result += row * row.transpose();
+    }
+    for (const BondPlace<Dim>& place : solid.bond_places()) {
+        Eigen::MatrixXd jump = Eigen::MatrixXd::Zero(Dim, n);
+        for (std::size_t side = 0; side < 2; ++side) {
+            const std::int32_t body = body_at(place.faces[side]);
+            jump.middleCols<n_motions<Dim>>(Eigen::Index{body} * n_motions<Dim>) +=
+                (side == 0 ? -1.0 : 1.0) * motions_at(frame[static_cast<std::size_t>(body)], place.position);
+        }
+        result += jump.transpose() * jump;
     }
     return result;
 }

@@ -8,6 +8,7 @@
 #include "abut/solid/bodies.hpp"
 #include "abut/solid/body_cells.hpp"
 #include "abut/solid/body_rotation.hpp"
+#include "abut/solid/bonds.hpp"
 #include "abut/solid/frame_loads.hpp"
 #include "abut/solid/law_options.hpp"
 #include "abut/solid/loads.hpp"
@@ -36,6 +37,7 @@ void check_for_ranks(const dynamics::Ranks& ranks, const mesh::Mesh<Dim>& mesh, 
                            " has no cells in the part of a rank. Give each rank the whole of it (solid::part_of).");
     const bool from_outside = std::ranges::any_of(options.boundary.traction, &TractionCondition<Dim>::from_outside);
     dynamics::refuse_ranks(ranks, {{"a load from outside", from_outside},
+                                   {"bonds", !options.bonds.empty()},
                                    {"a bulk in single precision", options.precision == Precision::single_precision},
                                    {"a bulk on a device", options.device != StepDevice::host}});
 }
@@ -92,6 +94,7 @@ Solid<Dim>::Solid(const mesh::Mesh<Dim>& mesh, SolidOptions<Dim> options, const 
     const MeanForce mean_force = options_.finite.mean_force;
     if (bodies_->any_finite() && (mean_force == MeanForce::closed_trapezoid || mean_force == MeanForce::automatic))
         closure_ = std::make_unique<TrapezoidClosure<Dim>>(*bodies_, *part_, ccg_);
+    bonds_ = std::make_unique<Bonds<Dim>>(*bodies_, ccg_, *frames_);
     if (!options_.contact) return;
     const ContactLaw law = bodies_->law();
     refuse_choices_of_other_law(law, options_);
@@ -100,7 +103,7 @@ Solid<Dim>::Solid(const mesh::Mesh<Dim>& mesh, SolidOptions<Dim> options, const 
                        ": a body yields (law = \"j2\"), which is not made under the modified reconstruction. Take law = "
                        "\"pair_potential\" (contact.law), or another material.");
     if (law == ContactLaw::pair_potential) {
-        contact_ = std::make_unique<PairPotentialDriver<Dim>>(*bodies_, ccg_, *loads_, *frames_, times_, *part_);
+        contact_ = std::make_unique<PairPotentialDriver<Dim>>(*bodies_, ccg_, *loads_, *frames_, times_, *part_, *bonds_);
     } else {
         contact_ = std::make_unique<ReconstructionDriver<Dim>>(mesh, options_, ccg_, *loads_, times_, *part_);
     }
@@ -168,7 +171,8 @@ void Solid<Dim>::to_force(std::span<const Vector<Dim>> q_0, std::span<const Vect
     if (bodies_->any_rigid()) rigid_to_force(gradient);
     const auto cells = gradient.first(static_cast<std::size_t>(bodies_->n_cells()));
     if (!frames_->any_turns()) return loads_->to_force(cells);
-    const auto pushes = frame_loads_->pushes(contact_ ? contact_->pushes() : std::span<const BodyPush<Dim>>{});
+    const auto pushes =
+        frame_loads_->pushes(bonds_->pushes(contact_ ? contact_->pushes() : std::span<const BodyPush<Dim>>{}));
     frames_->to_force(of_cells(q_0), of_cells(q_1), pushes, loads_->body_force(), cells);
 }
 
@@ -214,7 +218,9 @@ void Solid<Dim>::force(std::span<const double> q, std::span<double> force) {
     const auto gradient = result_here(force);
     frames_->stand_at(of_cells(u));
     if (contact_) contact_->evaluate(u, time_);
+    bonds_->stand_at(u, loads_->end());
     ccg_.gradient(in_frames(u, all_cells_), loads_->end(), corrections(), gradient);
+    bonds_->add_gradient(gradient);
     to_force(u, u, gradient);
     if (point_loads_->any())
         point_loads_->add_at(
@@ -232,20 +238,21 @@ template <int Dim>
 double Solid<Dim>::potential_here(std::span<const Vector<Dim>> u) {
     frames_->stand_at(of_cells(u));
     if (contact_) contact_->evaluate(u, time_);
-    double energy = stored_energy(u) - loads_->body_work(of_cells(u));
+    double energy = stored_energy(u, loads_->end()) - loads_->body_work(of_cells(u));
     if (contact_) energy += contact_->energy();
     energy += point_loads_->energy(u);
     for (auto i = static_cast<std::size_t>(bodies_->n_cells()); i < u.size(); ++i) energy -= rigid_force_[i].dot(u[i]);
     return energy;
 }
 
-/// Less the work of tractions.
+/// In cells and bonds, less the work of tractions, where the frames stand.
 template <int Dim>
-double Solid<Dim>::stored_energy(std::span<const Vector<Dim>> u) {
-    const BoundaryLoad<Dim>& load = loads_->end();
+double Solid<Dim>::stored_energy(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load) {
+    bonds_->stand_at(u, load);
     const auto in_frame = in_frames(u, all_cells_);
     const std::vector<double> of_cells = ccg_.cell_energies(in_frame, load, corrections());
-    const double stored = part_->sum_of_cells([&](std::int32_t c) { return of_cells[static_cast<std::size_t>(c)]; });
+    const double stored =
+        bonds_->energy() + part_->sum_of_cells([&](std::int32_t c) { return of_cells[static_cast<std::size_t>(c)]; });
     const BoundaryConditions<Dim>& conditions = bodies_->deformable_options().boundary;
     if (conditions.dirichlet.empty() && conditions.traction.empty()) return stored;
     return stored - part_->fold_faces(0.0, [&](BoundaryFace face) { return ccg_.traction_work(face, load); });
@@ -261,6 +268,22 @@ void Solid<Dim>::stiffness_product(std::span<const double> q, std::span<double> 
     take_result(product);
 }
 
+/// dV/du of some cells; where there are bonds of all, since a bonded face answers to cells of both sides.
+template <int Dim>
+void Solid<Dim>::evaluate_patch(std::span<const std::int32_t> cells, std::span<const Vector<Dim>> u,
+                                std::span<Vector<Dim>> gradient) {
+    if (bonds_->any()) {
+        std::vector<Vector<Dim>> of_all(static_cast<std::size_t>(bodies_->n_cells()));
+        bonds_->stand_at(u, loads_->end());
+        ccg_.gradient(in_frames(u, all_cells_), loads_->end(), corrections(), of_all);
+        bonds_->add_gradient(of_all);
+        for (std::size_t i = 0; i < cells.size(); ++i) gradient[i] = of_all[static_cast<std::size_t>(cells[i])];
+        return;
+    }
+    if (!std::ranges::equal(cells, patch_region_.cells)) patch_region_ = ccg_.region_of_cells(cells);
+    ccg_.evaluate_cells(patch_region_, in_frames(u, patch_region_.input_cells), loads_->end(), corrections(), gradient);
+}
+
 template <int Dim>
 void Solid<Dim>::end_force_on(std::span<const std::int32_t> points, std::span<const double> q,
                               std::span<Vector<Dim>> force) {
@@ -271,10 +294,7 @@ void Solid<Dim>::end_force_on(std::span<const std::int32_t> points, std::span<co
     const auto u = state_here(q);
     frames_->stand_at_end();
     if (contact_) contact_->evaluate_last_end(u);
-    if (!cells.empty()) {
-        if (!std::ranges::equal(cells, patch_region_.cells)) patch_region_ = ccg_.region_of_cells(cells);
-        ccg_.evaluate_cells(patch_region_, in_frames(u, patch_region_.input_cells), loads_->end(), corrections(), force);
-    }
+    if (!cells.empty()) evaluate_patch(cells, u, force);
     for (std::size_t i = 0; i < cells.size(); ++i)
         force[i] = loads_->force_on(cells[i], frames_->point_to_space(cells[i], force[i]));
     if (cells.size() == here.size() && !point_loads_->any()) return;
@@ -288,8 +308,8 @@ void Solid<Dim>::end_force_on(std::span<const std::int32_t> points, std::span<co
 }
 
 template <int Dim>
-FaceCorrections<Dim> Solid<Dim>::corrections() const {
-    return contact_ ? contact_->corrections() : FaceCorrections<Dim>{};
+FaceCorrections<Dim> Solid<Dim>::corrections() {
+    return bonds_->corrections(contact_ ? contact_->corrections() : FaceCorrections<Dim>{});
 }
 
 // Rigid bodies -------------------------------------------------------------------------------------------------------

@@ -48,6 +48,10 @@ struct OwnCells {
 template <int Dim>
 class Bodies;
 template <int Dim>
+struct BondPlace;
+template <int Dim>
+class Bonds;
+template <int Dim>
 class BodyFrames;
 template <int Dim>
 class BodyRotation;
@@ -145,7 +149,7 @@ public:
     [[nodiscard]] double potential(std::span<const double> q);
     /// Work of prescribed displacements, of changing tractions and of moving obstacles so far [J].
     [[nodiscard]] double work() const { return work_; }
-    /// Energy that materials have dissipated so far, by flow, damping and viscosity [J].
+    /// Energy that materials have dissipated so far by flow, damping and viscosity, and bonds that broke; friction is not counted [J].
     [[nodiscard]] StepLoss dissipated() const { return dissipated_; }
     /// The linear part alone, without loads and contact: K q [N]; for the stable step.
     void stiffness_product(std::span<const double> q, std::span<double> product);
@@ -228,6 +232,11 @@ public:
     [[nodiscard]] std::vector<contact::BlindCorner<Dim>> blind_corners() const;
     /// Edges of two bodies that would cross unseen; nothing without contact. contact/unseen_edges.hpp.
     [[nodiscard]] std::optional<contact::EdgePair<Dim>> unseen_edges() const;
+    /// Where faces are bonded, whether they are still or not. solid/bond_places.hpp.
+    [[nodiscard]] std::span<const BondPlace<Dim>> bond_places() const;
+    [[nodiscard]] bool is_broken(std::size_t bond_place) const;
+    /// The part of the area of all bonds that is broken [-]; 0 without bonds.
+    [[nodiscard]] double broken_share() const;
     [[nodiscard]] const SolidTimes& times() const { return times_; }
     /// How far each body has turned in q (n_bodies) [rad], 0 to pi: the angle of the nearest rotation. One of
     /// Kinematics::small grows by 1/cos of it, without a force against that. docs/limits.md.
@@ -277,7 +286,7 @@ private:
     [[nodiscard]] std::span<Vector<Dim>> result_here(std::span<double> of_points);
     void take_result(std::span<double> of_points) const;
     [[nodiscard]] double potential_here(std::span<const Vector<Dim>> u);
-    [[nodiscard]] double stored_energy(std::span<const Vector<Dim>> u);
+    [[nodiscard]] double stored_energy(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load);
     void evaluate_contact(std::span<const double> q);
     void meet_other_ranks();
 
@@ -296,10 +305,14 @@ private:
     [[nodiscard]] std::span<const Vector<Dim>> in_frames(std::span<const Vector<Dim>> q,
                                                          std::span<const std::int32_t> cells);
     void to_force(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1, std::span<Vector<Dim>> gradient);
+    void evaluate_patch(std::span<const std::int32_t> cells, std::span<const Vector<Dim>> u,
+                        std::span<Vector<Dim>> gradient);
     void require_no_collapse();
     void add_work(double share);
-    void finish_step(const Ends& ends, double time, double dt, contact::TakenForce take, std::span<Vector<Dim>> gradient,
-                     std::span<double> force);
+    void finish_step(const Ends& ends, double time, double dt, contact::TakenForce take, double share,
+                     std::span<Vector<Dim>> gradient, std::span<double> force);
+    [[nodiscard]] double energy_of_bonds(std::span<const std::size_t> places, const Ends& ends,
+                                         const BoundaryLoad<Dim>& start_load);
     void end_step(double time);
     void book_losses();
     void save_memory(StateWriter& state) const;
@@ -308,7 +321,7 @@ private:
     [[nodiscard]] StepEnds<Dim> step_ends(const Ends& ends, const BoundaryLoad<Dim>& start_load, double dt);
     void add_drag(const Ends& ends, double dt, std::span<Vector<Dim>> force);
     void add_contact_impulse(const dynamics::FreeFlight& flight, double time, double dt, std::span<Vector<Dim>> impulse);
-    [[nodiscard]] FaceCorrections<Dim> corrections() const;
+    [[nodiscard]] FaceCorrections<Dim> corrections();
 
     const mesh::Mesh<Dim>& mesh_;
     SolidOptions<Dim> options_;
@@ -330,7 +343,8 @@ private:
     std::unique_ptr<TrapezoidClosure<Dim>> closure_;  // null where no mean force needs one
     std::unique_ptr<ContactDriver<Dim>> contact_;     // null without contact
     std::unique_ptr<LocalLevels<Dim>> levels_;        // null without local steps
-    LargeArray<double> midpoint_;                     // in the frames, packed; empty where no body turns
+    std::unique_ptr<Bonds<Dim>> bonds_;
+    LargeArray<double> midpoint_;  // in the frames, packed; empty where no body turns
     std::vector<Vector<Dim>> in_frames_;
     std::vector<Vector<Dim>> ends_in_frames_[2];  // of a step; empty where no damped body turns
     std::vector<std::int32_t> all_cells_;         // that deform

@@ -9,6 +9,7 @@
 #include "abut/base/messages.hpp"
 #include "abut/base/parallel.hpp"
 #include "abut/solid/bodies.hpp"
+#include "abut/solid/bonds.hpp"
 #include "abut/solid/rank_part.hpp"
 #include "abut/solid/solid.hpp"
 
@@ -53,7 +54,14 @@ Extremes of_ranks(const dynamics::Ranks& ranks, const Extremes& here) {
 /// Gradients of bodies of Kinematics::finite are linear for tiny displacements alone; powers of two cost no digits.
 template <int Dim>
 void Solid<Dim>::stiffness_of_cells(std::span<const Vector<Dim>> u, std::span<Vector<Dim>> result) {
-    if (!bodies_->any_finite()) return ccg_.gradient(u, ccg_.load_free(), {}, result);
+    const BoundaryLoad<Dim> free = ccg_.load_free();
+    const auto apply = [&](std::span<const Vector<Dim>> displacement) {
+        bonds_->add_stiffness(
+            displacement, free,
+            [&](const FaceCorrections<Dim>& corrections) { ccg_.gradient(displacement, free, corrections, result); },
+            result);
+    };
+    if (!bodies_->any_finite()) return apply(u);
     const mesh::Mesh<Dim>& part = bodies_->deformable();
     double largest = 0.0, smallest = std::numeric_limits<double>::infinity();
     for (const std::int32_t c : part_->own_cells())
@@ -65,7 +73,7 @@ void Solid<Dim>::stiffness_of_cells(std::span<const Vector<Dim>> u, std::span<Ve
     const double scale = largest > 0.0 ? std::exp2(std::floor(std::log2(tiny_displacement * size / largest))) : 1.0;
     in_frames_.resize(u.size());
     for (std::size_t c = 0; c < u.size(); ++c) in_frames_[c] = scale * u[c];
-    ccg_.gradient(in_frames_, ccg_.load_free(), {}, result);
+    apply(in_frames_);
     for (std::size_t c = 0; c < u.size(); ++c) result[c] /= scale;
 }
 

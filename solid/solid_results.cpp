@@ -13,6 +13,7 @@
 #include "abut/solid/bodies.hpp"
 #include "abut/solid/body_cells.hpp"
 #include "abut/solid/body_rotation.hpp"
+#include "abut/solid/bonds.hpp"
 #include "abut/solid/contact_driver.hpp"
 #include "abut/solid/loads.hpp"
 #include "abut/solid/local_levels.hpp"
@@ -328,6 +329,27 @@ std::vector<double> Solid<Dim>::momentum_of_points(std::span<const Vector<Dim>> 
 }
 
 template <int Dim>
+std::span<const BondPlace<Dim>> Solid<Dim>::bond_places() const {
+    return bonds_->places();
+}
+
+template <int Dim>
+bool Solid<Dim>::is_broken(std::size_t bond_place) const {
+    return bonds_->is_broken(bond_place);
+}
+
+template <int Dim>
+double Solid<Dim>::broken_share() const {
+    double all = 0.0, broken = 0.0;
+    for (std::size_t i = 0; i < bonds_->places().size(); ++i) {
+        const double area = bonds_->places()[i].area;
+        all += area;
+        if (bonds_->is_broken(i)) broken += area;
+    }
+    return all > 0.0 ? broken / all : 0.0;
+}
+
+template <int Dim>
 Matrix<Dim> Solid<Dim>::stress(std::int32_t cell) const {
     const auto [deformable, body] = bodies_->deformable_cell(cell);
     if (deformable < 0) return Matrix<Dim>::Zero();
@@ -388,6 +410,9 @@ double Solid<Dim>::damping_ratio(double omega) const {
     template std::vector<double> Solid<Dim>::displacement_of_points(std::span<const Vector<Dim>> of_cells) const;     \
     template std::vector<double> Solid<Dim>::momentum_of_points(std::span<const Vector<Dim>> cell_velocity) const;    \
     template Matrix<Dim> Solid<Dim>::stress(std::int32_t cell) const;                                                 \
+    template std::span<const BondPlace<Dim>> Solid<Dim>::bond_places() const;                                         \
+    template bool Solid<Dim>::is_broken(std::size_t) const;                                                           \
+    template double Solid<Dim>::broken_share() const;                                                                 \
     template double Solid<Dim>::step_margin() const;                                                                  \
     template dynamics::MomentArms Solid<Dim>::moment_arms() const;
 ABUT_INSTANTIATE(2)

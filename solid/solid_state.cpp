@@ -5,6 +5,7 @@
 #include "abut/base/error.hpp"
 #include "abut/base/state_bytes.hpp"
 #include "abut/solid/bodies.hpp"
+#include "abut/solid/bonds.hpp"
 #include "abut/solid/frame_loads.hpp"
 #include "abut/solid/loads.hpp"
 #include "abut/solid/outside_loads.hpp"
@@ -62,6 +63,10 @@ std::vector<std::byte> Solid<Dim>::state() const {
     outside_->save(state);
     bodies_->rigid().save(state, *part_);
     save_memory(state);
+    if (bonds_->any()) {
+        state.put(dissipated_.in_bonds);
+        bonds_->save(state);
+    }
     state.put(static_cast<std::uint8_t>(contact_ != nullptr));
     if (!contact_) return std::move(state).finish();
     state.put_all(std::span<const std::byte>(contact_->state()));
@@ -94,6 +99,10 @@ void Solid<Dim>::restore(std::span<const std::byte> bytes, std::span<const doubl
     outside_->restore(state);
     bodies_->rigid().restore(state);
     restore_memory(state);
+    if (bonds_->any()) {
+        dissipated_.in_bonds = state.get<double>();
+        bonds_->restore(state);
+    }
     if ((state.get<std::uint8_t>() != 0) != (contact_ != nullptr))
         throw BadInput(mesh_.name + ": the saved state is of a solid " + (contact_ ? "without" : "with") +
                        " contact, and this one is not.");

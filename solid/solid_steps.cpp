@@ -1,5 +1,6 @@
 // The steps of a solid: all cells with one, or each level of them with its own.
 #include <cmath>
+#include <vector>
 
 #include "abut/base/error.hpp"
 #include "abut/base/messages.hpp"
@@ -7,6 +8,7 @@
 #include "abut/base/processor_stopwatch.hpp"
 #include "abut/base/stopwatch.hpp"
 #include "abut/solid/bodies.hpp"
+#include "abut/solid/bonds.hpp"
 #include "abut/solid/contact_driver.hpp"
 #include "abut/solid/frame_loads.hpp"
 #include "abut/solid/largest_motion.hpp"
@@ -68,24 +70,55 @@ void Solid<Dim>::mean_force(std::span<const double> q_0, std::span<const double>
     const Stopwatch watch(times_.bulk);
     const auto gradient = result_here(force);
     const StepEnds<Dim> ends = step_ends({u_0, u_1}, start_load, dt);
-    const auto take_gradient = [&](const BoundaryLoad<Dim>& load) {
+    const auto take_gradient = [&](const BoundaryLoad<Dim>& load, std::span<Vector<Dim>> result) {
         const ProcessorStopwatch of_cells(times_.own_cells);
         if (frames_->any_turns())
-            ccg_.gradient_of_packed(midpoint_, load, corrections(), gradient, ends);
+            ccg_.gradient_of_packed(midpoint_, load, corrections(), result, ends);
         else
-            ccg_.mean_gradient(ends, load, corrections(), gradient);
+            ccg_.mean_gradient(ends, load, corrections(), result);
+        bonds_->add_gradient(result);
     };
-    if (loads_->vary())
-        take_gradient(loads_->mean());
-    else
-        take_gradient(loads_->end());
-    finish_step({u_0, u_1}, time, dt, contact::TakenForce::mean, gradient, force);
+    const auto take_mean = [&](std::span<Vector<Dim>> result) {
+        bonds_->follow(u_0, start_load, u_1, loads_->end());
+        if (loads_->vary())
+            take_gradient(loads_->mean(), result);
+        else
+            take_gradient(loads_->end(), result);
+    };
+    std::vector<std::size_t> breaking;
+    if (bonds_->any_breaks()) {
+        bonds_->follow(u_0, start_load, u_1, loads_->end());
+        breaking = bonds_->overloaded();
+    }
+    double share = 1.0;
+    if (!breaking.empty()) {
+        dissipated_.in_bonds += energy_of_bonds(breaking, {u_0, u_1}, start_load);
+        static_cast<void>(follow_frames(of_cells(u_0), of_cells(u_1)));
+        bonds_->set_share(breaking, 0.5, true);
+        std::vector<Vector<Dim>> with_bonds(gradient.size());
+        take_mean(with_bonds);
+        add_work(share = 0.5);
+        static_cast<void>(follow_frames(of_cells(u_0), of_cells(u_1)));
+        bonds_->set_share(breaking, 0.5, false);
+        take_mean(gradient);
+        for (std::size_t i = 0; i < of_cells(u_0).size(); ++i) gradient[i] = 0.5 * (gradient[i] + with_bonds[i]);
+    } else {
+        take_mean(gradient);
+    }
+    finish_step({u_0, u_1}, time, dt, contact::TakenForce::mean, share, gradient, force);
+    if (breaking.empty()) return;
+    bonds_->set_share(breaking, 0.0);
+    if (contact_) contact_->jumped(u_1, time + dt);
 }
 
 template <int Dim>
 void Solid<Dim>::end_force(std::span<const double> q_0, std::span<const double> q_1, double time, double dt,
                            std::span<double> force) {
     refuse_memory("with a scheme that takes forces at the ends of steps");
+    if (bonds_->any_breaks())
+        throw BadInput(mesh_.name +
+                       ": a bond has a strength, and breaking is not made with a scheme that takes forces at the ends of "
+                       "steps. Take the scheme memm, or leave the strength out.");
     require_start(time, dt);
     const auto [u_0, u_1] = ends_here(q_0, q_1);
     const auto gradient = result_here(force);
@@ -96,7 +129,9 @@ void Solid<Dim>::end_force(std::span<const double> q_0, std::span<const double> 
     if (!is_autonomous()) {  // the work is shared between the forces at both ends
         frames_->stand_at_start();
         if (contact_) contact_->take_start();
+        bonds_->stand_at(u_0, loads_->start());
         ccg_.step_gradient(in_frames(u_0, all_cells_), loads_->start(), corrections(), gradient);
+        bonds_->add_gradient(gradient);
         add_work(0.5);
     }
     frames_->stand_at_end();
@@ -104,19 +139,36 @@ void Solid<Dim>::end_force(std::span<const double> q_0, std::span<const double> 
     const Stopwatch watch(times_.bulk);
     {
         const ProcessorStopwatch of_cells(times_.own_cells);
+        bonds_->stand_at(u_1, loads_->end());
         ccg_.step_gradient(in_frames(u_1, all_cells_), loads_->end(), corrections(), gradient);
+        bonds_->add_gradient(gradient);
     }
-    finish_step({u_0, u_1}, time, dt, contact::TakenForce::end, gradient, force);
+    finish_step({u_0, u_1}, time, dt, contact::TakenForce::end, 0.5, gradient, force);
 }
 
-/// Books the work of the step, makes the force of its gradient, and ends it. At its end alone half of the work is booked: the
-/// other half belongs to the force at its start.
+/// What V has of these places, half of it at each end of the step; they are whole before and broken afterwards.
 template <int Dim>
-void Solid<Dim>::finish_step(const Ends& ends, double time, double dt, contact::TakenForce take,
+double Solid<Dim>::energy_of_bonds(std::span<const std::size_t> places, const Ends& ends,
+                                   const BoundaryLoad<Dim>& start_load) {
+    const auto of_both_ends = [&] {
+        frames_->stand_at_start();
+        const double at_start = stored_energy(ends.start, start_load);
+        frames_->stand_at_end();
+        return 0.5 * (at_start + stored_energy(ends.end, loads_->end()));
+    };
+    const double with = of_both_ends();
+    bonds_->set_share(places, 0.0);
+    return with - of_both_ends();
+}
+
+/// Books the work of the step, makes the force of its gradient, and ends it. Where only a share of the work is booked the rest
+/// belongs to a force before: at the end of a step to that at its start.
+template <int Dim>
+void Solid<Dim>::finish_step(const Ends& ends, double time, double dt, contact::TakenForce take, double share,
                              std::span<Vector<Dim>> gradient, std::span<double> force) {
     const bool is_mean = take == contact::TakenForce::mean;
     require_no_collapse();
-    add_work(is_mean ? 1.0 : 0.5);
+    add_work(share);
     if (contact_) contact_->add_impulses(dt);
     to_force(is_mean ? ends.start : ends.end, ends.end, gradient);
     if (closure_ && is_mean) closure_->add(ends.start, ends.end, gradient);
@@ -132,7 +184,7 @@ void Solid<Dim>::finish_step(const Ends& ends, double time, double dt, contact::
 
 template <int Dim>
 bool Solid<Dim>::is_autonomous() const {
-    return !any_memory() && !loads_->vary() && !point_loads_->do_work() && !frame_loads_->any() &&
+    return !any_memory() && !bonds_->any_breaks() && !loads_->vary() && !point_loads_->do_work() && !frame_loads_->any() &&
            !(contact_ && contact_->obstacles().move());
 }
 
@@ -185,6 +237,7 @@ double Solid<Dim>::follow_frames(std::span<const Vector<Dim>> q_0, std::span<con
 template <int Dim>
 void Solid<Dim>::add_work(double share) {
     loads_->add_work(share, work_);
+    if (bonds_->any() && loads_->vary()) work_ += share * bonds_->work_of_loads(loads_->start(), loads_->end());
     if (contact_) contact_->take_obstacle_forces(share, work_);
 }
 
@@ -245,6 +298,8 @@ template <int Dim>
 void Solid<Dim>::set_levels(std::int32_t n_levels, std::span<const std::int32_t> level) {
     dynamics::refuse_ranks(ranks(), {{"local steps"}});
     refuse_memory("with local steps");
+    if (!options_.bonds.empty())
+        throw BadInput(mesh_.name + ": local steps are not made with bonds. Take one step for all cells (memm).");
     require_local_steps(mesh_.name, options_, !contact_ || contact_->makes_parts());
     if (options_.precision == Precision::single_precision)
         throw BadInput(mesh_.name +

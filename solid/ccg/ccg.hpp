@@ -58,13 +58,15 @@ struct StepLoss {
     double in_cells = 0.0;  ///< by inelastic materials: >= 0
     double on_faces = 0.0;  ///< what free faces take out of jumps and contact as they flow along: small, without a sign
     double by_rates = 0.0;  ///< by damping and viscosity: >= 0
+    double in_bonds = 0.0;  ///< of a whole solid: what bonds had that broke
     double lagged = 0.0;  ///< what damping has taken and may give back in the next step, as it acts on the mean of two rates
 
-    [[nodiscard]] double total() const { return in_cells + on_faces + by_rates + lagged; }
+    [[nodiscard]] double total() const { return in_cells + on_faces + by_rates + in_bonds + lagged; }
     StepLoss& operator+=(const StepLoss& other) {
         in_cells += other.in_cells;
         on_faces += other.on_faces;
         by_rates += other.by_rates;
+        in_bonds += other.in_bonds;
         lagged += other.lagged;
         return *this;
     }

@@ -1,0 +1,96 @@
+#pragma once
+// Private to the sources of this layer.
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "abut/solid/bodies.hpp"
+#include "abut/solid/bond_places.hpp"
+#include "abut/solid/ccg/ccg.hpp"
+#include "abut/solid/kinematics/body_frames.hpp"
+#include "abut/solid/merged_corrections.hpp"
+
+namespace abut::solid {
+
+/// A place of a bond at least one of whose bodies may turn: a spring of no length between the points of both faces that are
+/// there at rest, as stiff in all directions as both half cells in series are along the normal,
+///
+///     V = k_12 A/2 |x_2 - x_1|^2,     x = centre + Q (X - mean of X + û_f + G_c (X - x_f))
+///
+/// so that its mean force over a step is k_12 A times the mean of x_2 - x_1, without a moment. docs/method.md, Bonds.
+template <int Dim>
+class BondSprings {
+public:
+    /// All but `of_springs` must outlive it; `frames` are led along each step before it. Of all places (n_places) those that are
+    /// springs, the faces in the bodies that deform, which nothing holds, and the share of the pull that a place has.
+    BondSprings(const Bodies<Dim>& bodies, Ccg<Dim>& ccg, const BodyFrames<Dim>& frames,
+                std::span<const BondPlace<Dim>> places, std::span<const std::array<BoundaryFace, 2>> faces,
+                std::span<const std::size_t> of_springs, const std::vector<double>& share);
+
+    [[nodiscard]] bool any() const { return !springs_.empty(); }
+
+    /// Of points at q [m], where the frames stand.
+    void stand_at(std::span<const Vector<Dim>> q, const BoundaryLoad<Dim>& load);
+    /// Along the step that the frames follow.
+    void follow(std::span<const Vector<Dim>> q_0, const BoundaryLoad<Dim>& load_0, std::span<const Vector<Dim>> q_1,
+                const BoundaryLoad<Dim>& load_1);
+    /// Of tiny displacements u of the cells [m], no body being turned: for the stable step. Valid until the next call of any.
+    [[nodiscard]] FaceCorrections<Dim> stiffness_of(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load);
+    /// The corrections of contact and these. Valid until the next call and as long as those are.
+    [[nodiscard]] FaceCorrections<Dim> corrections(const FaceCorrections<Dim>& of_contact);
+    /// What they push each body with besides others (n_bodies that deform).
+    [[nodiscard]] std::span<const BodyPush<Dim>> pushes(std::span<const BodyPush<Dim>> others);
+    [[nodiscard]] double energy() const;  ///< at the end of the step [J]
+    /// Calls visit(place, traction, normal), both in space at the end of the step: dV/dx_2 per area [Pa], and the normal out of
+    /// the first face.
+    template <class Visit>
+    void for_each_traction(const Visit& visit) const {
+        for (std::size_t i = 0; i < springs_.size(); ++i) {
+            const BondSpring& spring = springs_[i];
+            const BondPlace<Dim>& place = places_[spring.place];
+            const End& end = spring.ends[0];
+            const Vector<Dim> in_frame = (Matrix<Dim>::Identity() + tilt_[end.face]).inverse().transpose() * place.normal;
+            visit(spring.place, Vector<Dim>(spring.stiffness / place.area * (x_1_[i][1] - x_1_[i][0])),
+                  Vector<Dim>(frames_.end()[end.body].turn * in_frame));
+        }
+    }
+
+private:
+    struct End {
+        std::size_t face;  // position in faces_
+        Vector<Dim> arm;   // from the centroid of the face
+        Vector<Dim> rest;  // X
+        std::size_t body;  // of those that deform
+    };
+    struct BondSpring {
+        std::array<End, 2> ends;
+        double stiffness;  // k_12 A [N/m]
+        std::size_t place;
+    };
+    using Positions = std::vector<std::array<Vector<Dim>, 2>>;
+
+    void collect();
+    void place(std::span<const Vector<Dim>> q, std::span<const BodyFrame<Dim>> frames, const BoundaryLoad<Dim>& load,
+               StepState state, Positions& x);
+
+    const mesh::Mesh<Dim>& mesh_;
+    Ccg<Dim>& ccg_;
+    const BodyFrames<Dim>& frames_;
+    std::span<const BondPlace<Dim>> places_;
+    const std::vector<double>& share_;
+    std::vector<BoundaryFace> faces_;  // increasing
+    std::vector<BondSpring> springs_;
+    Region<Dim> region_;
+    Positions x_0_, x_1_;
+    std::vector<Vector<Dim>> u_;
+    std::vector<Vector<Dim>> displacement_;  // of faces_
+    std::vector<Matrix<Dim>> tilt_;
+    std::vector<Vector<Dim>> face_gradient_;  // [N]
+    std::vector<Matrix<Dim>> cell_moment_;    // [N m]
+    std::vector<BodyPush<Dim>> pushes_, all_pushes_;
+    MergedCorrections<Dim> merged_;
+};
+
+}  // namespace abut::solid

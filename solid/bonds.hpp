@@ -1,0 +1,146 @@
+#pragma once
+// Private to the sources of this layer.
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "abut/base/state_bytes.hpp"
+#include "abut/solid/bodies.hpp"
+#include "abut/solid/bond_places.hpp"
+#include "abut/solid/bond_springs.hpp"
+#include "abut/solid/ccg/ccg.hpp"
+#include "abut/solid/kinematics/body_frames.hpp"
+#include "abut/solid/merged_corrections.hpp"
+
+namespace abut::solid {
+
+/// Faces that are glued. Between bodies of Kinematics::small the massless interface of both half cells, exactly: with the jump of
+/// the free faces at a place p of a bond, Delta = y_2(x_p) - y_1(x_p), both faces move to where their tractions balance,
+///
+///     delta_f = 1/|f| sum_p A_p s_p,    s_1 = theta_1 Delta,  s_2 = -theta_2 Delta,   theta_1 = (K_1 + K_2)^-1 K_2 = 1 - theta_2
+///
+/// K_f [Pa/m] being the stiffness of the half cell, what its free faces answer taken off. V is that of the cells with û + delta
+/// and what their faces, which move as a whole, do not have of it:
+///
+///     1/2 sum_p A_p Delta . K_12 Delta - 1/2 sum_f |f| delta_f . K_f delta_f,      K_12 = theta_1^T K_1 theta_1 + theta_2^T K_2 theta_2
+///
+/// All of it is quadratic in the displacements of the cells. Where a body may turn: BondSprings. docs/method.md, Bonds.
+///
+/// A place whose traction t = K_12 Delta pulls the faces apart and is larger than the strength of its bond is bonded no more:
+/// the force of the step in which it breaks is the mean of those with it and without it, and what V loses by it at both ends,
+/// half of each, is dissipated.
+template <int Dim>
+class Bonds {
+public:
+    /// All must outlive it; `frames` are led along each step before it. Throws BadInput as `find_bond_places`, for bodies that are
+    /// rigid, and where a support holds a bonded face, a traction is on one, or a load from outside on one that answers to it.
+    Bonds(const Bodies<Dim>& bodies, Ccg<Dim>& ccg, const BodyFrames<Dim>& frames);
+
+    [[nodiscard]] bool any() const { return !places_.empty(); }
+    [[nodiscard]] std::span<const BondPlace<Dim>> places() const { return places_; }
+    [[nodiscard]] bool is_broken(std::size_t place) const { return share_[place] == 0.0; }
+    /// Whether one has a strength.
+    [[nodiscard]] bool any_breaks() const;
+
+    // In one state, or along a step
+
+    /// Of points at q [m] under these loads, where the frames stand.
+    void stand_at(std::span<const Vector<Dim>> q, const BoundaryLoad<Dim>& load);
+    /// Along the step that the frames follow: in its middle.
+    void follow(std::span<const Vector<Dim>> q_0, const BoundaryLoad<Dim>& load_0, std::span<const Vector<Dim>> q_1,
+                const BoundaryLoad<Dim>& load_1);
+    /// What the bonds add to the corrections of contact. Valid until the next call and as long as those are.
+    [[nodiscard]] FaceCorrections<Dim> corrections(const FaceCorrections<Dim>& of_contact);
+    /// Adds dV/du through the corrections (n_cells) [N], after the cells have taken their gradient with the last of them.
+    void add_gradient(std::span<Vector<Dim>> gradient);
+    /// What bodies are pushed with as a whole, with what others push them with (n_bodies that deform).
+    [[nodiscard]] std::span<const BodyPush<Dim>> pushes(std::span<const BodyPush<Dim>> others);
+    /// What V has beside the energy of the cells with these corrections, in one state [J].
+    [[nodiscard]] double energy() const;
+    /// The part of the work of prescribed displacements and tractions in a step from `start` to `end` that is done through the
+    /// corrections, with the gradient that was added last [J].
+    [[nodiscard]] double work_of_loads(const BoundaryLoad<Dim>& start, const BoundaryLoad<Dim>& end) const;
+    /// Adds what bonds resist tiny displacements u of the cells with to K u (n_cells), `apply(corrections)` being K u of the
+    /// cells with these corrections: for the stable step [N].
+    template <class Apply>
+    void add_stiffness(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load, const Apply& apply,
+                       std::span<Vector<Dim>> product) {
+        stand_linear(u, load);
+        of_others_ = springs_->stiffness_of(u, load);
+        apply(any() ? merged_.of(of_others_, own_corrections()) : FaceCorrections<Dim>{});
+        add_gradient(product);
+    }
+
+    // Breaking
+
+    /// Places that the end of the step that was followed overloads, increasing.
+    [[nodiscard]] std::vector<std::size_t> overloaded() const;
+    /// From the next call of `stand_at` or `follow` on these places are whole (1), broken (0), or break in this step (1/2): then
+    /// springs have half of their pull, and the massless interface is there if `is_there` says so.
+    void set_share(std::span<const std::size_t> places, double share, bool is_there = false);
+
+    void save(StateWriter& state) const;
+    void restore(StateReader& state);
+
+private:
+    struct BondedFace {
+        BoundaryFace face;
+        std::int32_t cell;
+        double measure;
+        Matrix<Dim> stiffness;                 // K_f [Pa/m]
+        std::vector<BoundaryFace> neighbours;  // boundary faces of the cell, itself among them
+    };
+    struct Joint {
+        std::size_t place;
+        std::array<std::size_t, 2> face;      // positions in faces_
+        double area;                          // A_p
+        std::array<Matrix<Dim>, 2> share;     // theta_1, -theta_2
+        Matrix<Dim> stiffness;                // K_12 [Pa/m]
+        std::array<std::size_t, 2> slope_of;  // the first entry of each side in slope_
+        std::array<std::size_t, 2> slope_end;
+    };
+    /// What the displacement of a cell adds to that of a place beside the centroid of its face.
+    struct Slope {
+        std::int32_t cell;
+        double weight;
+    };
+
+    void check_bodies() const;
+    void check(BoundaryFace face) const;
+    [[nodiscard]] std::vector<BoundaryFace> boundary_of(std::int32_t cell) const;
+    [[nodiscard]] BondedFace bonded_face(BoundaryFace face) const;
+    void append_joint(std::size_t place, std::array<BoundaryFace, 2> faces);
+    void append_slope(const BondedFace& face, const Vector<Dim>& arm);
+    void stand_linear(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load);
+    void take_jumps(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load, std::vector<Vector<Dim>>& jump);
+    void set_corrections();
+    [[nodiscard]] bool counts(const Joint& joint) const {
+        return share_[joint.place] == 1.0 || (share_[joint.place] != 0.0 && halves_count_);
+    }
+    [[nodiscard]] FaceCorrections<Dim> own_corrections() const { return {face_numbers_, delta_, {}, {}}; }
+    [[nodiscard]] bool overloads(std::size_t place, const Vector<Dim>& traction, const Vector<Dim>& normal) const;
+    [[nodiscard]] Vector<Dim> bulk_gradient(const BondedFace& of_cell, BoundaryFace face) const;
+
+    const Bodies<Dim>& bodies_;
+    const mesh::Mesh<Dim>& mesh_;  // of the bodies that deform
+    const Ccg<Dim>& ccg_;
+    std::vector<BondPlace<Dim>> places_;
+    std::vector<double> share_;  // by place
+    bool halves_count_ = false;
+    std::unique_ptr<BondSprings<Dim>> springs_;
+    std::vector<BondedFace> faces_;  // of small bodies, increasing
+    std::vector<Joint> joints_;
+    std::vector<Slope> slope_;
+    std::vector<BoundaryFace> face_numbers_;
+    std::vector<Vector<Dim>> jump_, jump_0_, jump_1_;  // Delta, by joint: as it counts, and at both ends of a step [m]
+    std::vector<Vector<Dim>> of_face_;                 // û, by bonded face [m]
+    std::vector<Vector<Dim>> delta_;                   // by bonded face [m]
+    std::vector<Vector<Dim>> gradient_;                // dV/dû through the corrections, by bonded face [N]
+    FaceCorrections<Dim> of_others_;                   // of contact and springs
+    MergedCorrections<Dim> merged_;
+};
+
+}  // namespace abut::solid
