@@ -1,6 +1,7 @@
 #include "abut/contact/inside_pairs.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "abut/base/error.hpp"
@@ -13,7 +14,19 @@ namespace {
 
 constexpr double rounding = 1e-9;  // of the size of a pair
 
-/// g of a pair as it is at rest; infinite without a normal in common [m].
+/// Middle of a facet from its first corner on, and its normal, of any length.
+template <int Dim>
+struct Plane {
+    Vector<Dim> middle, normal;
+};
+Plane<2> plane_of(const geometry::PairCorners<2>& x, int first) {
+    const Vector<2> along = x[first + 1] - x[first];
+    return {0.5 * (x[first] + x[first + 1]), Vector<2>(along[1], -along[0])};
+}
+Plane<3> plane_of(const geometry::PairCorners<3>& x, int first) {
+    return {(x[first] + x[first + 1] + x[first + 2]) / 3.0, moment<3>(x[first + 1] - x[first], x[first + 2] - x[first])};
+}
+
 template <int Dim>
 double gap_at_rest(const SurfaceView<Dim>& facets, std::int32_t facet_1, std::int32_t facet_2) {
     geometry::PairCorners<Dim> corners;
@@ -23,10 +36,20 @@ double gap_at_rest(const SurfaceView<Dim>& facets, std::int32_t facet_1, std::in
     }
     geometry::PairLaw<Dim> law{.stiffness = 1.0};
     if constexpr (Dim == 2) law.length = {facets.area[facet_1], facets.area[facet_2]};
-    return geometry::pair_state<Dim>(corners, law).gap;
+    return inside_gap<Dim>(corners, geometry::pair_state<Dim>(corners, law));
 }
 
 }  // namespace
+
+template <int Dim>
+double inside_gap(const geometry::PairCorners<Dim>& corners, const geometry::PairState<Dim>& state) {
+    if (state.overlap > 0.0 || !std::isfinite(state.gap)) return state.gap;
+    const auto plane_1 = plane_of(corners, 0), plane_2 = plane_of(corners, Dim);
+    const Vector<Dim> half = 0.5 * (plane_2.middle - plane_1.middle);  // from each middle to halfway
+    const double height_1 = -half.dot(plane_1.normal) / state.normal.dot(plane_1.normal);
+    const double height_2 = half.dot(plane_2.normal) / state.normal.dot(plane_2.normal);
+    return std::min(state.gap, height_2 - height_1);
+}
 
 template <int Dim>
 double outside_gap(const SurfaceView<Dim>& facets, FacetPair pair) {
@@ -107,6 +130,8 @@ void InsidePairs<Dim>::restore(std::span<const FacetPair> seen) {
     is_seen_ = std::move(is_seen);
 }
 
+template double inside_gap(const geometry::PairCorners<2>&, const geometry::PairState<2>&);
+template double inside_gap(const geometry::PairCorners<3>&, const geometry::PairState<3>&);
 template double outside_gap(const SurfaceView<2>&, FacetPair);
 template double outside_gap(const SurfaceView<3>&, FacetPair);
 template class InsidePairs<2>;

@@ -1,6 +1,5 @@
 #pragma once
 // Private to the layer.
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -42,14 +41,14 @@ private:
     std::vector<char> is_seen_;
 };
 
-/// A pair whose least gap is not below this is seen from outside [m]: 0, less what rounding adds.
+/// A pair whose gap is not below this is outside of its body [m]: 0, less what rounding adds.
 template <int Dim>
 [[nodiscard]] double outside_gap(const SurfaceView<Dim>& facets, FacetPair pair);
 
-/// Whether a state of a pair tells that it is seen from outside, or that it is not; without a normal in common it tells nothing.
+/// By which a pair is told to lie inside or outside: its least gap where the facets overlap; else that gap and the one of both planes
+/// halfway between the centroids, whichever is less, since facets at an edge may be beside each other with a common corner. Not
+/// finite without a normal in common: it tells nothing then [m].
 template <int Dim>
-[[nodiscard]] bool is_outside(const geometry::PairState<Dim>& state, double outside_gap) {
-    return std::isfinite(state.gap) && state.gap >= outside_gap;
-}
+[[nodiscard]] double inside_gap(const geometry::PairCorners<Dim>& corners, const geometry::PairState<Dim>& state);
 
 }  // namespace abut::contact

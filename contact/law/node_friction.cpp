@@ -138,7 +138,7 @@ void NodeFriction<Dim>::add_force(const Last& last, const Indices& indices, cons
             body.work -= on_corners[v].dot(end - start);
         }
     }
-    if (indices.body_pair >= 0)
+    if (indices.body_pair >= 0 && indices.body[0] != indices.body[1])
         step.body_pairs[static_cast<std::size_t>(indices.body_pair)].force +=
             indices.bodies_in_order ? force : Vector<Dim>(-force);
     if (indices.pair >= 0) {

@@ -5,10 +5,17 @@
 
 #include "abut/base/error.hpp"
 #include "abut/base/ids.hpp"
+#include "abut/base/parallel.hpp"
 #include "abut/contact/messages.hpp"
+#include "abut/contact/pair.hpp"
 
 namespace abut::contact {
 namespace {
+
+// Of two facets of one body: n_1 . n_2, by how much it changes while a list is valid, and by how much n turns [rad].
+constexpr double looks_the_same_way = 0.5;
+constexpr double turns_at_most = 0.1;
+constexpr double turns_in_all = 0.2;
 
 /// Of each body.
 template <int Dim>
@@ -47,9 +54,20 @@ std::string NodeLaw<Dim>::face_name(Face face) const {
 
 /// The search knows facets, the host its faces.
 template <int Dim>
-void NodeLaw<Dim>::search(CandidateSearch<Dim>& candidates, State x_0, State x_1) const {
+void NodeLaw<Dim>::search(CandidateSearch<Dim>& candidates, State x_0, State x_1) {
+    geometry::PairFilter within;
+    if (options_.search.self_contact) {
+        place_facets(x_0);
+        const double in_step = std::sqrt(largest(std::ssize(surface_.nodes()), [&](std::ptrdiff_t i) {
+            return (position(x_1, i) - position(x_0, i)).squaredNorm();
+        }));
+        within = [this, reach = std::max(0.5 * candidates.next_skin(), in_step)](std::int32_t facet_1,
+                                                                                 std::int32_t facet_2) {
+            return may_come_together({Facet{std::min(facet_1, facet_2)}, Facet{std::max(facet_1, facet_2)}}, reach);
+        };
+    }
     try {
-        candidates.search_moved(x_0, x_1);
+        candidates.search_moved(x_0, x_1, GapOf::overlap, within);
     } catch (const Diverged& error) {
         ErrorFacts facts = error.facts();
         const auto facet = static_cast<std::int32_t>(facts.face_1);
@@ -63,29 +81,79 @@ void NodeLaw<Dim>::search(CandidateSearch<Dim>& candidates, State x_0, State x_1
 }
 
 template <int Dim>
+void NodeLaw<Dim>::place_facets(State x) {
+    const std::int32_t n = facets().size();
+    middle_.resize(static_cast<std::size_t>(n));
+    normal_.resize(middle_.size());
+    if (radius_.empty())
+        for (std::int32_t facet = 0; facet < n; ++facet) radius_.push_back(circumradius(facets(), facet));
+    parallel_each(
+        n,
+        [&](std::ptrdiff_t facet) {
+            const auto corners = facets().vertices_of(static_cast<std::int32_t>(facet));
+            if constexpr (Dim == 2) {
+                const Vector<2> along = x[corners[1]] - x[corners[0]];
+                middle_[facet] = 0.5 * (x[corners[0]] + x[corners[1]]);
+                normal_[facet] = Vector<2>(along[1], -along[0]).normalized();
+            } else {
+                const Vector<3> a = x[corners[0]], b = x[corners[1]], c = x[corners[2]];
+                middle_[facet] = (a + b + c) / 3.0;
+                normal_[facet] = moment<3>(b - a, c - a).normalized();
+            }
+        },
+        1024);
+}
+
+/// Of two facets of one body, when no corner moves by more than `reach`. They are neighbours on its surface, and turn little
+/// against each other while a list is valid: those that look much the same way, that are far above, behind or beside each other
+/// seen along n, and those inside that do not look at each other, come together after the next search at the earliest. What has
+/// a mark comes out only if it is shallow.
+template <int Dim>
+bool NodeLaw<Dim>::may_come_together(FacetPair pair, double reach) const {
+    const auto facet_1 = static_cast<std::size_t>(pair.facet_1), facet_2 = static_cast<std::size_t>(pair.facet_2);
+    const double facing = normal_[facet_1].dot(normal_[facet_2]);
+    if (facing > looks_the_same_way) return false;
+    const Vector<Dim> between = middle_[facet_2] - middle_[facet_1];
+    const double height = between.dot((normal_[facet_1] - normal_[facet_2]).normalized()), distance = between.norm();
+    const double sizes = radius_[facet_1] + radius_[facet_2], turned = turns_in_all * distance;
+    const double tilt = std::sqrt(std::max(0.0, 0.5 * (1.0 + facing))), slack = 2.0 * reach + tilt * sizes;
+    if (height > slack + turned) return false;
+    const double aside = 2.0 * reach + sizes + turned;
+    if (distance * distance - height * height > aside * aside) return false;
+    if (height < 0.0 && facing > options_.facing.none + turns_at_most) return false;
+    if (inside_.has(pair)) return height >= -slack;
+    return height >= -(slack + turned + facets().cell_depth[facet_1] + facets().cell_depth[facet_2]);
+}
+
+/// Whether a pair has come out of its body: the facets look at each other, and none is behind the other one.
+template <int Dim>
+bool NodeLaw<Dim>::is_seen_from_outside(const NodalPair<Dim>& pair, State x) const {
+    const geometry::PairCorners<Dim> corners = pair.at(x);
+    const auto state = geometry::pair_state<Dim>(corners, pair.law);
+    if (state.facing >= options_.facing.none) return false;
+    return inside_gap<Dim>(corners, state) >= outside_gap(facets(), FacetPair{Facet{pair.facet_1}, Facet{pair.facet_2}});
+}
+
+template <int Dim>
 void NodeLaw<Dim>::list(std::vector<FacetPair>& pairs, std::span<const FacetPair> in_contact, State x_0, State x_1,
                         double reach) {
     watched_.clear();
-    if (!inside_.empty()) set_inside_pairs_apart(pairs, x_0, x_1, reach);
+    if (!inside_.empty()) set_inside_pairs_apart(pairs, x_0);
     pairs_.assign(surface_, pairs, in_contact, watched_, x_0, x_1, reach, options_.compression_limit);
 }
 
-/// Takes the pairs that lie inside out of `pairs`. Watched are those so shallow that they can come out while the list is
-/// valid; all others are looked at when the next list is made.
+/// Takes the pairs that lie inside out of `pairs`, which has those alone that may come out while the list is valid: they are
+/// watched. All others are looked at when the next list is made.
 template <int Dim>
-void NodeLaw<Dim>::set_inside_pairs_apart(std::vector<FacetPair>& pairs, State x_0, State x_1, double reach) {
+void NodeLaw<Dim>::set_inside_pairs_apart(std::vector<FacetPair>& pairs, State x_0) {
     std::erase_if(pairs, [&](const FacetPair& facets) {
         if (!inside_.has(facets)) return false;
         const NodalPair<Dim> pair = pairs_.make_pair(surface_, facets);
-        const geometry::PairCorners<Dim> start = pair.at(x_0), end = pair.at(x_1);
-        const auto state = geometry::pair_state<Dim>(start, pair.law);
-        if (is_outside(state, outside_gap(this->facets(), facets))) {
+        if (is_seen_from_outside(pair, x_0)) {
             inside_.take_away(facets);
             return false;
         }
-        double farthest = reach;
-        for (std::size_t v = 0; v < start.size(); ++v) farthest = std::max(farthest, (end[v] - start[v]).norm());
-        if (std::isfinite(state.gap) && state.gap >= -2.0 * farthest) watched_.push_back(pair);
+        watched_.push_back(pair);
         return true;
     });
 }
@@ -96,8 +164,7 @@ bool NodeLaw<Dim>::sees_from_outside(const Path& path) {
     bool any = false;
     for (const NodalPair<Dim>& pair : watched_) {
         const FacetPair of_facets{Facet{pair.facet_1}, Facet{pair.facet_2}};
-        const auto state = geometry::pair_state<Dim>(pair.at(path.x_1), pair.law);
-        if (!is_outside(state, outside_gap(facets(), of_facets)) || !inside_.has(of_facets)) continue;
+        if (!inside_.has(of_facets) || !is_seen_from_outside(pair, path.x_1)) continue;
         inside_.take_away(of_facets);
         any = true;
     }
@@ -111,8 +178,8 @@ FirstAdmission NodeLaw<Dim>::decide_first(std::size_t p, State x, bool run_begin
     if (pair.body_1 != pair.body_2) return contact::decide_first<Dim>(pair, x, sides_, run_begins);
     const geometry::PairCorners<Dim> corners = pair.at(x);
     const auto state = geometry::pair_state<Dim>(corners, pair.law);
-    const bool is_seen = is_outside(state, outside_gap(facets(), FacetPair{Facet{pair.facet_1}, Facet{pair.facet_2}}));
-    if (state.energy > 0.0 && !is_seen)
+    const double outside = outside_gap(facets(), FacetPair{Facet{pair.facet_1}, Facet{pair.facet_2}});
+    if (state.energy > 0.0 && state.gap < outside)
         return run_begins ? FirstAdmission::not_admitted
                           : first_admission(state.gap > -pair.admission_depth, true, run_begins);
     return may_touch<Dim>(pair, corners, state, sides_) ? FirstAdmission::admitted : FirstAdmission::not_admitted;

@@ -46,7 +46,7 @@ public:
         return x[surface_.nodes()[static_cast<std::size_t>(i)]];
     }
 
-    void search(CandidateSearch<Dim>& candidates, State x_0, State x_1) const;
+    void search(CandidateSearch<Dim>& candidates, State x_0, State x_1);
     [[nodiscard]] bool is_wanted(FacetPair pair) const {
         return !options_.wanted || options_.wanted(surface_.face_of(pair.facet_1), surface_.face_of(pair.facet_2));
     }
@@ -74,14 +74,19 @@ public:
     [[nodiscard]] NodeLaw on(NodalSurface<Dim> surface) const { return {std::move(surface), options_, sharing_}; }
 
 private:
-    void set_inside_pairs_apart(std::vector<FacetPair>& pairs, State x_0, State x_1, double reach);
+    void place_facets(State x);
+    [[nodiscard]] bool may_come_together(FacetPair pair, double reach) const;
+    [[nodiscard]] bool is_seen_from_outside(const NodalPair<Dim>& pair, State x) const;
+    void set_inside_pairs_apart(std::vector<FacetPair>& pairs, State x_0);
 
     NodalSurface<Dim> surface_;
     NodalOptions options_;
     Sharing* sharing_;
     SideOutlines<Dim> sides_;
     InsidePairs<Dim> inside_;
-    std::vector<NodalPair<Dim>> watched_;  // of these, that may be seen from outside while the list is valid
+    std::vector<NodalPair<Dim>> watched_;       // of these, that may be seen from outside while the list is valid
+    std::vector<Vector<Dim>> middle_, normal_;  // of each facet where a search begins
+    std::vector<double> radius_;                // and at rest
     NodalPairs<Dim> pairs_;
     PairPotential<Dim> law_;
     std::int32_t least_force_size_ = 0;  // nodes up to the last one of a deformable face

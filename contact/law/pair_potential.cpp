@@ -291,7 +291,7 @@ void PairPotential<Dim>::add_pair(const NodalSurface<Dim>& surface, const NodalP
     }
     BodyPairStep<Dim>& bodies = step.body_pairs[pair.body_pair];
     ++bodies.active_pairs;
-    bodies.force += pair.body_1 < pair.body_2 ? force : Vector<Dim>(-force);
+    if (pair.body_1 != pair.body_2) bodies.force += pair.body_1 < pair.body_2 ? force : Vector<Dim>(-force);
     bodies.normal_force += force.dot(normal);
 }
 

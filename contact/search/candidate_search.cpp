@@ -81,13 +81,15 @@ public:
 
     void search(std::span<const Vector<Dim>> u_0, std::span<const Vector<Dim>> u_1) {
         drop_list();
+        within_ = nullptr;
         translated_.set_path(u_0, u_1);
         search_along(translated_);
     }
 
-    void search_moved(PointsView<Dim> x_0, PointsView<Dim> x_1, GapOf gap) {
+    void search_moved(PointsView<Dim> x_0, PointsView<Dim> x_1, GapOf gap, const geometry::PairFilter& within) {
         drop_list();
         MovedFaces<Dim> moved(surface_, options_, x_0, x_1, gap);
+        within_ = &within;
         search_along(moved);
     }
 
@@ -321,11 +323,11 @@ private:
             ++(verdict == PairVerdict::not_facing ? counts.not_facing : counts.too_far_apart);
             return false;
         }
-        if (neighbours_ && surface_.body[face_1] == surface_.body[face_2] && (*neighbours_)(face_1, face_2)) {
-            ++counts.neighbours;
-            return false;
-        }
-        return true;
+        if (surface_.body[face_1] != surface_.body[face_2]) return true;
+        const bool is_left_out = (neighbours_ && (*neighbours_)(face_1, face_2)) ||
+                                 (within_ != nullptr && *within_ && !(*within_)(face_1, face_2));
+        if (is_left_out) ++counts.neighbours;
+        return !is_left_out;
     }
 
     /// How many of these candidates half the skin would have found.
@@ -351,6 +353,7 @@ private:
     double list_skin_ = 0.0;
     bool list_holds_ = false;
     std::optional<Neighbours> neighbours_;
+    const geometry::PairFilter* within_ = nullptr;  // of the present search
     double extent_ = 0.0;  // of all surfaces at rest [m]
     TranslatedFaces<Dim> translated_;
     FaceOrder order_;
@@ -380,8 +383,9 @@ void CandidateSearch<Dim>::search(std::span<const Vector<Dim>> u_0, std::span<co
     implementation_->search(u_0, u_1);
 }
 template <int Dim>
-void CandidateSearch<Dim>::search_moved(PointsView<Dim> x_0, PointsView<Dim> x_1, GapOf gap) {
-    implementation_->search_moved(x_0, x_1, gap);
+void CandidateSearch<Dim>::search_moved(PointsView<Dim> x_0, PointsView<Dim> x_1, GapOf gap,
+                                        const geometry::PairFilter& within) {
+    implementation_->search_moved(x_0, x_1, gap, within);
 }
 template <int Dim>
 std::span<const IndexPair> CandidateSearch<Dim>::candidates() const {

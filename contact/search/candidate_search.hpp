@@ -58,8 +58,10 @@ public:
     /// vertices at x_0 and x_1 decide, normals play no part: of pairs whose boxes overlap all are listed, whichever way they
     /// look, and `is_valid_for` allows for turns. Surfaces are as flat as the host keeps them: a polygon is all points
     /// between its corners. Neighbours, rigid faces and errors as `search`, Diverged names the vertex too, and the extent
-    /// that limits its motion is that at rest. Vertices that no face names may hold anything.
-    void search_moved(PointsView<Dim> x_0, PointsView<Dim> x_1, GapOf gap = GapOf::overlap);
+    /// that limits its motion is that at rest. Vertices that no face names may hold anything. `within`: which pairs of faces of
+    /// one body are wanted; asked from several threads at once, empty: all.
+    void search_moved(PointsView<Dim> x_0, PointsView<Dim> x_1, GapOf gap = GapOf::overlap,
+                      const geometry::PairFilter& within = {});
 
     /// The list: face_1 < face_2, sorted, each once. The same for every broad phase and any number of threads and parts.
     [[nodiscard]] std::span<const geometry::IndexPair> candidates() const;
