@@ -14,6 +14,18 @@ namespace {
 /// " [m/s]"
 std::string in_brackets(const Limits& limits) { return *limits.unit == '\0' ? "" : fmt::format(" [{}]", limits.unit); }
 
+/// For a formula with a unit behind it that has none, "2*pi rad"; empty for others.
+std::string hint_of_parentheses(const std::string& text) {
+    if (value_with_unit(text)) return "";
+    for (auto space = text.find(' '); space != std::string::npos; space = text.find(' ', space + 1)) try {
+            const std::string unit = text.substr(space + 1);
+            if (unit_of(unit).powers == Unit::Powers{}) continue;
+            return fmt::format(". A formula with a unit stands in parentheses, \"({}) {}\".", text.substr(0, space), unit);
+        } catch (const BadInput&) {
+        }
+    return "";
+}
+
 /// "bodies.left.place, component 2"
 std::string of_item(const std::string& key, std::size_t index) { return fmt::format("{}, component {}", key, index + 1); }
 
@@ -87,8 +99,8 @@ std::optional<Formula> Reader::formula(const Node& node, const std::string& key,
     try {
         return formula_of(node.text, limits.unit, variables);
     } catch (const BadInput& error) {
-        fault(node,
-              fmt::format("{} is {}, a number{} is needed: {}", key, description(node), in_brackets(limits), error.what()));
+        fault(node, fmt::format("{} is {}, a number{} is needed: {}{}", key, description(node), in_brackets(limits),
+                                error.what(), hint_of_parentheses(node.text)));
         return std::nullopt;
     }
 }
