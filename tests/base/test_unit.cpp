@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -167,4 +168,27 @@ TEST_CASE("a formula is converted by one factor, and keeps its parentheses", "[b
     CHECK(converted_formula("t", unit_of("GPa"), unit_of("Pa")) == "(t)*1e9");
     CHECK(converted_formula("t", unit_of("km/h"), unit_of("m/s")) == "(t)*1e1/36");
     CHECK(converted_formula("t", unit_of("m"), unit_of("m")) == "(t)");
+}
+
+TEST_CASE("any text is a value with a unit, none, or refused: nothing else happens", "[base][unit]") {
+    const std::string letters = "mkgsNPa0123456789.-+eE()^*/ \u00B5\u00B0\u00B2 \t%";
+    std::mt19937 random(1);
+    std::uniform_int_distribution<std::size_t> letter(0, letters.size() - 1), length(0, 9);
+    int n_read = 0;
+    for (int i = 0; i < 20000; ++i) {
+        std::string text;
+        for (std::size_t n = length(random); n > 0; --n) text += letters[letter(random)];
+        CAPTURE(text);
+        const auto split = value_with_unit(text);
+        if (!split) continue;
+        CHECK_FALSE(split->unit.empty());
+        try {
+            const Unit unit = unit_of(split->unit);
+            if (!split->is_formula) CHECK_FALSE(std::isnan(converted(split->value, unit, {.powers = unit.powers})));
+            ++n_read;
+        } catch (const BadInput& error) {
+            CHECK(std::string(error.what()).size() < 400);
+        }
+    }
+    CHECK(n_read > 100);
 }
