@@ -120,23 +120,30 @@ bool is_in_solid(const std::vector<Points<Dim>>& faces, const Vector<Dim>& point
     return room ? turns > -0.5 : turns > 0.5;
 }
 
-/// Of each body, whether it is wholly behind the plane of a face, as far as that can be told from rounding.
+/// From where to where a body reaches over the plane of a face [m].
+struct Heights {
+    double highest = -std::numeric_limits<double>::infinity();
+    double lowest = 0.0;  ///< 0 where it is in front
+
+    /// Both as far as they can be told from rounding.
+    [[nodiscard]] bool are_behind() const { return highest <= -mesh::touching_tolerance * lowest && lowest < 0.0; }
+    [[nodiscard]] bool are_on_both_sides() const {
+        return highest > -mesh::touching_tolerance * lowest && highest > 0.0 && lowest < -mesh::touching_tolerance * highest;
+    }
+};
+
 template <int Dim>
-std::vector<bool> behind(const mesh::Mesh<Dim>& mesh, const Points<Dim>& face) {
+std::vector<Heights> heights_over(const mesh::Mesh<Dim>& mesh, const Points<Dim>& face) {
     const Vector<Dim> normal = geometry::face_normal<Dim>(face), foot = face.front();
-    std::vector<double> highest(mesh.body_names.size(), -std::numeric_limits<double>::infinity()),
-        lowest(highest.size(), 0.0);
+    std::vector<Heights> heights(mesh.body_names.size());
     for (std::int32_t cell = 0; cell < mesh.n_cells(); ++cell)
         for (const std::int32_t vertex : mesh.cell_vertices[cell]) {
-            const auto body = static_cast<std::size_t>(mesh.cell_body[cell]);
+            Heights& of_body = heights[static_cast<std::size_t>(mesh.cell_body[cell])];
             const double height = normal.dot(mesh.vertices[vertex] - foot);
-            highest[body] = std::max(highest[body], height);
-            lowest[body] = std::min(lowest[body], height);
+            of_body.highest = std::max(of_body.highest, height);
+            of_body.lowest = std::min(of_body.lowest, height);
         }
-    std::vector<bool> result;
-    for (std::size_t body = 0; body < highest.size(); ++body)
-        result.push_back(highest[body] <= -mesh::touching_tolerance * lowest[body] && lowest[body] < 0.0);
-    return result;
+    return heights;
 }
 
 /// The first cell of each body.
@@ -168,14 +175,16 @@ void check_outside(const mesh::Mesh<Dim>& mesh, const contact::RigidObstacle<Dim
         });
     };
     const bool stands_still = !obstacle.path && !obstacle.placement;
-    const std::vector<bool> is_behind =
-        table.endless && stands_still ? behind(mesh, faces.front()) : std::vector<bool>(depth.size(), false);
+    const std::vector<Heights> heights =
+        table.endless ? heights_over(mesh, faces.front()) : std::vector<Heights>(depth.size());
     for (std::size_t body = 0; body < depth.size(); ++body)
         if (is_ignored(body))
             continue;
         else if (depth[body] > 0.0)
             fault(body, fmt::format("a face of the obstacle is {:.6g} m inside a cell, 0 m is allowed", depth[body]));
-        else if (is_behind[body])
+        else if (heights[body].are_on_both_sides())  // between its cells, none of which it cuts
+            fault(body, fmt::format("the body reaches {:.6g} m behind the plane, 0 m is allowed", -heights[body].lowest));
+        else if (stands_still && heights[body].are_behind())
             faults.push_back(
                 {table.settings.where,
                  fmt::format(
