@@ -323,6 +323,7 @@ double shifted(std::string_view number, int tens) {
 
 std::vector<std::string> unit_names() {
     std::vector<std::string> names;
+    names.reserve(named_units.size());
     for (const NamedUnit& named : named_units) names.emplace_back(named.name);
     return names;
 }
