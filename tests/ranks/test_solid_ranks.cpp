@@ -101,19 +101,23 @@ TEMPLATE_TEST_CASE_SIG("bodies that turn, and strike each other and a wall, have
     CHECK(report.rebuilds > 1);
 }
 
-TEMPLATE_TEST_CASE_SIG("metal bodies that flow as they strike each other have the bits of one rank, memory included",
+TEMPLATE_TEST_CASE_SIG("damped metal bodies that flow as they strike each other have the bits of one rank, memory included",
                        "[ranks][solid][contact]", ((int Dim), Dim), 2, 3) {
     const ranks::Communicator all = test::world();
     const auto mesh = two_round_bodies<Dim>();
     solid::SolidOptions<Dim> options;
-    options.materials = {steel,
-                         {.young = 1.0,
-                          .poisson = 0.3,
-                          .density = 1.0,
-                          .law = solid::MaterialLaw::j2,
-                          .yield_stress = 5e-3,
-                          .hardening = 0.05}};
-    options.kinematics = {solid::Kinematics::floating, solid::Kinematics::finite};
+    const solid::Material metal{.young = 1.0,
+                                .poisson = 0.3,
+                                .density = 1.0,
+                                .law = solid::MaterialLaw::j2,
+                                .yield_stress = 5e-3,
+                                .hardening = 0.05};
+    options.materials = {metal, metal};
+    options.materials[0].kinematic_hardening = 0.02;
+    options.materials[0].stiffness_damping = 0.01;
+    options.materials[1].mass_damping = 0.1;
+    options.materials[1].linear_viscosity = 0.1;
+    options.kinematics = {GENERATE(solid::Kinematics::small, solid::Kinematics::floating), solid::Kinematics::finite};
     options.contact = contact::ContactOptions{};
     const auto report = check_same_bits<Dim>(all, mesh, options, towards_each_other<Dim>(0.1), Dim == 2 ? 120 : 50,
                                              parts(all, mesh), {.waves = 0.01, .spin = 0.05});

@@ -190,6 +190,22 @@ TEMPLATE_TEST_CASE_SIG("bodies of all kinematics go on with the same bits from a
     CHECK(compare_with_restarts<Dim>(falling<Dim>(kinematics), MakeMemm{}, 300, 23) > 0);
 }
 
+TEMPLATE_TEST_CASE_SIG("so do runs of metal that flows and is damped", "[solid][state]", ((int Dim), Dim), 2, 3) {
+    const auto kinematics = GENERATE(Kinematics::small, Kinematics::floating, Kinematics::finite);
+    CAPTURE(static_cast<int>(kinematics));
+    auto options = falling<Dim>({kinematics, kinematics});
+    options.law = solid::ContactLaw::pair_potential;
+    for (solid::Material& material : options.materials) {
+        material.law = solid::MaterialLaw::j2;
+        material.yield_stress = 2e-3 * material.young;
+        material.hardening = 0.05 * material.young;
+        material.mass_damping = 0.01;
+        material.stiffness_damping = 0.01;
+        material.quadratic_viscosity = 1.0;
+    }
+    CHECK(compare_with_restarts<Dim>(options, MakeMemm{}, 300, 23) > 0);
+}
+
 TEMPLATE_TEST_CASE_SIG("so do runs with a wall that moves and tractions that vary", "[solid][state]", ((int Dim), Dim), 2,
                        3) {
     const auto kinematics = GENERATE(Kinematics::small, Kinematics::floating);
