@@ -214,6 +214,13 @@ Json material_json(const RunResult<Dim>& result) {
     return json;
 }
 
+/// Nothing where no bond broke.
+template <int Dim>
+Json bond_json(const RunResult<Dim>& result) {
+    if (result.dissipated.in_bonds == 0.0) return Json::object();
+    return {{"bonds", {{"dissipated", result.dissipated.in_bonds}}}};
+}
+
 Json encounter_json(const Encounter& met) {
     if (met.body_1.empty()) return {};
     return {{"body_1", met.body_1},
@@ -331,6 +338,14 @@ std::string material_lines(const RunResult<Dim>& result) {
     return text;
 }
 
+/// Nothing where no bond broke.
+template <int Dim>
+std::string bond_lines(const RunResult<Dim>& result) {
+    if (result.dissipated.in_bonds == 0.0) return "";
+    return table_line(fmt::format("dissipated by bonds that broke, / {}", result.scale.name),
+                      fmt::format("{:.4g}", result.scale.over(result.dissipated.in_bonds)));
+}
+
 template <int Dim>
 std::string body_lines(const Scene<Dim>& scene, const RunResult<Dim>& result) {
     std::string text;
@@ -368,6 +383,7 @@ std::string summary_json(const std::string& program, const Scene<Dim>& scene, co
     json.update(counts_json(result));
     json.update(friction_json(result));
     json.update(material_json(result));
+    json.update(bond_json(result));
     for (const Finding& finding : result.findings) json[finding.key] = to_json(finding.value);
     if (result.pilot) json["pilot"] = pilot_json(*result.pilot);
     if (result.settling) json["settling"] = settling_json(*result.settling);
@@ -396,7 +412,7 @@ std::string closing_table(const std::string& program, const Scene<Dim>& scene, c
     if (result.resumed_after > 0)
         text += table_line("gone on from a checkpoint", fmt::format("after step {}", result.resumed_after));
     text += energy_lines(result) + restart_line(result) + contact_lines(result) + friction_lines(result) +
-            material_lines(result);
+            material_lines(result) + bond_lines(result);
     for (const Finding& finding : result.findings) text += table_line(finding.text, value_text(finding.value));
     return text + body_lines(scene, result) + time_line(result) + table_line("verdict", verdict(scene, result).text);
 }

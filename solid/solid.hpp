@@ -311,6 +311,10 @@ private:
     void add_work(double share);
     void finish_step(const Ends& ends, double time, double dt, contact::TakenForce take, double share,
                      std::span<Vector<Dim>> gradient, std::span<double> force);
+    [[nodiscard]] std::vector<std::size_t> overloaded_bonds(const Ends& ends, const BoundaryLoad<Dim>& start_load);
+    template <class TakeMean>
+    void take_breaking(const Ends& ends, std::span<const std::size_t> places, const BoundaryLoad<Dim>& start_load,
+                       const TakeMean& take_mean, std::span<Vector<Dim>> gradient);
     [[nodiscard]] double energy_of_bonds(std::span<const std::size_t> places, const Ends& ends,
                                          const BoundaryLoad<Dim>& start_load);
     void end_step(double time);

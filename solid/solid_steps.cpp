@@ -85,30 +85,15 @@ void Solid<Dim>::mean_force(std::span<const double> q_0, std::span<const double>
         else
             take_gradient(loads_->end(), result);
     };
-    std::vector<std::size_t> breaking;
-    if (bonds_->any_breaks()) {
-        bonds_->follow(u_0, start_load, u_1, loads_->end());
-        breaking = bonds_->overloaded();
-    }
-    double share = 1.0;
-    if (!breaking.empty()) {
-        dissipated_.in_bonds += energy_of_bonds(breaking, {u_0, u_1}, start_load);
-        static_cast<void>(follow_frames(of_cells(u_0), of_cells(u_1)));
-        bonds_->set_share(breaking, 0.5, true);
-        std::vector<Vector<Dim>> with_bonds(gradient.size());
-        take_mean(with_bonds);
-        add_work(share = 0.5);
-        static_cast<void>(follow_frames(of_cells(u_0), of_cells(u_1)));
-        bonds_->set_share(breaking, 0.5, false);
+    const std::vector<std::size_t> breaking = overloaded_bonds({u_0, u_1}, start_load);
+    if (breaking.empty()) {
         take_mean(gradient);
-        for (std::size_t i = 0; i < of_cells(u_0).size(); ++i) gradient[i] = 0.5 * (gradient[i] + with_bonds[i]);
-    } else {
-        take_mean(gradient);
+        return finish_step({u_0, u_1}, time, dt, contact::TakenForce::mean, 1.0, gradient, force);
     }
-    finish_step({u_0, u_1}, time, dt, contact::TakenForce::mean, share, gradient, force);
-    if (breaking.empty()) return;
+    take_breaking({u_0, u_1}, breaking, start_load, take_mean, gradient);
+    finish_step({u_0, u_1}, time, dt, contact::TakenForce::mean, 0.5, gradient, force);
     bonds_->set_share(breaking, 0.0);
-    if (contact_) contact_->jumped(u_1, time + dt);
+    if (contact_) contact_->jumped(u_1, time + dt);  // more faces may touch than in its list
 }
 
 template <int Dim>
@@ -144,6 +129,31 @@ void Solid<Dim>::end_force(std::span<const double> q_0, std::span<const double> 
         bonds_->add_gradient(gradient);
     }
     finish_step({u_0, u_1}, time, dt, contact::TakenForce::end, 0.5, gradient, force);
+}
+
+template <int Dim>
+std::vector<std::size_t> Solid<Dim>::overloaded_bonds(const Ends& ends, const BoundaryLoad<Dim>& start_load) {
+    if (!bonds_->any_breaks()) return {};
+    bonds_->follow(ends.start, start_load, ends.end, loads_->end());
+    return bonds_->overloaded();
+}
+
+/// The mean of the gradients with some places of bonds and without them, and half of the work; what V loses is dissipated.
+template <int Dim>
+template <class TakeMean>
+void Solid<Dim>::take_breaking(const Ends& ends, std::span<const std::size_t> places, const BoundaryLoad<Dim>& start_load,
+                               const TakeMean& take_mean, std::span<Vector<Dim>> gradient) {
+    dissipated_.in_bonds += energy_of_bonds(places, ends, start_load);
+    const auto take = [&](bool with_bonds, std::span<Vector<Dim>> result) {
+        static_cast<void>(follow_frames(of_cells(ends.start), of_cells(ends.end)));
+        bonds_->set_share(places, 0.5, with_bonds);
+        take_mean(result);
+    };
+    std::vector<Vector<Dim>> with_bonds(gradient.size());
+    take(true, with_bonds);
+    add_work(0.5);
+    take(false, gradient);
+    for (std::size_t c = 0; c < all_cells_.size(); ++c) gradient[c] = 0.5 * (gradient[c] + with_bonds[c]);
 }
 
 /// What V has of these places, half of it at each end of the step; they are whole before and broken afterwards.

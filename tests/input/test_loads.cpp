@@ -172,6 +172,57 @@ time = 2.5
     CHECK_NOTHROW(run::simulate<2>(crossed.scene<2>(), crossed.options()));
 }
 
+TEST_CASE("bonds glue bodies or groups of faces, and faults name what is wrong with them", "[input][scenes]") {
+    const std::vector<std::string> touching{"bodies.right.place=[-0.5, 0]"};
+    const WrittenScene written(two_blocks(R"toml([[bonds]]
+bodies = ["left", "right"]
+strength = 3
+[[bonds]]
+bodies = ["left"]
+groups = ["right.xmin"]
+)toml"));
+    const input::SceneFile file(written.path(), {.set = touching});
+    const auto scene = file.scene<2>();
+    REQUIRE(scene.solid.bonds.size() == 2);
+    CHECK(scene.solid.bonds[0].sides == std::array<std::int32_t, 2>{0, 1});
+    CHECK(scene.solid.bonds[0].strength == 3.0);
+    CHECK(scene.solid.bonds[1].sides[0] == 0);
+    CHECK(scene.mesh.groups[static_cast<std::size_t>(scene.solid.bonds[1].sides[1] - 2)].name == "right.xmin");
+    CHECK(std::isinf(scene.solid.bonds[1].strength));
+
+    const WrittenScene glued(two_blocks("[[bonds]]\nbodies = [\"left\", \"right\"]\n"));
+    std::vector<std::string> longer = touching;
+    longer.push_back("run.steps=200");
+    const input::SceneFile run_file(glued.path(), {.set = longer});
+    const auto result = run::simulate<2>(run_file.scene<2>(), run_file.options());
+    CHECK(result.ledger.pseudo_energy_drift() < 1e-11 * result.scale.value);
+    CHECK(result.contact.active_pairs_max == 0);
+    CHECK((result.end[0].velocity + result.end[1].velocity).x() == Approx(1.0).epsilon(1e-10));
+    CHECK(std::abs(result.end[1].velocity.x()) > 1e-3);  // nothing else moves it
+
+    const auto faults = [&](const std::string& bonds) {
+        const WrittenScene wrong(two_blocks(bonds));
+        return input::text_of(input::check_scene(wrong.path(), {.set = touching}).faults);
+    };
+    using Catch::Contains;
+    CHECK_THAT(faults("[[bonds]]\nbodies = [\"left\"]"), Contains("name 1 together, 2 are needed"));
+    CHECK_THAT(faults("[[bonds]]\nbodies = [\"left\", \"rigth\"]"), Contains("'rigth', which is no body"));
+    CHECK_THAT(faults("[[bonds]]\nbodies = [\"left\", \"right\"]\nstrength = -1"), Contains("strength is -1 Pa"));
+    CHECK_THAT(faults("[[bonds]]\ngroups = [\"left.xmin\", \"right.xmin\"]"),
+               Contains("no face of one lies on one of the other"));
+}
+
+TEST_CASE("a piece that is glued on and as long as the bar that strikes flies off with its velocity", "[input][scenes]") {
+    const input::SceneFile file(ABUT_SOURCE "/scenes/bonded_bars.toml");
+    const auto result = run::simulate<2>(file.scene<2>(), file.options());
+    CHECK(result.end[2].velocity.x() == Approx(0.1).epsilon(0.05));  // less what the bond bears
+    CHECK(std::abs(result.end[0].velocity.x()) < 0.005);
+    CHECK(std::abs(result.end[1].velocity.x()) < 0.005);
+    CHECK(result.dissipated.in_bonds > 0.0);
+    CHECK(result.ledger.pseudo_energy_drift() < 1e-12 * result.scale.value);
+    CHECK(result.contact.missed_contacts == 0);
+}
+
 TEST_CASE("a pressure acts against the normals of all faces of its group", "[input][scenes]") {
     const WrittenScene written(two_blocks(R"toml([bodies.round]
 shape = "disc"
