@@ -41,9 +41,8 @@ OptionList<CandidateOptions> make_search_options() {
         choice("broad_phase", &Of::broad_phase, broad_phase_words(),
                {.help = "what finds faces that are near; results are the same to the last digit", .of_build = true}),
         option("self_contact", &Of::self_contact,
-               {.help = "contact acts between parts of one body, too, by the modified reconstruction",
+               {.help = "contact acts between parts of one body, too",
                 .key = "self",
-                .laws = reconstruction,
                 .named = Named::changed,
                 .is_switch = true}),
         option("self_contact_rings", &Of::self_contact_rings,
@@ -182,6 +181,7 @@ OptionList<NodalOptions> make_nodal_options() {
     for (const Option<Of>& option : within(&Of::facing, facing_options())) options.push_back(option);
     for (const Option<Friction>& option : friction_options()) options.push_back(of_first_law(option));
     options.push_back(events<Of>());
+    options.push_back(of_search("self_contact"));
     return options;
 }
 

@@ -136,10 +136,11 @@ void add_sightings(Counts& counts, const RunResult<Dim>& result) {
     for (const NearItself<Dim>& near : result.sightings.near_themselves)
         counts.warnings.push_back(
             {WarningKind::near_itself, Severity::warning,
-             fmt::format("by t = {:.4g} s body '{}' has come together with itself at ({:.4g}): two parts of its surface, "
-                         "{:.3g} m apart at rest, have a gap of {:.3g} m, and no contact acts within a body. {}",
-                         near.time, near.body, fmt::join(near.position, ", "), near.gap_at_rest, near.gap,
-                         "contact.self = true lets it act, under law = \"reconstruction\""),
+             fmt::format(
+                 "by t = {:.4g} s body '{}' has come together with itself at ({:.4g}): two parts of its surface, "
+                 "{:.3g} m apart at rest, have a gap of {:.3g} m, and no contact acts within a body. contact.self = true "
+                 "lets it act",
+                 near.time, near.body, fmt::join(near.position, ", "), near.gap_at_rest, near.gap),
              near.gap, 0.0});
     for (const LookEnded& ended : result.sightings.looks_ended)
         counts.warnings.push_back(

@@ -51,7 +51,8 @@ std::string made(ContactLaw law, const SolidOptions<Dim>& options) {
 
 template <int Dim>
 bool asks_for(ContactLaw law, const SolidOptions<Dim>& options) {
-    return !made(law, options).empty();
+    const bool by_itself = law == ContactLaw::reconstruction && options.contact && options.contact->search.self_contact;
+    return by_itself || !made(law, options).empty();
 }
 
 template <int Dim>

@@ -21,7 +21,7 @@ namespace {
 /// Skins that faces which are far from all other bodies may move before they must be looked at again.
 constexpr double far_skins = 4.0;
 
-/// In the order of the bodies that contact has.
+/// In the order of the bodies that contact has. A rigid body never comes together with itself.
 template <int Dim>
 std::vector<std::array<std::int32_t, 2>> ignored_pairs(const Bodies<Dim>& bodies) {
     std::vector<std::array<std::int32_t, 2>> pairs = bodies.deformable_options().ignored_pairs;
@@ -31,6 +31,9 @@ std::vector<std::array<std::int32_t, 2>> ignored_pairs(const Bodies<Dim>& bodies
     for (auto& pair : pairs)
         for (std::int32_t& body : pair)
             if (body < n) body = of_contact[static_cast<std::size_t>(body)];
+    if (bodies.deformable_options().contact->search.self_contact)
+        for (std::int32_t body = 0; body < n; ++body)
+            if (bodies.is_rigid(bodies.mesh_body(body))) pairs.push_back({body, body});
     return pairs;
 }
 
@@ -93,6 +96,7 @@ PairPotentialDriver<Dim>::PairPotentialDriver(const Bodies<Dim>& bodies, Ccg<Dim
       obstacles_(bodies.deformable_options().obstacles),
       corners_(bodies, ccg, frames, obstacles_, part),
       contact_(corners_.for_contact(), nodal_options(bodies, corners_, bonds), corners_.sharing()),
+      touches_itself_(bodies.deformable_options().contact->search.self_contact),
       all_(corners_.list_all()),
       x_0_(corners_.rest()),
       x_1_(x_0_),
@@ -130,6 +134,7 @@ void PairPotentialDriver<Dim>::search(std::span<const Vector<Dim>> q_0, std::spa
     near_ = corners_.list(near_nodes());
     near_watch_ = watch_from(near_, q_1, x_1_, time + dt);
     far_watch_ = watch_from(all_, q_1, x_1_, time + dt);
+    if (touches_itself_) far_watch_.moved_in_frame = moved_in_frame();
 }
 
 /// Of faces that reach into the box of another body or obstacle when that grows by twice `far_reach_`, and by all that contact

@@ -42,9 +42,7 @@ public:
     [[nodiscard]] FaceCorrections<Dim> corrections() const override;
     [[nodiscard]] std::span<const BodyPush<Dim>> pushes() const override { return pushes_; }
     [[nodiscard]] std::span<const BodyPush<Dim>> rigid_pushes() const override { return rigid_pushes_; }
-    [[nodiscard]] double energy() const override {
-        return contact_.last().energy + contact_.last().report.friction.energy;
-    }
+    [[nodiscard]] double energy() const override { return contact_.last().energy + contact_.last().report.friction.energy; }
     [[nodiscard]] const contact::FrictionFigures& friction() const override { return contact_.last().report.friction; }
     void take_obstacle_forces(double share, double& work) override;
     void add_impulses(double dt) override;
@@ -78,18 +76,22 @@ private:
         std::vector<Vector<Dim>> u;  // in that state and in the frames, of the cells that move these nodes
         double travelled = 0.0;      // at most since then: motion in its frame of the cell that moved farthest
         double amplification = 0.0;  // how far one of these nodes moves when no cell moves by more than 1
+        double moved_in_frame =
+            0.0;  // as `moved`, seen from the frames: a body that flies and turns does not come to itself
     };
 
     /// Whether faces may move farther than the motion of cells bounds: by loads that vary, and by the stretch of free faces.
     [[nodiscard]] bool faces_leave_cells() const { return loads_.vary() || bodies_.any_finite(); }
     [[nodiscard]] double motion_since(const Watch& watch, double in_frame, double time) const;
     [[nodiscard]] bool is_valid(double near_in_frame, double far_in_frame, double time) const;
+    [[nodiscard]] bool is_valid_within(double far_in_frame) const;
     [[nodiscard]] bool is_surely_valid(double cell_motion, double time);
     [[nodiscard]] bool is_valid_by_cells(std::span<const Vector<Dim>> q_1, double time);
     [[nodiscard]] bool is_valid_at_near_nodes(std::span<const Vector<Dim>> q_1, double time);
     [[nodiscard]] double distance_in_frame(const Listed& listed, std::span<const Vector<Dim>> q, const Watch& watch);
     [[nodiscard]] Watch watch_from(const Listed& listed, std::span<const Vector<Dim>> q_1, const Points& x, double time);
     void search(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1, double time, double dt);
+    [[nodiscard]] double moved_in_frame() const;
     [[nodiscard]] std::vector<std::int32_t> near_nodes() const;
     /// The gradients of the last call of contact between these two placements of the nodes, face by face.
     void collect(const Points& x_0, const Points& x_1);
@@ -106,6 +108,7 @@ private:
     Obstacles<Dim> obstacles_;
     CornerSurface<Dim> corners_;
     contact::NodalContact<Dim> contact_;
+    bool touches_itself_;
 
     // All faces; those near enough to another body to touch it while no face moves farther than `far_reach_`; those listed.
     Listed all_, near_, listed_;

@@ -36,7 +36,27 @@ double PairPotentialDriver<Dim>::motion_since(const Watch& watch, double in_fram
 template <int Dim>
 bool PairPotentialDriver<Dim>::is_valid(double near_in_frame, double far_in_frame, double time) const {
     return contact_.is_valid_for(motion_since(near_watch_, near_in_frame, time)) &&
-           motion_since(far_watch_, far_in_frame, time) <= far_reach_;
+           motion_since(far_watch_, far_in_frame, time) <= far_reach_ && is_valid_within(far_in_frame);
+}
+
+/// For pairs of one body.
+template <int Dim>
+bool PairPotentialDriver<Dim>::is_valid_within(double far_in_frame) const {
+    return !touches_itself_ || contact_.is_valid_for(far_watch_.moved_in_frame + far_watch_.amplification * far_in_frame);
+}
+
+/// In the step from x_0 to x_1, of the node of a body that deforms which moves farthest, seen from the frame of its body [m].
+template <int Dim>
+double PairPotentialDriver<Dim>::moved_in_frame() const {
+    return std::sqrt(largest(std::ssize(all_.nodes), [&](std::ptrdiff_t i) {
+        const std::int32_t n = all_.nodes[i];
+        if (corners_.is_of_obstacle(n) || !corners_.is_deformable(corners_.face_of(n))) return 0.0;
+        const std::size_t body = corners_.body_of(corners_.face_of(n));
+        const BodyFrame<Dim>&start = frames_.start()[body], &end = frames_.end()[body];
+        const Vector<Dim> from = start.turn.transpose() * (x_0_[n] - start.centre),
+                          to = end.turn.transpose() * (x_1_[n] - end.centre);
+        return (to - from).squaredNorm();
+    }));
 }
 
 /// By what no cell and no frame exceeds in the step: nothing is computed but a few sums.
@@ -53,7 +73,7 @@ template <int Dim>
 bool PairPotentialDriver<Dim>::is_valid_by_cells(std::span<const Vector<Dim>> q_1, double time) {
     if (!has_stepped_ || faces_leave_cells() || !contact_.is_valid_for(0.0)) return false;
     near_watch_.travelled = distance_in_frame(near_, q_1, near_watch_);
-    if (!(motion_since(far_watch_, far_watch_.travelled, time) <= far_reach_))
+    if (!(motion_since(far_watch_, far_watch_.travelled, time) <= far_reach_) || !is_valid_within(far_watch_.travelled))
         far_watch_.travelled = distance_in_frame(all_, q_1, far_watch_);
     return is_valid(near_watch_.travelled, far_watch_.travelled, time);
 }
@@ -75,6 +95,7 @@ template <int Dim>
 bool PairPotentialDriver<Dim>::is_valid_at_near_nodes(std::span<const Vector<Dim>> q_1, double time) {
     if (!has_stepped_ || !contact_.is_valid_for(0.0)) return false;
     if (!faces_leave_cells() && !(motion_since(far_watch_, far_watch_.travelled, time) <= far_reach_)) return false;
+    if (!faces_leave_cells() && !is_valid_within(far_watch_.travelled)) return false;
     const Listed& looked_at = faces_leave_cells() ? all_ : near_;
     corners_.place(looked_at, q_1, frames_.end(), loads_.end(), time, x_1_, StepState::end);
     near_watch_ = watch_from(looked_at, q_1, x_1_, time);
@@ -113,6 +134,8 @@ typename PairPotentialDriver<Dim>::Watch PairPotentialDriver<Dim>::watch_from(co
 #define ABUT_INSTANTIATE(Dim)                                                                                               \
     template double PairPotentialDriver<Dim>::motion_since(const Watch&, double, double) const;                             \
     template bool PairPotentialDriver<Dim>::is_valid(double, double, double) const;                                         \
+    template bool PairPotentialDriver<Dim>::is_valid_within(double) const;                                                  \
+    template double PairPotentialDriver<Dim>::moved_in_frame() const;                                                       \
     template bool PairPotentialDriver<Dim>::is_surely_valid(double, double);                                                \
     template bool PairPotentialDriver<Dim>::is_valid_by_cells(std::span<const Vector<Dim>>, double);                        \
     template double PairPotentialDriver<Dim>::distance_in_frame(const Listed&, std::span<const Vector<Dim>>, const Watch&); \

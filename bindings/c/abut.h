@@ -127,6 +127,7 @@ typedef struct abut_options {
     double shear_strength;      /* stress that faces in contact bear beside it, whatever presses them [Pa] (Tresca) */
     double relaxation_time;     /* in which a force that sticks falls by 1/e [s]: damps rigid bodies that flutter */
     int32_t events;             /* not 0: follow what begins and ends inside a step */
+    int32_t self_contact;       /* not 0: also faces of one body touch each other */
     /* Whether two faces may touch; NULL: all. Asked at searches, by the thread that calls. */
     int (*wanted)(int32_t face_1, int32_t face_2, void* user);
     /* Which law of friction two faces have, in either order: 0 that above, i from 1 on the i-th of `laws`, below 0 none; NULL:

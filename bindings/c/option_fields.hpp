@@ -27,6 +27,7 @@ inline constexpr OptionField option_fields[] = {{"skin", &abut_options::skin},
                                                 {"decay_slip", &abut_options::decay_slip},
                                                 {"shear_strength", &abut_options::shear_strength},
                                                 {"relaxation_time", &abut_options::relaxation_time},
-                                                {"events", &abut_options::events}};
+                                                {"events", &abut_options::events},
+                                                {"self_contact", &abut_options::self_contact}};
 
 }  // namespace abut::c_layer
