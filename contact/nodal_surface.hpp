@@ -17,7 +17,7 @@ struct NodalFaces {
     /// second (2D); three or four, counter-clockwise seen from outside (3D)
     std::span<const std::int32_t> nodes;
     std::span<const std::int32_t> offsets;  ///< (n_faces + 1), into `nodes`; empty: every face has Dim corners
-    std::span<const std::int32_t> body;     ///< (n_faces), from 0 on; faces of one body do not touch each other
+    std::span<const std::int32_t> body;     ///< (n_faces), from 0 on; those of one body touch if `self_contact` is on
     /// (n_faces) [m]: half the height of the element behind the face, and 0 for a rigid face. A contact is admitted as deep
     /// as both faces together
     std::span<const double> depth;

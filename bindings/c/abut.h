@@ -70,7 +70,7 @@ typedef struct abut_faces {
     const int32_t* nodes;
     int64_t n_nodes;         /* entries of `nodes` */
     const int32_t* offsets;  /* (n_faces + 1) where each face begins in `nodes`; NULL: all have as many corners as dimensions */
-    const int32_t* body;     /* (n_faces); faces of one body do not touch each other */
+    const int32_t* body;     /* (n_faces); those of one body touch if self_contact is on */
     const double* depth;     /* (n_faces) half the height of the element behind a face; 0 for a rigid one */
     const double* stiffness; /* (n_bodies) from `abut_skin_stiffness`; infinity: a rigid body */
     /* (n_bodies) needed with friction, else NULL: mu/(lambda + 2 mu) of `stiffness`, which is `abut_skin_stiffness` of the shear
