@@ -332,7 +332,7 @@ std::string material_lines(const RunResult<Dim>& result) {
                                        result.scale.over(loss.on_faces))) +
                 table_line("largest plastic strain", fmt::format("{:.3g}", result.finite.plastic_strain));
     if (loss.by_rates != 0.0)
-        text += table_line(fmt::format("dissipated by damping and viscosity, / {}", result.scale.name),
+        text += table_line(fmt::format("dissipated by damping, / {}", result.scale.name),
                            fmt::format("{:.4g}; held in their lag {:.1e}", result.scale.over(loss.by_rates),
                                        result.scale.over(loss.lagged)));
     return text;
