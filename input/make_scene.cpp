@@ -257,6 +257,9 @@ run::Scene<Dim> make_scene(const Settings& settings, std::vector<Fault>& faults)
     add_outputs(scene, settings, faults);
     scene.contact = settings.contact;
     if (!scene.contact) {
+        for (solid::Bond& bond : scene.solid.bonds)  // groups are counted behind obstacles
+            for (std::int32_t& side : bond.sides)
+                if (side >= scene.mesh.n_bodies()) side -= static_cast<std::int32_t>(scene.solid.obstacles.size());
         scene.solid.obstacles.clear();
         scene.solid.ignored_pairs.clear();
         scene.solid.body_friction.clear();

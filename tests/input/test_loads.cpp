@@ -192,13 +192,20 @@ groups = ["right.xmin"]
 
     const WrittenScene glued(two_blocks("[[bonds]]\nbodies = [\"left\", \"right\"]\n"));
     std::vector<std::string> longer = touching;
-    longer.push_back("run.steps=200");
+    longer.insert(longer.end(), {"run.steps=200", "run.dt=0.02"});
     const input::SceneFile run_file(glued.path(), {.set = longer});
     const auto result = run::simulate<2>(run_file.scene<2>(), run_file.options());
     CHECK(result.ledger.pseudo_energy_drift() < 1e-11 * result.scale.value);
     CHECK(result.contact.active_pairs_max == 0);
     CHECK((result.end[0].velocity + result.end[1].velocity).x() == Approx(1.0).epsilon(1e-10));
     CHECK(std::abs(result.end[1].velocity.x()) > 1e-3);  // nothing else moves it
+
+    const WrittenScene untouched(
+        two_blocks("[contact]\nenabled = false\n[obstacles.floor]\nshape = \"plane\"\npoint = [0, -1]\nnormal = [0, 1]\n"
+                   "[[bonds]]\ngroups = [\"left.xmax\", \"right.xmin\"]\n"));
+    const input::SceneFile without_contact(untouched.path(), {.set = longer});
+    const auto same = run::simulate<2>(without_contact.scene<2>(), without_contact.options());
+    CHECK(same.end[1].velocity == result.end[1].velocity);
 
     const auto faults = [&](const std::string& bonds) {
         const WrittenScene wrong(two_blocks(bonds));
