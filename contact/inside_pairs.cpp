@@ -64,7 +64,8 @@ InsidePairs<Dim>::InsidePairs(const SurfaceView<Dim>& facets, const std::vector<
     std::vector<geometry::Box<Dim>> boxes(n);
     for (std::int32_t facet = 0; facet < facets.size(); ++facet) {
         if (touches_itself[static_cast<std::size_t>(facets.body[facet])] == 0) continue;
-        reach[facet] = circumradius(facets, facet) + (facets.is_rigid(facet) ? 0.0 : 2.0 * facets.cell_depth[facet]);
+        const double depth = facets.is_rigid(facet) ? 0.0 : facets.cell_depth[facet];
+        reach[facet] = circumradius(facets, facet) + 2.0 * std::sqrt(static_cast<double>(Dim)) * depth;
         boxes[facet].extend(facets.centroid[facet]);
         boxes[facet] = boxes[facet].grown(reach[facet]);
     }

@@ -105,9 +105,9 @@ void NodeLaw<Dim>::place_facets(State x) {
 }
 
 /// Of two facets of one body, when no corner moves by more than `reach`. They are neighbours on its surface, and turn little
-/// against each other while a list is valid: those that look much the same way, that are far above, behind or beside each other
-/// seen along n, and those inside that do not look at each other, come together after the next search at the earliest. What has
-/// a mark comes out only if it is shallow.
+/// against each other while a list is valid: those that look much the same way, and those that are far above, behind or beside
+/// each other seen along n, come together after the next search at the earliest. What has a mark comes out only if it is shallow
+/// and the facets look at each other.
 template <int Dim>
 bool NodeLaw<Dim>::may_come_together(FacetPair pair, double reach) const {
     const auto facet_1 = static_cast<std::size_t>(pair.facet_1), facet_2 = static_cast<std::size_t>(pair.facet_2);
@@ -120,8 +120,7 @@ bool NodeLaw<Dim>::may_come_together(FacetPair pair, double reach) const {
     if (height > slack + turned) return false;
     const double aside = 2.0 * reach + sizes + turned;
     if (distance * distance - height * height > aside * aside) return false;
-    if (height < 0.0 && facing > options_.facing.none + turns_at_most) return false;
-    if (inside_.has(pair)) return height >= -slack;
+    if (inside_.has(pair)) return height >= -slack && facing <= options_.facing.none + turns_at_most;
     return height >= -(slack + turned + facets().cell_depth[facet_1] + facets().cell_depth[facet_2]);
 }
 

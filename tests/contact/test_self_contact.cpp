@@ -271,6 +271,40 @@ TEMPLATE_TEST_CASE_SIG("layers of one body that slide while pressed have every c
         CHECK(compared.energies[i] == Approx(of_two.energies[i]).epsilon(1e-12));
 }
 
+TEMPLATE_TEST_CASE_SIG("a C that claps has the energies of arms that are two bodies", "[contact][nodal][self]",
+                       ((int Dim), Dim), 2, 3) {
+    const auto all = shapes();
+    const auto scene = body_of<Dim>(std::ranges::find(all, "C", &Shape::name)->outline);
+    const double middle = 0.32;
+    auto labelled = scene;
+    labelled.faces.stiffness.push_back(labelled.faces.stiffness[0]);
+    for (std::size_t face = 0; face < labelled.faces.body.size(); ++face) {
+        double y = 0.0;
+        for (std::int32_t c = scene.faces.offsets[face]; c < scene.faces.offsets[face + 1]; ++c)
+            y += scene.rest[scene.faces.nodes[c]][1] / (scene.faces.offsets[face + 1] - scene.faces.offsets[face]);
+        labelled.faces.body[face] = y > middle ? 1 : 0;
+    }
+    const auto state = [&](int i) {
+        auto x = scene.rest;
+        const double angle = 0.04 * std::sin(0.05 * i);
+        for (std::size_t v = 0; v < x.size(); ++v)
+            x[v] += (scene.rest[v][1] > middle ? -angle : angle) * std::max(0.0, scene.rest[v][0] - 0.3) * axis<Dim>(1);
+        return x;
+    };
+    NodalContact<Dim> itself(scene.surface(), touching_itself()), of_two(labelled.surface());
+    int active = 0;
+    for (int i = 0; i < 130; ++i) {
+        const auto x_0 = state(i), x_1 = state(i + 1);
+        const NodalStep<Dim>&a = itself.step(1.0, x_0, x_1), &b = of_two.step(1.0, x_0, x_1);
+        REQUIRE(a.pairs.size() == b.pairs.size());
+        REQUIRE(a.energy == Approx(b.energy).epsilon(1e-13));
+        if (a.is_active()) ++active;
+        for (const auto& pair : a.body_pairs) CHECK(pair.force == Vector<Dim>::Zero());
+    }
+    CHECK(active > 20);
+    CHECK(itself.report().missed_contacts == 0);
+}
+
 TEMPLATE_TEST_CASE_SIG("a strip of one layer that rolls up touches itself with its two sides, and nothing else acts",
                        "[contact][nodal][self]", ((int Dim), Dim), 2, 3) {
     const double b = pitch / (2.0 * std::numbers::pi);
