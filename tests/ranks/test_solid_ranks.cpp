@@ -77,6 +77,7 @@ TEST_CASE("contact with a moving wall and with itself has the bits of one rank",
     options.materials = {steel};
     options.contact = contact::ContactOptions{};
     options.contact->search.self_contact = true;
+    options.law = GENERATE(solid::ContactLaw::reconstruction, solid::ContactLaw::pair_potential);
     options.obstacles = {{.faces = {{Vector<2>(5.0, -0.01), Vector<2>(-1.0, -0.01)}},
                           .path = [](double t) -> Vector<2> { return 0.05 * t * Vector<2>::Unit(1); }}};
     const std::vector<Vector<2>> velocity{Vector<2>(0.0, -0.1)};
