@@ -290,8 +290,9 @@ TEST_CASE("a material that remembers is refused where nothing keeps what it reme
     CHECK_THROWS_WITH(solid.end_force(q, q, 0.0, 1.0, force), Catch::Contains("remembers") && Catch::Contains("memm"));
     const std::vector<std::int32_t> level(q.size(), 0);
     CHECK_THROWS_WITH(solid.set_levels(1, level), Catch::Contains("local steps"));
-    auto options = alone<2>(metal);
+    auto options = alone<2>({.young = 1.0, .poisson = 0.3, .density = 1.0});
     options.kinematics = {Kinematics::floating};
+    options.finite.inelastic = {std::make_shared<Counting<2>>(metal)};
     CHECK_THROWS_WITH(solid::Solid<2>(mesh, options), Catch::Contains("which bodies of Kinematics::finite alone know"));
     options = alone<2>(metal);
     options.materials[0].yield_stress = 0.0;
