@@ -7,6 +7,7 @@
 #include <array>
 #include <numeric>
 #include <string_view>
+#include <utility>
 
 namespace abut::input {
 namespace {
@@ -115,6 +116,10 @@ constexpr std::array synonyms = std::to_array<Synonym>({{"e", "young"},
                                                         {"constraints", "supports"},
                                                         {"loads", "tractions"},
                                                         {"simulation", "run"},
+                                                        {"damping", "stiffness_damping"},
+                                                        {"rayleigh_alpha", "mass_damping"},
+                                                        {"rayleigh_beta", "stiffness_damping"},
+                                                        {"viscosity", "quadratic_viscosity"},
                                                         {"directory", "out"},
                                                         {"folder", "out"},
                                                         {"output_dir", "out"}});
@@ -177,7 +182,11 @@ std::string hint_of_name(const std::string& name, const std::vector<std::string>
 
 std::string hint(const std::string& word, const std::vector<std::string>& known) {
     if (known.empty()) return "";
-    const auto nearest = std::ranges::min_element(known, {}, [&](const auto& other) { return distance(word, other); });
+    // Of several that are as near, the one that begins alike for longest.
+    const auto farness = [&](const std::string& other) {
+        return std::pair{distance(word, other), word.end() - std::ranges::mismatch(word, other).in1};
+    };
+    const auto nearest = std::ranges::min_element(known, {}, farness);
     if (distance(word, *nearest) <= (std::max(word.size(), nearest->size()) + 1) / 3)
         return fmt::format(" Did you mean '{}'?", *nearest);
     return fmt::format(" Known are '{}'.", fmt::join(known, "', '"));

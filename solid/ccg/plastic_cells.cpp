@@ -95,12 +95,11 @@ PlasticCells<Dim>::PlasticCells(const mesh::Mesh<Dim>& mesh, std::span<const Mat
     const auto flows = [&](std::size_t body) {
         return materials_[body].law == MaterialLaw::j2 && (kinematics.empty() || kinematics[body] != Kinematics::finite);
     };
-    bool any = false;
     for (std::size_t body = 0; body < materials_.size(); ++body) {
-        any = any || flows(body);
+        any_ = any_ || flows(body);
         responses_.push_back(response_of(materials_[body], {}));
     }
-    if (!any) return;
+    if (!any_) return;
     index_.assign(static_cast<std::size_t>(mesh.n_cells()), -1);
     std::vector<std::vector<Strain>> free(index_.size());
     std::vector<char> is_loaded(static_cast<std::size_t>(boundary_faces(mesh).size()), 0);

@@ -30,7 +30,7 @@ public:
     PlasticCells& operator=(const PlasticCells&) = delete;
 
     /// Whether a body is of them, on any rank.
-    [[nodiscard]] bool any() const { return !index_.empty(); }
+    [[nodiscard]] bool any() const { return any_; }
     [[nodiscard]] bool contains(std::ptrdiff_t cell) const { return any() && index_[static_cast<std::size_t>(cell)] >= 0; }
     /// C_e : p, which stress is less by [Pa].
     [[nodiscard]] Matrix<Dim> stress(std::ptrdiff_t cell) const;
@@ -96,6 +96,7 @@ private:
 
     std::vector<Material> materials_;
     std::vector<Response> responses_;  // of each body inside, then of cells with free faces
+    bool any_ = false;                 // known from materials alone: this rank may have no cell of them
     std::vector<std::int32_t> index_;  // of each cell; empty where no body is of them
     std::vector<Cell> cells_;
 };

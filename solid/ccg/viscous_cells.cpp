@@ -47,7 +47,8 @@ void add_lagged(StepLoss& loss, double work, double dissipated) {
 template <int Dim>
 ViscousCells<Dim>::ViscousCells(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials)
     : materials_(materials.begin(), materials.end()) {
-    if (std::ranges::none_of(materials_, &Material::is_damped)) return;
+    any_ = std::ranges::any_of(materials_, &Material::is_damped);
+    if (!any_) return;
     index_.assign(static_cast<std::size_t>(mesh.n_cells()), -1);
     for (std::int32_t c = 0; c < mesh.n_cells(); ++c) {
         const Material& material = materials_[static_cast<std::size_t>(mesh.cell_body[c])];
@@ -75,10 +76,10 @@ Matrix<Dim> ViscousCells<Dim>::stress(std::ptrdiff_t cell, const Matrix<Dim>& g,
         const Matrix<Dim> mean = 0.5 * (of.now.strain + before);
         const Matrix<Dim> of_mean = material.stiffness_damping * stress_of_rate<Dim>(material, free, mean);
         const double measure = dt * of.measure;
-        const double most = measure * of_mean.cwiseProduct(mean).sum();  // dt/4 c (now + before)^2
+        const double lost = measure * of_mean.cwiseProduct(mean).sum();  // dt/4 c (now + before)^2
         const double work = measure * of_mean.cwiseProduct(of.now.strain).sum();
         const double first = of.before.deforms_known ? 1.0 : 0.75;  // the lag begins with the first step
-        add_lagged(of.of_stress, work, first * most);
+        add_lagged(of.of_stress, work, first * lost);
         result += f * of_mean;
     }
     if (material.linear_viscosity > 0.0 || material.quadratic_viscosity > 0.0) {

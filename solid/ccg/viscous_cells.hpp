@@ -24,7 +24,7 @@ public:
     ViscousCells& operator=(const ViscousCells&) = delete;
 
     /// Whether a body is damped, on any rank.
-    [[nodiscard]] bool any() const { return !index_.empty(); }
+    [[nodiscard]] bool any() const { return any_; }
     [[nodiscard]] bool contains(std::ptrdiff_t cell) const { return any() && index_[static_cast<std::size_t>(cell)] >= 0; }
     /// Viscous stress (P) of a step in which F - I of a cell changes by `change` about the mean `g`, for small strains 0 [Pa].
     /// `free`: the free faces of the cell, where `g` is of affine ones; null: it has none, or `g` knows where they are.
@@ -69,6 +69,7 @@ private:
     }
 
     std::vector<Material> materials_;
+    bool any_ = false;                 // known from materials alone: this rank may have no cell of them
     std::vector<std::int32_t> index_;  // of each cell; empty where no body is damped
     std::vector<Cell> cells_;
 };

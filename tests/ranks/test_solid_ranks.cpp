@@ -193,6 +193,9 @@ TEST_CASE("a rank without cells, and parts without any order, change no bit", "[
     const auto mesh = two_round_bodies<2>();
     solid::SolidOptions<2> options;
     options.materials = {steel, steel};
+    options.materials[1].law = solid::MaterialLaw::j2;
+    options.materials[1].yield_stress = 5e-3;
+    options.materials[1].stiffness_damping = 0.01;
     options.contact = contact::ContactOptions{};
     std::vector<int> owner(static_cast<std::size_t>(mesh.n_cells()), 0);  // all on rank 0
     SECTION("all but one rank have none") {}

@@ -11,10 +11,7 @@ _Integers = NDArray[np.int32]
 _Field = Optional[Callable[[_Doubles], ArrayLike]]
 
 class Material:
-    def __init__(self, young: float = ..., poisson: float = ..., density: float = ..., eta: float = ..., law: str = ...,
-                 second_share: float = ..., yield_stress: float = ..., hardening: float = ..., saturation: float = ...,
-                 saturation_rate: float = ..., mass_damping: float = ..., stiffness_damping: float = ...,
-                 linear_viscosity: float = ..., quadratic_viscosity: float = ...) -> None: ...
+    def __init__(self, **kwargs: Union[float, str]) -> None: ...
     young: float
     poisson: float
     density: float
@@ -25,6 +22,7 @@ class Material:
     hardening: float
     saturation: float
     saturation_rate: float
+    kinematic_hardening: float
     mass_damping: float
     stiffness_damping: float
     linear_viscosity: float
