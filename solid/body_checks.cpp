@@ -51,7 +51,7 @@ void Bodies<Dim>::check_material(std::int32_t body) const {
     if (material.kinematic_hardening > 0.0 && is_finite(body))
         throw BadInput(who +
                        "is of Kinematics::finite, whose plastic flow knows no kinematic_hardening. Take hardening, or "
-                       "Kinematics::floating.");
+                       "kinematics \"floating\".");
     if (!material.is_damped()) return;
     if (is_rigid(body))
         throw BadInput(who +
