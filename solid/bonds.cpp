@@ -67,11 +67,20 @@ template <int Dim>
 void Bonds<Dim>::check_bodies() const {
     const mesh::Mesh<Dim>& mesh = bodies_.mesh();
     for (const BondPlace<Dim>& place : places_)
-        for (const BoundaryFace face : place.faces)
-            if (const std::int32_t body = mesh.cell_body[cell_of(mesh, face)]; bodies_.is_rigid(body))
-                throw BadInput(mesh.name + ": body '" + mesh.body_names[static_cast<std::size_t>(body)] +
-                               "' is rigid and cannot be bonded. Let it deform (Kinematics::small, ::floating or ::finite), "
+        for (const BoundaryFace face : place.faces) {
+            const std::int32_t body = mesh.cell_body[cell_of(mesh, face)];
+            const std::string who = mesh.name + ": body '" + mesh.body_names[static_cast<std::size_t>(body)] + "' ";
+            if (bodies_.is_rigid(body))
+                throw BadInput(who +
+                               "is rigid and cannot be bonded. Let it deform (Kinematics::small, ::floating or ::finite), "
                                "or join it by SolidOptions::springs.");
+            // The cells behind a bond would yield as if nothing pulled there, and no balance of energy would show it.
+            const Material& material = bodies_.options().materials[static_cast<std::size_t>(body)];
+            if (material.law == MaterialLaw::j2)
+                throw BadInput(who +
+                               "yields (law = \"j2\") and cannot be bonded: its cells behind the bond would not feel it as "
+                               "they yield. Take another material, or leave the bond out.");
+        }
 }
 
 template <int Dim>

@@ -37,7 +37,7 @@ Lanes<Dim, Real> CcgSweeps<Dim, Real>::boundary_change(BoundaryFace face) const 
     return sum - load_packed<Dim>(Vector<Dim>(boundary.deficit[b] * unload<Dim>(origin)));
 }
 
-/// Of the gradient of a cell whose strains are linear, in a step. It is made for this cell alone: few bodies ask for it.
+/// The change of the gradient of a cell whose strains are linear in a step, made for this cell alone: few bodies ask for it.
 template <int Dim, class Real>
 Matrix<Dim> CcgSweeps<Dim, Real>::linear_change(std::int32_t c) const {
     const auto relative = [&](std::int32_t f) {
@@ -58,7 +58,7 @@ void CcgSweeps<Dim, Real>::add_stress(std::int32_t c, const Matrix<Dim>& added) 
     store_tensor(sum, s_, c);
 }
 
-/// What flow and damping add to the stress of a cell whose strains are linear.
+/// Adds the stresses of flow and damping to that of a cell whose strains are linear.
 template <int Dim, class Real>
 void CcgSweeps<Dim, Real>::add_linear_stress(std::int32_t c) {
     const bool flows = plastic_ && plastic_->contains(c), is_damped = steps_ && viscous_ && viscous_->contains(c);

@@ -467,6 +467,11 @@ TEST_CASE("bonds that cannot be made are refused with the reason", "[solid][bond
                    options.kinematics = {Kinematics::small, Kinematics::rigid};
                }),
                Contains("'right' is rigid and cannot be bonded"));
+    CHECK_THAT(message([](auto& options) {
+                   options.materials[1].law = solid::MaterialLaw::j2;
+                   options.materials[1].yield_stress = 1e-3;
+               }),
+               Contains("'right' yields"));
     CHECK_THAT(message([](auto& options) { options.boundary.dirichlet = {support<2>("left.xmax")}; }),
                Contains("held by a support"));
     CHECK_THAT(message([](auto& options) {
