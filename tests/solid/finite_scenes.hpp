@@ -77,6 +77,18 @@ std::unique_ptr<TurningScene<Dim>> spinning_collision(const solid::SolidOptions<
 template <int Dim>
 inline constexpr int steps_of_collision = Dim == 2 ? 600 : 250;
 
+/// Makes these steps. The largest fall of what has been dissipated in one of them [J]: 0, or materials have given energy back.
+template <int Dim>
+double fall_of_dissipation(TurningScene<Dim>& scene, int steps, double solid::StepLoss::*of) {
+    double fall = 0.0;
+    for (int step = 0; step < steps; ++step) {
+        const double before = scene.solid.dissipated().*of;
+        scene.run(1);
+        raise(fall, before - scene.solid.dissipated().*of);
+    }
+    return fall;
+}
+
 /// What one step leaves of energy, momentum and moment about the mean positions, over sums of absolute values.
 template <int Dim>
 struct StepErrors {

@@ -52,15 +52,10 @@ TEMPLATE_TEST_CASE_SIG(
                 const double spin = kinematics == Kinematics::small ? 0.0 : 0.02;
                 const Motion<Dim> spinning{Vector<Dim>::Constant(0.01), some_spin<Dim>(spin)};
                 TurningScene<Dim> scene(mesh, alone<Dim>(material), {spinning}, 0.6, kinematics, 0.01);
-                double least = 0.0, last = 0.0;
-                for (int step = 0; step < 200; ++step) {
-                    scene.run(1);
-                    raise(least, last - scene.solid.dissipated().by_rates);
-                    last = scene.solid.dissipated().by_rates;
-                }
+                const double fall = fall_of_dissipation<Dim>(scene, 200, &solid::StepLoss::by_rates);
                 const Drifts drifts = scene.drifts();
-                CHECK(last > 1e-3 * scene.ledger.largest_energy());
-                CHECK(least <= 0.0);
+                CHECK(scene.solid.dissipated().by_rates > 1e-3 * scene.ledger.largest_energy());
+                CHECK(fall <= 0.0);
                 CHECK(scene.ledger.entries().back().material_dissipated == scene.solid.dissipated().total());
                 CHECK(drifts.pseudo_energy <= 1e-13);
                 CHECK(drifts.momentum <= 1e-13);
