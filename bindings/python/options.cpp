@@ -3,8 +3,10 @@
 #include <string>
 #include <utility>
 
+#include "abut/base/error.hpp"
 #include "abut/run/option_table.hpp"
 #include "abut/run/preset.hpp"
+#include "numbers.hpp"
 #include "scenes.hpp"
 
 namespace abut::python {
@@ -33,7 +35,7 @@ OptionValue value_of(const OptionFacts& option, const py::handle& value) {
         case OptionKind::count:
             return py::cast<std::int64_t>(value);
         case OptionKind::number:
-            return py::cast<double>(value);
+            return number_in(option.limits.unit, value);
         case OptionKind::path:
             return py::cast<std::filesystem::path>(value).string();
         case OptionKind::word:
@@ -69,6 +71,8 @@ void take(const std::string& name, const py::handle& value, const Call& call) {
         throw py::type_error(name + " cannot be " + std::string(py::str(py::repr(value))));
     } catch (const py::value_error& error) {
         throw py::value_error(name + ": " + error.what());
+    } catch (const BadInput& error) {
+        throw BadInput(name + " is " + std::string(py::str(py::repr(value))) + ": " + error.what());
     }
 }
 

@@ -22,7 +22,6 @@
 #include "abut/run/summary.hpp"
 #include "abut/run/verdict.hpp"
 #include "abut/run/warnings.hpp"
-#include "abut/solid/material/material_numbers.hpp"
 #include "abut/solid/option_words.hpp"
 #include "in_use.hpp"
 #include "record.hpp"
@@ -360,44 +359,9 @@ void add_dimension(py::module_& module, const std::string& suffix) {
                    .c_str());
 }
 
-solid::MaterialLaw material_law(const std::string& name) {
-    std::string all;
-    for (const auto& [word, law] : solid::material_law_words) {
-        if (name == word) return law;
-        all += std::string(all.empty() ? "'" : ", '") + word + "'";
-    }
-    throw py::value_error("law is '" + name + "'; it is one of " + all);
-}
-
 }  // namespace
 
 void add_runs(py::module_& module) {
-    py::class_<solid::Material> of_material(module, "Material", "Isotropic; plane strain in 2D. Values are given by name.");
-    of_material.def(py::init([](const py::kwargs& values) {
-        solid::Material material;
-        for (const auto& [key, value] : values) {
-            const auto name = py::cast<std::string>(key);
-            const auto number = std::ranges::find(solid::material_numbers, name, &solid::MaterialNumber::name);
-            if (name == "law")
-                material.law = material_law(py::cast<std::string>(value));
-            else if (number != solid::material_numbers.end())
-                material.*(number->member) = py::cast<double>(value);
-            else
-                throw py::type_error("Material has no value '" + name + "'");
-        }
-        return material;
-    }));
-    for (const solid::MaterialNumber& number : solid::material_numbers) {
-        const std::string unit = number.limits.unit;
-        const std::string doc = number.help + (unit.empty() ? "" : " [" + unit + "]");
-        of_material.def_property(
-            number.name, [member = number.member](const solid::Material& material) { return material.*member; },
-            [member = number.member](solid::Material& material, double value) { material.*member = value; }, doc.c_str());
-    }
-    of_material.def_property(
-        "law", [](const solid::Material& material) { return word_of(solid::material_law_words, material.law); },
-        [](solid::Material& material, const std::string& law) { material.law = material_law(law); },
-        "beyond small strains: 'st_venant_kirchhoff', of finite bodies 'neo_hookean' or 'mooney_rivlin', or 'j2', which yields");
     add_dimension<2>(module, "2D");
     add_dimension<3>(module, "3D");
     module.def(

@@ -3,7 +3,7 @@
 
 namespace abut::python {
 
-/// Material, simulate, Memm2D, Memm3D and what they give back.
+/// simulate, Memm2D, Memm3D and what they give back.
 void add_runs(pybind11::module_& module);
 
 }  // namespace abut::python

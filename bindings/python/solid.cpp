@@ -7,6 +7,7 @@
 #include "abut.h"
 #include "abut/base/error.hpp"
 #include "arrays.hpp"
+#include "materials.hpp"
 #include "meshes.hpp"
 #include "runs.hpp"
 
@@ -73,5 +74,6 @@ PYBIND11_MODULE(_solid, module) {
         }
     });
     abut::python::add_meshes(module);
+    abut::python::add_materials(module);
     abut::python::add_runs(module);
 }

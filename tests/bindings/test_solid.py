@@ -348,6 +348,35 @@ class Runs(unittest.TestCase):
             self.assertEqual(rest["ledger"]["pseudo_energy"][-1], whole["ledger"]["pseudo_energy"][-1])
             np.testing.assert_array_equal(rest["displacement"], whole["displacement"])
 
+    def test_materials_have_units_and_names(self):
+        steel = solid.Material("steel S235")  # EN 1993-1-1, EN 1991-1-1, EN 10025-2
+        self.assertEqual((steel.young, steel.poisson, steel.density, steel.yield_stress), (210e9, 0.3, 7850.0, 0.0))
+        self.assertEqual(solid.Material("steel S235", law="j2").yield_stress, 235e6)
+        self.assertEqual(solid.Material("steel S235", law="j2", yield_stress="300 MPa").yield_stress, 300e6)
+        self.assertEqual(solid.Material("steel S235", density="8 g/cm^3").density, 8000.0)
+        rubber = solid.Material(young="1 MPa", density=1000, stiffness_damping="0.2 ms")
+        self.assertEqual((rubber.young, rubber.density, rubber.stiffness_damping), (1e6, 1000.0, 0.0002))
+        rubber.young = "2 MPa"
+        self.assertEqual(rubber.young, 2e6)
+        known = solid.known_materials()
+        self.assertEqual(known["steel S235"]["yield_stress"], 235e6)
+        self.assertIn("EN 1993-1-1", known["steel S235"]["source"])
+        self.assertTrue(all(solid.Material(name).young == values["young"] for name, values in known.items()))
+        for error, text, make in ((ValueError, "'steel' is no material .*'steel S235'", lambda: solid.Material("steel")),
+                                  (abut.BadInput, "young is '2 kg': ", lambda: solid.Material(young="2 kg")),
+                                  (TypeError, "young cannot be 'hard'", lambda: solid.Material(young="hard")),
+                                  (TypeError, "poisson cannot be None", lambda: solid.Material(poisson=None)),
+                                  (TypeError, "no value 'yung'", lambda: solid.Material(yung=1.0))):
+            with self.assertRaisesRegex(error, text):
+                make()
+
+    def test_options_have_units(self):
+        mesh = two_boxes()
+        result = solid.simulate(mesh, **falling(), time="10 ms", dt="1 ms")
+        self.assertEqual((result.steps, result.dt), (10, 0.001))
+        with self.assertRaisesRegex(abut.BadInput, "time is '3 m': "):
+            solid.simulate(mesh, **falling(), time="3 m")
+
     def test_errors_carry_their_facts(self):
         mesh = two_boxes()
         with self.assertRaises(abut.BadInput) as raised:

@@ -2,11 +2,11 @@
 from . import _scenes, _show
 
 _solid = _scenes.built_solid()  # says what is missing where this is contact alone
-from ._solid import (Material, Memm2D, Memm3D, Mesh2D, Mesh3D, State2D, State3D, box, combine, cylinder, disc, memm, read_mesh,
-                     simulate, sphere, structured_box)
+from ._solid import (Material, Memm2D, Memm3D, Mesh2D, Mesh3D, State2D, State3D, box, combine, cylinder, disc, known_materials, memm,
+                     read_mesh, simulate, sphere, structured_box)
 
-__all__ = ["Material", "Memm2D", "Memm3D", "Mesh2D", "Mesh3D", "State2D", "State3D", "box", "combine", "cylinder", "disc", "memm",
-           "mesh", "read_mesh", "simulate", "sphere", "structured_box"]
+__all__ = ["Material", "Memm2D", "Memm3D", "Mesh2D", "Mesh3D", "State2D", "State3D", "box", "combine", "cylinder", "disc",
+           "known_materials", "memm", "mesh", "read_mesh", "simulate", "sphere", "structured_box"]
 
 
 def mesh(points, cells=None, body=None, body_names=(), groups=None, **options):

@@ -1,0 +1,99 @@
+#include "materials.hpp"
+
+#include <pybind11/stl.h>
+
+#include <algorithm>
+#include <optional>
+#include <string>
+
+#include "abut/base/error.hpp"
+#include "abut/input/materials.hpp"
+#include "abut/solid/material/material_numbers.hpp"
+#include "abut/solid/option_words.hpp"
+#include "numbers.hpp"
+
+namespace py = pybind11;
+using namespace py::literals;
+
+namespace abut::python {
+namespace {
+
+solid::MaterialLaw material_law(const std::string& name) {
+    std::string all;
+    for (const auto& [word, law] : solid::material_law_words) {
+        if (name == word) return law;
+        all += std::string(all.empty() ? "'" : ", '") + word + "'";
+    }
+    throw py::value_error("law is '" + name + "'; it is one of " + all);
+}
+
+const input::KnownMaterial& known_by(const std::string& name) {
+    if (const input::KnownMaterial* known = input::known_material(name)) return *known;
+    std::string all;
+    for (const input::KnownMaterial& known : input::known_materials()) all += (all.empty() ? "'" : ", '") + known.name + "'";
+    throw py::value_error("'" + name + "' is no material that is known by its name; there are " + all);
+}
+
+double material_value(const solid::MaterialNumber& number, const py::handle& value) {
+    try {
+        return number_in(number.limits.unit, value);
+    } catch (const py::cast_error&) {
+        throw py::type_error(std::string(number.name) + " cannot be " + std::string(py::str(py::repr(value))));
+    } catch (const BadInput& error) {
+        throw BadInput(std::string(number.name) + " is " + std::string(py::str(py::repr(value))) + ": " + error.what());
+    }
+}
+
+solid::Material material_of(const std::optional<std::string>& name, const py::kwargs& values) {
+    const input::KnownMaterial* known = name ? &known_by(*name) : nullptr;
+    solid::Material material = known ? known->material : solid::Material{};
+    for (const auto& [key, value] : values) {
+        const auto word = py::cast<std::string>(key);
+        const auto number = std::ranges::find(solid::material_numbers, word, &solid::MaterialNumber::name);
+        if (word == "law")
+            material.law = material_law(py::cast<std::string>(value));
+        else if (number != solid::material_numbers.end())
+            material.*(number->member) = material_value(*number, value);
+        else
+            throw py::type_error("Material has no value '" + word + "'");
+    }
+    if (known && material.law == solid::MaterialLaw::j2 && !values.contains("yield_stress"))
+        material.yield_stress = known->yield_stress;
+    return material;
+}
+
+py::dict all_known() {
+    py::dict all;
+    for (const input::KnownMaterial& known : input::known_materials())
+        all[py::str(known.name)] =
+            py::dict("young"_a = known.material.young, "poisson"_a = known.material.poisson,
+                     "density"_a = known.material.density, "yield_stress"_a = known.yield_stress, "source"_a = known.source);
+    return all;
+}
+
+}  // namespace
+
+void add_materials(py::module_& module) {
+    py::class_<solid::Material> of_material(
+        module, "Material",
+        "Isotropic; plane strain in 2D. Values are given by name, and may be texts with units, young=\"210 GPa\"; with a name in "
+        "front, Material(\"steel S235\", law=\"j2\"), those of known_materials() stand where none is given.");
+    of_material.def(py::init(&material_of), "material"_a = py::none());
+    for (const solid::MaterialNumber& number : solid::material_numbers) {
+        const std::string unit = number.limits.unit;
+        const std::string doc = number.help + (unit.empty() ? "" : " [" + unit + "]");
+        of_material.def_property(
+            number.name, [member = number.member](const solid::Material& material) { return material.*member; },
+            [&number](solid::Material& material, const py::object& value) { material.*(number.member) = material_value(number, value); },
+            doc.c_str());
+    }
+    of_material.def_property(
+        "law", [](const solid::Material& material) { return word_of(solid::material_law_words, material.law); },
+        [](solid::Material& material, const std::string& law) { material.law = material_law(law); },
+        "beyond small strains: 'st_venant_kirchhoff', of finite bodies 'neo_hookean' or 'mooney_rivlin', or 'j2', which yields");
+    module.def("known_materials", &all_known,
+               "Materials that scenes and Material know by their names: values [Pa, kg/m^3], yield_stress 0 where there is none, and "
+               "sources.");
+}
+
+}  // namespace abut::python
