@@ -22,7 +22,7 @@ inline constexpr double enough_inertia = 0.98;
 /// |E| above which the strain of a finite body is worth a word [-]: its material is one of small strains. docs/limits.md.
 inline constexpr double large_strain = 0.2;
 
-/// |StepLoss::on_faces| over `in_cells` above which free faces that flow along take more than they should [-]: a bar eight cells
+/// The size of StepLoss::on_faces over `in_cells` above which free faces that flow along take more than they should [-]: a bar eight cells
 /// across has 0.02, boxes three cells across that collide 0.16. docs/limits.md.
 inline constexpr double large_face_loss = 0.1;
 
@@ -73,7 +73,7 @@ enum class WarningKind {
     local_rotation,  ///< the largest of RunResult::local_rotations [rad] where none is; threshold: far_rotation
     finite_strain,   ///< FiniteExtremes::strain [-] of bodies of Kinematics::finite; threshold: large_strain
     alternating_slip,       ///< force of sliding faces over its limit [-]; threshold: least_sliding_share
-    face_loss,              ///< |RunResult::dissipated.on_faces| over that of cells [-]; threshold: large_face_loss
+    face_loss,              ///< size of what RunResult::dissipated has `on_faces` over that in cells [-]; threshold: large_face_loss
     energy_excess,          ///< Ledger::energy_excess over the energy in play [-]; threshold: large_energy_excess
     parasitic,              ///< Ledger::parasitic over Accounts::speed [-]; threshold: large_parasitic_share
     moment_drift,           ///< of J~ where it is conserved [-]; threshold: large_moment_drift
