@@ -241,6 +241,20 @@ Markup damping_part(const Figures& figures) {
                                     figure_row(figures, "held in the lag of a step", "damping.lagged", "J")}));
 }
 
+/// Nothing without bonds.
+template <int Dim>
+Markup bonds_part(const Figures& figures, const Scene<Dim>& scene) {
+    std::vector<Markup> rows;
+    for (const solid::Bond& bond : scene.solid.bonds)
+        rows.push_back(row({quoted_side(scene, bond.sides[0]) + ", " + quoted_side(scene, bond.sides[1]),
+                            std::isfinite(bond.strength) ? fmt::format("{:g} Pa", bond.strength) : "for ever"}));
+    if (rows.empty()) return {};
+    Markup bonds = table({"bond between", "holds up to"}, rows);
+    if (figures.summary().contains("bonds"))
+        bonds += table({"", ""}, {figure_row(figures, "dissipated by those that broke", "bonds.dissipated", "J")});
+    return section("Bonds", bonds);
+}
+
 Markup findings_part(const Figures& figures, const std::vector<Finding>& findings) {
     std::vector<Markup> rows;
     for (const Finding& finding : findings) rows.push_back(row({finding.text, figures.at(finding.key)}));
@@ -324,6 +338,7 @@ std::string report_html(const std::string& program, const Scene<Dim>& scene, con
                         energies_part(figures, result) + bodies_part(figures, scene, result) +
                         materials_part(scene, result) + contact_part(figures, scene, result, sources) +
                         friction_part(figures, scene, result) + plasticity_part(figures) + damping_part(figures) +
+                        bonds_part(figures, scene) +
                         probes_part(scene, sources) + findings_part(figures, result.findings) +
                         settings_part(figures, scene, result) + seconds_part(figures) + files_part(files);
     return "<!DOCTYPE html>\n" + page((scene.title.empty() ? program : scene.title) + ": report of a run", body).html() +

@@ -1,8 +1,10 @@
 #include <expat.h>
 
 #include <algorithm>
+#include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -370,4 +372,31 @@ TEST_CASE("a report draws the forces and probes that a scene asks for, and says 
     REQUIRE(body != cells.end());
     CHECK(std::vector<std::string>(body, body + 5) ==
           std::vector<std::string>{"block", "1", "0", "1", "1"});  // c = sqrt(E/rho)
+}
+
+TEST_CASE("a report names what is bonded, up to which stress, and what broke has taken", "[run][report]") {
+    const std::array<mesh::Mesh<2>, 2> blocks = {
+        mesh::structured_box<2>({0.0, 0.0}, {1.0, 1.0}, {4, 4}, mesh::CellShape::quadrangle, "left"),
+        mesh::structured_box<2>({1.0, 0.0}, {2.0, 1.0}, {3, 3}, mesh::CellShape::quadrangle, "right")};
+    run::Scene<2> scene;
+    scene.mesh = mesh::combine<2>(blocks);
+    scene.solid.materials.assign(2, {.young = 1.0, .poisson = 0.0, .density = 1.0});
+    scene.velocity = {Vector<2>(-0.1, 0.0), Vector<2>(0.1, 0.0)};
+    scene.time = 1.0;
+    const auto report_with = [&](double strength) {
+        scene.solid.bonds = {{.sides = {0, 1}, .strength = strength}};
+        return parsed(report_of(finished({}, scene)));
+    };
+    const auto cell_behind_names = [](const pugi::xml_document& root) {
+        const auto cells = all(root, "td");
+        const auto names = std::ranges::find(cells, "'left', 'right'");
+        REQUIRE(names != cells.end());
+        return *(names + 1);
+    };
+    const auto broken = report_with(0.01), whole = report_with(std::numeric_limits<double>::infinity());
+    CHECK(cell_behind_names(broken) == "0.01 Pa");
+    CHECK(figures(broken).at("bonds.dissipated") > 0.0);
+    CHECK(cell_behind_names(whole) == "for ever");
+    CHECK_FALSE(figures(whole).contains("bonds.dissipated"));
+    CHECK(std::ranges::count(all(parsed(report_of(finished())), "h2"), "Bonds") == 0);
 }
