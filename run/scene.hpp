@@ -11,6 +11,7 @@
 #include "abut/dynamics/ledger.hpp"
 #include "abut/dynamics/stable_step.hpp"
 #include "abut/mesh/mesh.hpp"
+#include "abut/mesh/unjoined_faces.hpp"
 #include "abut/run/accounts.hpp"
 #include "abut/run/options.hpp"
 #include "abut/run/outputs.hpp"
@@ -94,6 +95,7 @@ struct RunResult {
     std::int64_t inadmissible_overlaps_max = 0;            ///< largest number of `inadmissible_overlaps` at any record
     std::vector<contact::BlindCorner<Dim>> blind_corners;  ///< too sharp for contact to see them
     std::optional<contact::EdgePair<Dim>> unseen_edges;    ///< that would cross without contact
+    mesh::UnjoinedFaces unjoined;                          ///< within bodies, at the start; on several ranks known to rank 0
     SurfaceLooks looks;                                    ///< at the surfaces of the bodies
     std::vector<std::string>
         forces_from_outside;  ///< "supports", "gravity" and so on: what changes momentum; empty: nothing

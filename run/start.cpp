@@ -91,6 +91,7 @@ Start<Dim>::Start(const Scene<Dim>& of, const RunOptions& given, std::optional<P
     if (share.ranks.rank() == 0) result.inertia = solid::inertia_of_bodies(seen);
     result.blind_corners = solid->blind_corners();
     result.unseen_edges = solid->unseen_edges();
+    if (share.ranks.rank() == 0) result.unjoined = mesh::find_unjoined_faces(scene.mesh);
     set_outside();
     set_state();
     if (options.settle) settle();

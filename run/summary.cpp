@@ -139,10 +139,11 @@ Json energies_json(const RunResult<Dim>& result) {
             {"rotation_max", ledger.rotation()}};
 }
 
-Json mesh_json(const mesh::BuildReport& report) {
+Json mesh_json(const mesh::BuildReport& report, const mesh::UnjoinedFaces& unjoined) {
     return {{"unused_vertices", report.n_unused_vertices},
             {"ignored_elements", report.n_ignored_elements},
             {"coincident_vertices", report.n_coincident_vertices},
+            {"unjoined_faces", unjoined.n_faces},
             {"non_planar_faces", report.n_non_planar_faces},
             {"cut_cells", report.n_cut_cells},
             {"turned_cells", report.n_turned_cells},
@@ -387,7 +388,7 @@ std::string summary_json(const std::string& program, const Scene<Dim>& scene, co
     for (const Finding& finding : result.findings) json[finding.key] = to_json(finding.value);
     if (result.pilot) json["pilot"] = pilot_json(*result.pilot);
     if (result.settling) json["settling"] = settling_json(*result.settling);
-    json.update({{"mesh", mesh_json(scene.mesh.report)},
+    json.update({{"mesh", mesh_json(scene.mesh.report, result.unjoined)},
                  {"bodies", bodies_json(scene, result)},
                  {"seconds", seconds_json(result)},
                  {"contact_share", contact_share(result)},

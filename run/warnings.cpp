@@ -8,6 +8,7 @@
 #include <limits>
 #include <numbers>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include "abut/contact/nodal_contact.hpp"
@@ -54,6 +55,18 @@ void add_mesh(Counts& counts, const mesh::BuildReport& report) {
     counts.add(WarningKind::coincident_vertices, Severity::warning, report.n_coincident_vertices,
                fmt::format("{} vertices lie on a vertex of another body: meshes that match are a special case of contact",
                            report.n_coincident_vertices));
+}
+
+template <int Dim>
+void add_unjoined(Counts& counts, const RunResult<Dim>& result) {
+    const mesh::UnjoinedFaces& unjoined = result.unjoined;
+    counts.add(WarningKind::unjoined_faces, Severity::warning, unjoined.n_faces,
+               fmt::format("{} faces lie on faces of their own body without being joined to them, the first of body '{}' at ({:.4g}): "
+                           "cells on both sides move apart freely{}. Where this is no crack, merge vertices that coincide, make a "
+                           "mesh whose cells match, or make two bodies of it and bond them with [[bonds]]",
+                           unjoined.n_faces, unjoined.body, fmt::join(std::span<const double>(unjoined.place).first(Dim), ", "),
+                           result.options.contact.search.self_contact ? ", and touch where they come together again"
+                                                                      : " and through each other"));
 }
 
 /// Name of a body or an obstacle in messages.
@@ -252,6 +265,7 @@ template <int Dim>
 std::vector<Warning> warnings_before(const Scene<Dim>& scene, const RunResult<Dim>& result) {
     Counts counts;
     add_mesh(counts, scene.mesh.report);
+    add_unjoined(counts, result);
     add_inertia(counts, scene, result);
     const auto& stencils = result.stencils;
     counts.add(WarningKind::extrapolated_faces, Severity::warning, stencils.extrapolated,

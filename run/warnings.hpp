@@ -57,6 +57,7 @@ enum class WarningKind {
     turned_cells,         ///< note: cells that were given inside out, and are turned
     cut_cells,            ///< note: cells that were cut because of faces that are not planar
     coincident_vertices,  ///< vertices at the place of one of another body
+    unjoined_faces,       ///< faces that lie on others of their body and are not joined to them
     missing_inertia,      ///< BodyInertia::least of a body that may turn [-]; threshold: enough_inertia
     extrapolated_faces,   ///< faces that extrapolate from the cells around them: the stable step is shorter
     blind_corners,        ///< corners too sharp for contact to see

@@ -129,12 +129,14 @@ TEST_CASE("what a mesh left out and corners that contact cannot see are known be
     report.n_turned_cells = 3;
     report.n_cut_cells = 4;
     report.n_coincident_vertices = 5;
-    result.stencils.extrapolated = 6;
-    result.blind_corners.assign(7, {.body = 0, .position = {0.5, 0.25}});
+    result.unjoined.n_faces = 6;
+    result.unjoined.body = "block";
+    result.stencils.extrapolated = 7;
+    result.blind_corners.assign(8, {.body = 0, .position = {0.5, 0.25}});
     const auto warnings = run::warnings_before(scene, result);
     CHECK(kinds(warnings) == std::vector{WarningKind::mesh_file, WarningKind::unused_vertices, WarningKind::ignored_elements,
                                          WarningKind::turned_cells, WarningKind::cut_cells, WarningKind::coincident_vertices,
-                                         WarningKind::extrapolated_faces, WarningKind::blind_corners});
+                                         WarningKind::unjoined_faces, WarningKind::extrapolated_faces, WarningKind::blind_corners});
     CHECK(warnings.front().text == "mesh file: node 3 is lonely");
     for (std::size_t i = 1; i < warnings.size(); ++i) CHECK(warnings[i].value == static_cast<double>(i));
     for (const std::string& part :
@@ -144,7 +146,7 @@ TEST_CASE("what a mesh left out and corners that contact cannot see are known be
     const std::string text = run::warnings_before(scene, result).back().text;
     CHECK(text.find("--facing-none") != std::string::npos);
     CHECK(text.find("--facing-cosine") == std::string::npos);
-    CHECK(kinds(run::without_notes(warnings)) == std::vector{WarningKind::mesh_file, WarningKind::coincident_vertices,
+    CHECK(kinds(run::without_notes(warnings)) == std::vector{WarningKind::mesh_file, WarningKind::coincident_vertices, WarningKind::unjoined_faces,
                                                              WarningKind::extrapolated_faces, WarningKind::blind_corners});
 }
 
