@@ -28,14 +28,15 @@ bool take(std::string_view& text, std::string_view start) {
     return true;
 }
 
-/// <series>.pvd, .xmf, .h5, <series>_000012.vtu, and the same with .vtp behind _surface, _pairs and _obstacles; of frames in pieces
+/// <series>.pvd, .xmf, .h5, .h5.journal, <series>_000012.vtu, and the same with .vtp behind _surface, _pairs and _obstacles; of frames in pieces
 /// <series>_000012.pvtu and <series>_000012_3.vtu; and, with a dot in front, what a frame
 /// is called while it is written.
 bool belongs_to_series(std::string_view name, std::string_view series) {
     take(name, ".");
     if (!take(name, series)) return false;
     const bool cells = !take(name, "_surface") && !take(name, pairs_series("")) && !take(name, obstacles_series(""));
-    if (name == ".pvd" || name == ".part.pvd" || name == ".xmf" || name == ".xmf.partial" || (cells && name == ".h5"))
+    if (name == ".pvd" || name == ".part.pvd" || name == ".xmf" || name == ".xmf.partial" ||
+        (cells && (name == ".h5" || name == ".h5.journal" || name == ".h5.journal.partial")))
         return true;
     if (!take(name, "_")) return false;
     const std::size_t digits = std::min(name.find_first_not_of("0123456789"), name.size());

@@ -18,8 +18,9 @@
 #include "abut/base/index.hpp"
 #include "abut/base/messages.hpp"
 #include "abut/mesh/cell_shape.hpp"
-#include "abut/run/files.hpp"
 #include "abut/run/drawing/markup.hpp"
+#include "abut/run/files.hpp"
+#include "abut/run/journaled_hdf5.hpp"
 
 namespace abut::run {
 namespace {
@@ -266,16 +267,21 @@ void guarded(const fs::path& path, const Action& action) {
     }
 }
 
+/// As the run that wrote it has left it, at whatever moment it was killed.
 H5::H5File opened(const fs::path& path) {
     H5::Exception::dontPrint();
+    finish_journal(path);
     try {
-        return {path.string(), H5F_ACC_RDWR};
+        return {path.string(), H5F_ACC_RDWR, H5::FileCreatPropList::DEFAULT, journaled_access()};
     } catch (const H5::Exception& error) {
-        throw BadInput(fmt::format(
-            "{}: HDF5 cannot open it: {}. A run that is killed just when it ends a frame leaves such a file. Move "
-            "it away: a new one then begins with the next frame; or run from the start.",
-            path.string(), error.getDetailMsg()));
+        throw BadInput(fmt::format("{}: HDF5 cannot open it: {}. Put the file back as the run has left it, or move it away: a new "
+                                   "one then begins with the next frame; or run from the start.",
+                                   path.string(), error.getDetailMsg()));
     }
+}
+
+H5::H5File begun(const fs::path& path) {
+    return {path.string(), H5F_ACC_TRUNC, H5::FileCreatPropList::DEFAULT, journaled_access()};
 }
 
 // The lists --------------------------------------------------------------------------------------------------------------
@@ -357,14 +363,15 @@ template <int Dim>
 void XdmfSeries<Dim>::write(const mesh::Frame<Dim>& frame) {
     const std::string path = frame_path(times_.size());
     const Arrays arrays = arrays_of(frame, mesh_, path);
-    if (!is_begun_) remove_files(directory_, {file().filename().string()});
-    take_space(file(), space_of(arrays) + (is_begun_ ? 0 : space_of(mesh_)));
+    if (!is_begun_) remove_files(directory_, {file().filename().string(), journal_of(file()).filename().string()});
     guarded(file(), [&] {
-        H5::H5File h5(file().string(), is_begun_ ? H5F_ACC_RDWR : H5F_ACC_TRUNC);
+        H5::H5File h5 = is_begun_ ? opened(file()) : begun(file());
+        take_space(file(), space_of(arrays) + (is_begun_ ? 0 : space_of(mesh_)));
         if (!is_begun_) write_mesh(h5, mesh_);
         if (h5.nameExists(path)) h5.unlink(path);  // which could not be listed
         write_frame(h5, path, frame.time, arrays);
         frames_.push_back(listed_frame(h5, file().filename().string(), times_.size(), frame.time, of_mesh_));
+        close_journaled(h5);
     });
     is_begun_ = true;
     times_.push_back(frame.time);
@@ -388,6 +395,7 @@ void XdmfSeries<Dim>::go_on_after(std::vector<double> times) {
                                 "start.",
                                 file().string(), frame, times_.size()));
         }
+        close_journaled(h5);
     });
     write_lists();
 }

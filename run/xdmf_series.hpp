@@ -18,8 +18,8 @@ namespace abut::run {
 /// `cells/NAME`, `faces/NAME`, where a slash in a name is written " per ".
 ///
 /// A frame is appended to the .h5 file, in space that is taken for it before; then the .xmf files, which are written beside their
-/// places and moved, list it. A full disc leaves the frames before it alone. HDF5 writes what it knows of its arrays when it closes
-/// the file: a process that is killed in that moment can leave one that cannot be opened.
+/// places and moved, list it. A full disc leaves the frames before it alone, and so does a process that is killed
+/// (journaled_hdf5.hpp).
 template <int Dim>
 class XdmfSeries {
 public:

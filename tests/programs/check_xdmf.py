@@ -146,8 +146,9 @@ def check_full_disc(folder):
 
 
 def check_restart(folder):
-    """A run is killed behind a checkpoint and frames that come after it, and goes on."""
-    options = ["--set", "run.time=60", "--set", "output.frames=40", "--set", "output.checkpoint_steps=50", "--set", "output.format=xdmf"]
+    """A run is killed again and again, behind a checkpoint and frames that come after it, and goes on. All its frames can be read in
+    between."""
+    options = ["--set", "run.time=60", "--set", "output.frames=200", "--set", "output.checkpoint_steps=50", "--set", "output.format=xdmf"]
     command = [ABUT, "run", SCENES / "slipping_cylinders.toml", "--quiet", *options, "--out"]
     subprocess.run([*command, folder / "whole"], check=True)
     stopped = folder / "stopped"
@@ -156,7 +157,19 @@ def check_restart(folder):
         time.sleep(0.01)
     process.kill()
     assert process.wait() == -signal.SIGKILL, "the run has come to its end"
-    subprocess.run([ABUT, "restart", stopped, "--quiet"], check=True)
+    kills = 1
+    for moment in range(1, 6):
+        n_frames = len(all_arrays(stopped / "bodies.h5"))
+        try:
+            done = subprocess.run([ABUT, "restart", stopped, "--quiet"], capture_output=True, text=True, timeout=0.13 * moment)
+            assert done.returncode == 0, done.stderr
+            break
+        except subprocess.TimeoutExpired:  # run has killed it
+            kills += 1
+        assert n_frames > 0
+    else:
+        subprocess.run([ABUT, "restart", stopped, "--quiet"], check=True)
+    assert kills > 1, "no restart was killed"
     for name in ("bodies.xmf", "bodies_surface.xmf"):
         assert (stopped / name).read_bytes() == (folder / "whole" / name).read_bytes(), name
     assert all_arrays(stopped / "bodies.h5") == all_arrays(folder / "whole" / "bodies.h5")
