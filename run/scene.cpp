@@ -97,7 +97,13 @@ bool has_friction(const Scene<Dim>& scene, const RunOptions& options) {
 }
 
 template <int Dim>
-void check_friction(const Scene<Dim>& scene, const RunOptions& options) {
+void check_scheme(const Scene<Dim>& scene, const RunOptions& options) {
+    if (options.integrator != SolidIntegrator::memm)
+        for (std::size_t body = 0; body < scene.solid.materials.size(); ++body)
+            if (scene.solid.materials[body].remembers())
+                throw BadInput("--integrator " + name_of(options.integrator) + ": body '" + scene.mesh.body_names[body] +
+                               "' is of a material that flows or is damped, which remembers what happens to it. Take memm, "
+                               "which closes its balance of energy, or another material.");
     const bool has_scheme = options.integrator == SolidIntegrator::memm || options.integrator == SolidIntegrator::leapfrog;
     if (!has_scheme && has_friction(scene, options))
         throw BadInput(
@@ -159,7 +165,7 @@ std::vector<double> momentum_at_start(const Scene<Dim>& scene, const solid::Soli
 #define ABUT_INSTANTIATE(Dim)                                                                             \
     template solid::SolidOptions<Dim> solid_options<Dim>(const Scene<Dim>&, const RunOptions&);           \
     template bool has_friction<Dim>(const Scene<Dim>&, const RunOptions&);                                \
-    template void check_friction<Dim>(const Scene<Dim>&, const RunOptions&);                              \
+    template void check_scheme<Dim>(const Scene<Dim>&, const RunOptions&);                                \
     template RunOptions with_restart<Dim>(RunOptions, const Scene<Dim>&);                                 \
     template solid::Kinematics kinematics_of<Dim>(const Scene<Dim>&, const RunResult<Dim>&, std::size_t); \
     template std::vector<double> displacement_at_start<Dim>(const Scene<Dim>&, const solid::Solid<Dim>&); \

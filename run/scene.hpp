@@ -127,9 +127,10 @@ template <int Dim>
 /// Whether some bodies or obstacles of a run rub.
 template <int Dim>
 [[nodiscard]] bool has_friction(const Scene<Dim>& scene, const RunOptions& options);
-/// Throws BadInput where bodies rub under a scheme that has no friction.
+/// Throws BadInput where bodies rub under a scheme that has no friction, or are of a material that remembers under one that does not
+/// take mean forces.
 template <int Dim>
-void check_friction(const Scene<Dim>& scene, const RunOptions& options);
+void check_scheme(const Scene<Dim>& scene, const RunOptions& options);
 /// With `restart` filled in, by friction and the kinematics that the bodies are run with; with friction the filter, too.
 template <int Dim>
 [[nodiscard]] RunOptions with_restart(RunOptions options, const Scene<Dim>& scene);

@@ -26,7 +26,7 @@ template <int Dim>
 RunResult<Dim> simulated(const Scene<Dim>& scene, const RunOptions& given, Observer<Dim>& observer, const Checkpoint* from,
                          const Share<Dim>& share) {
     check(given);
-    check_friction(scene, given);
+    check_scheme(scene, given);
     RunOptions options = with_defaults<Dim>(with_restart(given, scene));
     std::optional<global_control> threads;
     if (options.threads > 0)

@@ -12,7 +12,7 @@ enum class MaterialLaw {
     st_venant_kirchhoff,  ///< linear in Green's strain: up to strains of some 0.1
     neo_hookean,          ///< rubber: it stiffens without end where it is squeezed
     mooney_rivlin,        ///< the same with a share of the second invariant, `second_share`
-    j2,                   ///< metal: it yields by von Mises's rule at `yield_stress`, hardens, and remembers; of all bodies that deform
+    j2,  ///< metal: it yields by von Mises's rule at `yield_stress`, hardens, and remembers; of all bodies that deform
 };
 
 /// Isotropic elasticity, and plasticity where the law has it; plane strain in 2D. One for each body.
@@ -43,6 +43,8 @@ struct Material {
     [[nodiscard]] bool is_damped() const {
         return mass_damping > 0.0 || stiffness_damping > 0.0 || linear_viscosity > 0.0 || quadratic_viscosity > 0.0;
     }
+    /// Whether its cells remember what happened to them: only schemes that take mean forces run it.
+    [[nodiscard]] bool remembers() const { return law == MaterialLaw::j2 || is_damped(); }
     /// Damping over what is critical of a mode with this frequency [rad/s] in cells of this size [m], at most [-]: by it the stable step
     /// is shorter.
     [[nodiscard]] double damping_ratio(double omega, double size) const;

@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <optional>
 
 #include "abut/base/option.hpp"
 #include "abut/solid/material/material.hpp"
@@ -13,13 +14,25 @@ struct MaterialNumber {
     Limits limits;
     const char* help;
     bool required = false;
+    std::optional<MaterialLaw> law{};  ///< the only one that reads it; others take 0 alone. None: all do
 };
 
 /// All of them: the keys of scenes and the attributes in Python come from here.
 inline constexpr std::array material_numbers{
-    MaterialNumber{"young", &Material::young, {.unit = "Pa", .above = 0.0}, "Young's modulus E", true},
-    MaterialNumber{"poisson", &Material::poisson, {.above = -1.0, .below = 0.5}, "Poisson's ratio nu"},
-    MaterialNumber{"density", &Material::density, {.unit = "kg/m^3", .above = 0.0}, "density rho", true},
+    MaterialNumber{"young",
+                   &Material::young,
+                   {.unit = "Pa", .above = 0.0, .remedy = "Steel has 2.1e11 Pa."},
+                   "Young's modulus E",
+                   true},
+    MaterialNumber{"poisson",
+                   &Material::poisson,
+                   {.above = -1.0, .below = 0.5, .remedy = "An incompressible body has no stable explicit step; take 0.49."},
+                   "Poisson's ratio nu"},
+    MaterialNumber{"density",
+                   &Material::density,
+                   {.unit = "kg/m^3", .above = 0.0, .remedy = "Steel has 7800 kg/m^3."},
+                   "density rho",
+                   true},
     MaterialNumber{"eta",
                    &Material::eta,
                    {.unit = "Pa", .above = 0.0, .zero = true},
@@ -27,28 +40,40 @@ inline constexpr std::array material_numbers{
     MaterialNumber{"second_share",
                    &Material::second_share,
                    {.above = 0.0, .below = 1.0, .closed = true, .zero = true},
-                   "of mooney_rivlin: shear modulus of the second invariant over all of it, at most lambda/(2 mu)"},
+                   "of mooney_rivlin: shear modulus of the second invariant over all of it, at most lambda/(2 mu)",
+                   false,
+                   MaterialLaw::mooney_rivlin},
     MaterialNumber{"yield_stress",
                    &Material::yield_stress,
                    {.unit = "Pa", .above = 0.0, .zero = true},
-                   "of j2, which needs it: stress at which it begins to flow in tension"},
+                   "of j2, which needs it: stress at which it begins to flow in tension",
+                   false,
+                   MaterialLaw::j2},
     MaterialNumber{"hardening",
                    &Material::hardening,
                    {.unit = "Pa", .above = 0.0, .zero = true},
-                   "of j2: rise of that stress per equivalent plastic strain"},
+                   "of j2: rise of that stress per equivalent plastic strain",
+                   false,
+                   MaterialLaw::j2},
     MaterialNumber{"saturation",
                    &Material::saturation,
                    {.unit = "Pa", .above = 0.0, .zero = true},
-                   "of j2: Voce's rise of that stress in the end, beside `hardening`"},
+                   "of j2: Voce's rise of that stress in the end, beside `hardening`",
+                   false,
+                   MaterialLaw::j2},
     MaterialNumber{"saturation_rate",
                    &Material::saturation_rate,
                    {.above = 0.0, .zero = true},
-                   "of j2: how fast it comes, per equivalent plastic strain"},
+                   "of j2: how fast it comes, per equivalent plastic strain",
+                   false,
+                   MaterialLaw::j2},
     MaterialNumber{
         "kinematic_hardening",
         &Material::kinematic_hardening,
         {.unit = "Pa", .above = 0.0, .zero = true},
-        "of j2: rise of the stress that shifts the yield surface (Prager), per plastic strain; not of finite bodies"},
+        "of j2: rise of the stress that shifts the yield surface (Prager), per plastic strain; not of finite bodies",
+        false,
+        MaterialLaw::j2},
     MaterialNumber{"mass_damping",
                    &Material::mass_damping,
                    {.unit = "1/s", .above = 0.0, .zero = true},

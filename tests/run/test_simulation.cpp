@@ -241,6 +241,21 @@ TEST_CASE("options that do not go together are refused before anything is run", 
         CHECK_THROWS_AS(static_cast<void>(run::simulate<2>(scene, options)), BadInput);
 }
 
+TEST_CASE("a material that remembers is refused under any scheme but memm as the scene is checked, with the body", "[run]") {
+    run::Scene<2> scene = test::block_on_plane(0.01);
+    scene.solid.materials.front().stiffness_damping = 1e-3;
+    using Scheme = run::SolidIntegrator;
+    for (const Scheme scheme : {Scheme::leapfrog, Scheme::bilbao, Scheme::memm_async}) {
+        const run::RunOptions options{.integrator = scheme};
+        CHECK_THROWS_WITH(run::check_scheme<2>(scene, options),
+                          Catch::Contains(scene.mesh.body_names.front()) && Catch::Contains("remembers"));
+        CHECK_THROWS_WITH(static_cast<void>(run::simulate<2>(scene, options)), Catch::Contains("remembers"));
+    }
+    CHECK_NOTHROW(run::check_scheme<2>(scene, {}));
+    scene.solid.materials.front().stiffness_damping = 0.0;
+    CHECK_NOTHROW(run::check_scheme<2>(scene, {.integrator = Scheme::leapfrog}));
+}
+
 TEST_CASE("restarts clear the parasitic mode of a block that bounces, at no change of H~, and the result counts them",
           "[run]") {
     run::Scene<2> scene = test::block_on_plane(0.05);

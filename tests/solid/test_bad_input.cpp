@@ -1,5 +1,6 @@
 #include <catch2/catch.hpp>
 
+#include "abut/solid/material/material_numbers.hpp"
 #include "solid/scenes.hpp"
 
 using namespace abut;
@@ -20,22 +21,37 @@ TEST_CASE("a material out of bounds is refused with the body, the quantity, its 
     std::string quantity, limit;
     SECTION("poisson") {
         material.poisson = GENERATE(0.5, 0.7, -1.0, -2.0, not_a_number);
-        quantity = "poisson (nu)", limit = "above -1 and below 0.5";
+        quantity = "poisson", limit = "above -1, below 0.5";
     }
     SECTION("young") {
         material.young = GENERATE(0.0, -1.0, not_a_number, infinite);
-        quantity = "young (E)", limit = "> 0 Pa";
+        quantity = "young", limit = "above 0 Pa";
     }
     SECTION("density") {
         material.density = GENERATE(0.0, -1.0, not_a_number, infinite);
-        quantity = "density (rho)", limit = "> 0 kg/m^3";
+        quantity = "density", limit = "above 0 kg/m^3";
     }
     SECTION("eta") {
         material.eta = GENERATE(-1.0, not_a_number, infinite);
-        quantity = "eta", limit = ">= 0 Pa";
+        quantity = "eta", limit = "0 Pa or above";
     }
     CHECK_THROWS_AS(solid::Solid<2>(mesh, options), BadInput);
     CHECK_THROWS_WITH(solid::Solid<2>(mesh, options), Contains("body 1") && Contains(quantity) && Contains(limit));
+}
+
+TEST_CASE("every number of a material is refused where it is none, and where another law reads it", "[solid][errors]") {
+    for (const solid::MaterialNumber& number : solid::material_numbers) {
+        CAPTURE(number.name);
+        for (const double value : {not_a_number, infinite, -2.0}) {
+            solid::Material material{.law = number.law.value_or(solid::MaterialLaw::st_venant_kirchhoff)};
+            material.*number.member = value;
+            CHECK_THROWS_WITH(solid::check(material, 3), Contains("body 3") && Contains(number.name) && Contains("it must be"));
+        }
+        if (!number.law) continue;
+        solid::Material other{.law = solid::MaterialLaw::neo_hookean};
+        other.*number.member = 0.5;
+        CHECK_THROWS_WITH(solid::check(other, 3), Contains(number.name) && Contains("its law is not"));
+    }
 }
 
 TEST_CASE("materials at the edge of what is allowed are taken", "[solid][errors]") {
