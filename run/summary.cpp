@@ -209,6 +209,7 @@ Json material_json(const RunResult<Dim>& result) {
     Json json = Json::object();
     if (loss.in_cells != 0.0)
         json["plasticity"] = {{"dissipated", loss.in_cells},
+                              {"dissipated_in_jumps", loss.in_jumps},
                               {"dissipated_on_faces", loss.on_faces},
                               {"strain_max", result.finite.plastic_strain}};
     if (loss.by_rates != 0.0) json["damping"] = {{"dissipated", loss.by_rates}, {"lagged", loss.lagged}};
@@ -329,7 +330,8 @@ std::string material_lines(const RunResult<Dim>& result) {
     std::string text;
     if (loss.in_cells != 0.0)
         text += table_line(fmt::format("dissipated by plastic flow, / {}", result.scale.name),
-                           fmt::format("{:.4g}; with free faces that flow along {:.1e}", result.scale.over(loss.in_cells),
+                           fmt::format("{:.4g}; in jumps between cells {:.1e}; with free faces that flow along {:.1e}",
+                                       result.scale.over(loss.in_cells), result.scale.over(loss.in_jumps),
                                        result.scale.over(loss.on_faces))) +
                 table_line("largest plastic strain", fmt::format("{:.3g}", result.finite.plastic_strain));
     if (loss.by_rates != 0.0)

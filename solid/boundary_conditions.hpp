@@ -80,6 +80,14 @@ struct FaceConditions {
     };
     std::vector<std::vector<Prescribed>> dirichlet;   ///< by condition
     std::vector<std::vector<BoundaryFace>> traction;  ///< boundary faces by condition
+
+    /// Whether a traction acts on a face (n_boundary).
+    [[nodiscard]] IdVector<BoundaryFace, char> are_loaded() const {
+        IdVector<BoundaryFace, char> loaded(prescribed.size(), 0);
+        for (const std::vector<BoundaryFace>& faces : traction)
+            for (const BoundaryFace b : faces) loaded[b] = 1;
+        return loaded;
+    }
 };
 
 /// Throws BadInput for an unknown group, two conditions that prescribe the same direction of a face, a

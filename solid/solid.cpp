@@ -60,6 +60,14 @@ std::unique_ptr<RankPart<Dim>> part_of_rank(const dynamics::Ranks& ranks, Bodies
     return part;
 }
 
+/// Whether there is anything that a body could touch.
+template <int Dim>
+FreeFaces free_faces_of(const mesh::Mesh<Dim>& mesh, const SolidOptions<Dim>& options) {
+    const bool has_partner = mesh.n_bodies() > 1 || !options.obstacles.empty();
+    const bool may_touch = options.contact && (has_partner || options.contact->search.self_contact);
+    return may_touch ? FreeFaces::may_touch : FreeFaces::stay_alone;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -73,7 +81,7 @@ Solid<Dim>::Solid(const mesh::Mesh<Dim>& mesh, SolidOptions<Dim> options, const 
                                 const SolidOptions<Dim>& deformable = bodies_->deformable_options();
                                 return Ccg<Dim>(bodies_->deformable(), deformable.materials, deformable.boundary,
                                                 deformable.kinematics, CellForm::automatic, deformable.precision,
-                                                deformable.device, deformable.finite);
+                                                deformable.device, deformable.finite, free_faces_of(mesh_, options_));
                             })),
       rotation_(std::make_unique<BodyRotation<Dim>>(part_->rest(), part_->masses(), part_->body_begin(), part_->ranks())),
       frames_(std::make_unique<BodyFrames<Dim>>(bodies_->frames(*part_))),

@@ -257,7 +257,7 @@ void Solid<Dim>::book_losses() {
         dissipated_.*of += part_->sum_of_cells([&](std::int32_t c) { return ccg_.step_loss(c).*of; });
     };
     if (any_inelastic())
-        for (double StepLoss::*of : {&StepLoss::in_cells, &StepLoss::on_faces}) book(of);
+        for (double StepLoss::*of : {&StepLoss::in_cells, &StepLoss::in_jumps, &StepLoss::on_faces}) book(of);
     if (ccg_.any_damped())
         for (double StepLoss::*of : {&StepLoss::by_rates, &StepLoss::lagged}) book(of);
 }

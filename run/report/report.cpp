@@ -229,6 +229,7 @@ Markup plasticity_part(const Figures& figures) {
     return section(
         "Plastic flow",
         table({"", ""}, {figure_row(figures, "dissipated", "plasticity.dissipated", "J"),
+                         figure_row(figures, "in jumps between cells", "plasticity.dissipated_in_jumps", "J"),
                          figure_row(figures, "by free faces that flow along", "plasticity.dissipated_on_faces", "J"),
                          figure_row(figures, "largest plastic strain", "plasticity.strain_max", "")}));
 }

@@ -9,6 +9,7 @@
 #include "abut/base/messages.hpp"
 #include "abut/base/parallel.hpp"
 #include "abut/solid/ccg/arrays.hpp"
+#include "abut/solid/ccg/capped_jumps.hpp"
 #include "abut/solid/ccg/device_sweeps.hpp"
 #include "abut/solid/ccg/finite_cells.hpp"
 #include "abut/solid/ccg/plastic_cells.hpp"
@@ -45,7 +46,7 @@ void refuse_finite(const mesh::Mesh<Dim>& mesh, std::span<const Kinematics> kine
 template <int Dim>
 void refuse_memory(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials) {
     for (std::size_t body = 0; body < materials.size(); ++body)
-        if (materials[body].is_damped() || materials[body].law == MaterialLaw::j2)
+        if (materials[body].remembers())
             throw BadInput(
                 mesh.name + ": body '" + mesh.body_names[body] +
                 "' is of a material that flows or is damped, whose steps are made in double precision on the host "
@@ -82,6 +83,7 @@ struct Ccg<Dim>::Impl {
     FiniteCells<Dim> finite;
     ViscousCells<Dim> viscous;
     PlasticCells<Dim> plastic;
+    CappedJumps<Dim> capped;
     CcgSweeps<Dim> sweeps;
     std::unique_ptr<StepSweeps<Dim>> steps;  // null: `sweeps` make them
     bool steps_were_last = false;            // to compute gradients
@@ -94,7 +96,7 @@ struct Ccg<Dim>::Impl {
 
     Impl(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials,
          const BoundaryConditions<Dim>& boundary_conditions, std::span<const Kinematics> kinematics, CellForm form,
-         Precision precision, StepDevice device, const FiniteOptions<Dim>& finite_options);
+         Precision precision, StepDevice device, const FiniteOptions<Dim>& finite_options, FreeFaces free_faces);
 
     /// evaluate(sweeps) of those that make steps.
     template <class Evaluate>
@@ -108,7 +110,8 @@ struct Ccg<Dim>::Impl {
 template <int Dim>
 Ccg<Dim>::Impl::Impl(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials,
                      const BoundaryConditions<Dim>& boundary_conditions, std::span<const Kinematics> kinematics,
-                     CellForm form, Precision precision, StepDevice device, const FiniteOptions<Dim>& finite_options)
+                     CellForm form, Precision precision, StepDevice device, const FiniteOptions<Dim>& finite_options,
+                     FreeFaces free_faces)
     : conditions(boundary_conditions),
       face_conditions(sort_to_faces(mesh, boundary_conditions)),
       arrays(mesh, checked(mesh, materials), face_conditions, conditions.free_face_rule, conditions.corner_rule, kinematics,
@@ -116,7 +119,8 @@ Ccg<Dim>::Impl::Impl(const mesh::Mesh<Dim>& mesh, std::span<const Material> mate
       finite(mesh, face_conditions, kinematics, finite_options),
       viscous(mesh, materials),
       plastic(mesh, materials, kinematics, face_conditions, conditions.free_face_rule),
-      sweeps(arrays, arrays, finite, &viscous, &plastic),
+      capped(mesh, materials, kinematics, face_conditions, free_faces, arrays),
+      sweeps(arrays, arrays, finite, &viscous, &plastic, &capped),
       steps(step_sweeps(mesh, kinematics, materials, arrays, finite, sweeps, precision, device)) {
     const auto all = solid::boundary_faces(mesh);
     motion_bound.emplace(arrays, std::vector<BoundaryFace>(all.begin(), all.end()));
@@ -135,8 +139,8 @@ Ccg<Dim>::Impl::Impl(const mesh::Mesh<Dim>& mesh, std::span<const Material> mate
 template <int Dim>
 Ccg<Dim>::Ccg(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials, const BoundaryConditions<Dim>& conditions,
               std::span<const Kinematics> kinematics, CellForm form, Precision precision, StepDevice device,
-              const FiniteOptions<Dim>& finite)
-    : impl_(std::make_unique<Impl>(mesh, materials, conditions, kinematics, form, precision, device, finite)) {}
+              const FiniteOptions<Dim>& finite, FreeFaces free_faces)
+    : impl_(std::make_unique<Impl>(mesh, materials, conditions, kinematics, form, precision, device, finite, free_faces)) {}
 
 template <int Dim>
 Ccg<Dim>::~Ccg() = default;
@@ -298,6 +302,7 @@ void Ccg<Dim>::end_step() {
     impl_->sweeps.end_step();
     impl_->viscous.end_step();
     impl_->plastic.end_step();
+    impl_->capped.end_step();
 }
 
 template <int Dim>
@@ -321,6 +326,7 @@ StepLoss Ccg<Dim>::step_loss(std::int32_t cell) const {
     StepLoss loss = impl_->viscous.loss(cell);
     loss.in_cells = impl_->plastic.loss(cell);
     if (impl_->finite.any_inelastic()) loss += impl_->sweeps.step_loss(cell);
+    loss.in_jumps = impl_->capped.loss(cell);
     return loss;
 }
 
@@ -344,7 +350,7 @@ template <int Dim>
 std::vector<std::int32_t> Ccg<Dim>::memory_sizes() const {
     std::vector<std::int32_t> sizes;
     for (std::int32_t c = 0; c < n_cells(); ++c)
-        sizes.push_back(impl_->viscous.memory_size(c) + impl_->plastic.memory_size(c));
+        sizes.push_back(impl_->viscous.memory_size(c) + impl_->plastic.memory_size(c) + impl_->capped.memory_size(c));
     for (std::int32_t i = 0; i < static_cast<std::int32_t>(impl_->finite.n_inelastic()); ++i) {
         const auto& cell = impl_->finite.inelastic_cell(i);
         sizes[static_cast<std::size_t>(cell.cell)] += static_cast<std::int32_t>(cell.end - cell.begin);
@@ -363,6 +369,7 @@ std::vector<double> Ccg<Dim>::memory() const {
         }
         impl_->viscous.put_memory(c, values);
         impl_->plastic.put_memory(c, values);
+        impl_->capped.put_memory(c, values);
     }
     return values;
 }
@@ -383,6 +390,7 @@ void Ccg<Dim>::set_memory(std::span<const double> values) {
         }
         if (impl_->viscous.contains(c)) impl_->viscous.set_memory(c, take(impl_->viscous.memory_size(c)));
         if (impl_->plastic.contains(c)) impl_->plastic.set_memory(c, take(impl_->plastic.memory_size(c)));
+        if (impl_->capped.contains(c)) impl_->capped.set_memory(c, take(impl_->capped.memory_size(c)));
     }
     if (impl_->finite.any_inelastic()) impl_->sweeps.set_memory(of_laws);
 }

@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -56,14 +57,16 @@ struct StepDefect {
 /// Energy that a cell has dissipated in a step, or all of them in all steps [J].
 struct StepLoss {
     double in_cells = 0.0;  ///< by inelastic materials: >= 0
+    double in_jumps = 0.0;  ///< by jumps between cells that reach their cap: >= 0
     double on_faces = 0.0;  ///< what free faces take out of jumps and contact as they flow along: small, without a sign
     double by_rates = 0.0;  ///< by damping and viscosity: >= 0
     double in_bonds = 0.0;  ///< of a whole solid: what bonds had that broke
     double lagged = 0.0;  ///< what damping has taken and may give back in the next step, as it acts on the mean of two rates
 
-    [[nodiscard]] double total() const { return in_cells + on_faces + by_rates + in_bonds + lagged; }
+    [[nodiscard]] double total() const { return in_cells + in_jumps + on_faces + by_rates + in_bonds + lagged; }
     StepLoss& operator+=(const StepLoss& other) {
         in_cells += other.in_cells;
+        in_jumps += other.in_jumps;
         on_faces += other.on_faces;
         by_rates += other.by_rates;
         in_bonds += other.in_bonds;
@@ -71,6 +74,10 @@ struct StepLoss {
         return *this;
     }
 };
+
+/// Those that cells book, in the order in which they are saved.
+inline constexpr std::array losses_of_cells{&StepLoss::in_cells, &StepLoss::in_jumps, &StepLoss::on_faces,
+                                            &StepLoss::by_rates, &StepLoss::lagged};
 
 /// Which state of a step operators look at. Inelastic materials remember at the end what the step makes of them.
 enum class StepState {
@@ -105,6 +112,12 @@ struct Region {
     std::vector<Offsets> chunks;
 };
 
+/// What pushes the free faces of bodies, beside tractions.
+enum class FreeFaces {
+    stay_alone,
+    may_touch,  ///< contact: the stabilisation of materials that yield stays elastic behind them
+};
+
 /// Cell-centred Galerkin operators of a mesh, without a matrix. docs/method.md, Space.
 ///
 ///     u_f by the stencils -> G_c and its traces I_c(x_f) -> S_c with the jumps k [u]_f -> face gradients y_f -> dV/du_c
@@ -122,7 +135,7 @@ public:
     Ccg(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials, const BoundaryConditions<Dim>& conditions,
         std::span<const Kinematics> kinematics = {}, CellForm form = CellForm::automatic,
         Precision precision = Precision::double_precision, StepDevice device = StepDevice::host,
-        const FiniteOptions<Dim>& finite = {});
+        const FiniteOptions<Dim>& finite = {}, FreeFaces free_faces = FreeFaces::stay_alone);
     ~Ccg();
     Ccg(Ccg&&) noexcept;
     Ccg& operator=(Ccg&&) noexcept;

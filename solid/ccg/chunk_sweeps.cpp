@@ -33,7 +33,10 @@ void CcgSweeps<Dim, Real>::set_any_stress(std::int32_t c) {
         set_finite_stress(c);
     else
         element_.set_any_stress(c);
-    if (plastic_ && plastic_->contains(c)) add_stress(c, -plastic_->stress(c));
+    if (plastic_ && plastic_->contains(c)) {
+        add_stress(c, -plastic_->stress(c));
+        if (capped_ && capped_->contains(c)) add_lasting_jumps(c);
+    }
 }
 
 /// What contact adds to the stress of a cell, and what its free face does.
@@ -67,9 +70,7 @@ double CcgSweeps<Dim, Real>::energy(std::ptrdiff_t c) const {
     for (std::int32_t i = arrays_.half_face_offsets[c]; i < arrays_.half_face_offsets[c + 1]; ++i) {
         const HalfFace& half_face = arrays_.half_faces[i];
         if (half_face.first != c) continue;
-        const Lanes<Dim, Real> jump =
-            simplices ? load_packed<Dim>(deviation_, c) - load_packed<Dim>(deviation_, arrays_.face_cells[half_face.face][1])
-                      : load_packed<Dim>(trace_, i) - load_packed<Dim>(trace_, half_face.twin);
+        const Lanes<Dim, Real> jump = elastic_jump(static_cast<std::int32_t>(c), i);
         twice += coefficients_.faces[half_face.face].jump_stiffness * dot(jump, jump);
     }
     return 0.5 * twice;
@@ -120,6 +121,8 @@ void CcgSweeps<Dim, Real>::displacement_gradients_of_chunk(std::int32_t k) {
     } else if constexpr (takes_finite) {
         for_runs(cells, [&](std::int32_t c) { set_finite_displacement_gradient(c); });
     }
+    if constexpr (takes_finite)
+        if (steps_ && capped_ && !chunks_[k].has_finite) for_runs(cells, [&](std::int32_t c) { keep_linear_change(c); });
 }
 
 template <int Dim, class Real>

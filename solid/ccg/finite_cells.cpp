@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "abut/base/decompositions.hpp"
-#include "abut/base/sort_unique.hpp"
 
 namespace abut::solid {
 namespace {
@@ -39,13 +38,10 @@ FiniteCells<Dim>::FiniteCells(const mesh::Mesh<Dim>& mesh, const FaceConditions<
         if (kinematics[static_cast<std::size_t>(mesh.cell_body[c])] == Kinematics::finite) position_[c] = inside;
     std::vector<std::vector<Vector<Dim>>> normals(position_.size());
     std::vector<double> area(position_.size(), 0.0);
-    std::vector<BoundaryFace> loaded;  // what is behind these bears it
-    for (const std::vector<BoundaryFace>& faces : conditions.traction)
-        loaded.insert(loaded.end(), faces.begin(), faces.end());
-    sort_unique(loaded);
+    const auto is_loaded = conditions.are_loaded();  // what is behind these bears it
     for (const BoundaryFace b : boundary_faces(mesh)) {
         const std::int32_t cell = cell_of(mesh, b), face = mesh_face(mesh, b);
-        if (!contains(cell) || !conditions.prescribed[b].isZero(0.0) || std::ranges::binary_search(loaded, b)) continue;
+        if (!contains(cell) || !conditions.prescribed[b].isZero(0.0) || is_loaded[b]) continue;
         normals[cell].push_back(mesh.face_normal[face]);
         area[cell] += mesh.face_measure[face];
     }

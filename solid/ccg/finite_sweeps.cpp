@@ -63,12 +63,13 @@ template <int Dim, class Real>
 void CcgSweeps<Dim, Real>::add_linear_stress(std::int32_t c) {
     const bool flows = plastic_ && plastic_->contains(c), is_damped = steps_ && viscous_ && viscous_->contains(c);
     if (!flows && !is_damped) return;
-    const Matrix<Dim> change = steps_ ? linear_change(c) : Matrix<Dim>(Matrix<Dim>::Zero());
+    const Matrix<Dim> change = steps_ ? known_change(c) : Matrix<Dim>(Matrix<Dim>::Zero());
     if (is_damped) add_stress(c, viscous_->stress(c, Matrix<Dim>::Zero(), change, dt_));
     if (!flows) return;
     const Matrix<Dim> mean = unload(present_gradient(c));
     add_stress(c, steps_ ? Matrix<Dim>(-plastic_->advance(c, mean - 0.5 * change, mean + 0.5 * change))
                          : Matrix<Dim>(-plastic_->stress(c)));
+    if (capped_ && capped_->contains(c)) add_lasting_jumps(c);
 }
 
 /// S of the Green strain E, with the free faces where the energy of the cell is least.
@@ -135,7 +136,8 @@ void CcgSweeps<Dim, Real>::advance(std::int32_t c, std::int32_t inelastic, const
 /// F S, both means of the ends of the step, and what the jumps add.
 template <int Dim, class Real>
 void CcgSweeps<Dim, Real>::set_finite_stress(std::int32_t c) {
-    LaneTensor<Dim, Real> sum = element_.sum_jumps(c);
+    double defect = 0.0;
+    LaneTensor<Dim, Real> sum = capped_ && capped_->contains(c) ? sum_capped_jumps(c, defect) : element_.sum_jumps(c);
     if (finite_.condensed(c)) {
         FreeEnd<Dim>& state = free_[finite_.free_position(c)];
         state.jumps = unload(sum);
@@ -151,7 +153,7 @@ void CcgSweeps<Dim, Real>::set_finite_stress(std::int32_t c) {
         const LaneTensor<Dim, Real> stress = finite_stress(c, mean_green_strain(g, load_tensor<Dim>(g_change_, c)));
         for (int j = 0; j < Dim; ++j) sum.col[j] += stress.col[j] + g * stress.col[j];
     }
-    if (keeps_) keep_end(c, of_law, sum);
+    if (keeps_) keep_end(c, of_law, defect, sum);
     store_tensor(sum, s_, c);
 }
 
@@ -255,9 +257,10 @@ void CcgSweeps<Dim, Real>::load_end(std::int32_t chunk) {
     });
 }
 
-/// `sum`: S_c in this state. In a step the mean with that at its start takes its place.
+/// `sum`: S_c in this state, `of_jumps`: what capped jumps add to the defect of the step [J]. In a step the mean with that at its start takes its place.
 template <int Dim, class Real>
-void CcgSweeps<Dim, Real>::keep_end(std::int32_t c, const Response<Dim>& of_law, LaneTensor<Dim, Real>& sum) {
+void CcgSweeps<Dim, Real>::keep_end(std::int32_t c, const Response<Dim>& of_law, double of_jumps,
+                                    LaneTensor<Dim, Real>& sum) {
     const Lanes<Dim, Real> direct = load_packed<Dim>(direct_, c);
     store_tensor(load_tensor<Dim>(g_, c), keeps_->g, c);
     store_tensor(sum, keeps_->s, c);
@@ -269,7 +272,7 @@ void CcgSweeps<Dim, Real>::keep_end(std::int32_t c, const Response<Dim>& of_law,
     }
     if (end_.empty()) return;
     const std::int32_t inelastic = finite_.inelastic(c);
-    kept_.set_defect(c, inelastic >= 0 && flows_[static_cast<std::size_t>(inelastic)] != 0);
+    kept_.set_defect(c, inelastic >= 0 && flows_[static_cast<std::size_t>(inelastic)] != 0, of_jumps);
     const LaneTensor<Dim, Real> start = load_tensor<Dim>(kept_.start.s, c);
     for (int j = 0; j < Dim; ++j) sum.col[j] = 0.5 * (start.col[j] + sum.col[j]);
     store(0.5 * (load_packed<Dim>(kept_.start.direct, c) + direct), direct_, c);

@@ -94,7 +94,7 @@ double KeptEnds<Dim>::elastic_defect(std::int32_t c, const Matrix<Dim>& g_0, con
 /// Where a material dissipates, the first part is what it takes, except where it is negative by what the step is too long. The part
 /// of the jumps is then that of faces which flow along with their cell, and has no sign.
 template <int Dim>
-void KeptEnds<Dim>::set_defect(std::int32_t c, bool flows) {
+void KeptEnds<Dim>::set_defect(std::int32_t c, bool flows, double of_capped_jumps) {
     const auto [g_0, g_1] = gradients(c);
     const Matrix<Dim> s = 0.5 * (unload(load_tensor<Dim>(start.s, c)) + unload(load_tensor<Dim>(end.s, c)));
     const double measure = 1.0 / coefficients_.cells[c].inverse_measure;
@@ -124,7 +124,7 @@ void KeptEnds<Dim>::set_defect(std::int32_t c, bool flows) {
     }
     const AxialVector<Dim> moment = measure * moment_of<Dim>(Matrix<Dim>::Identity() + 0.5 * (g_0 + g_1), s);
     double* defect = defects_.data() + n_of_defect * c;
-    defect[0] = measure * energy;
+    defect[0] = measure * energy + of_capped_jumps;
     for (int k = 0; k < n_axial; ++k) defect[1 + k] = moment[k];
 }
 

@@ -80,8 +80,9 @@ public:
 
     KeptEnd<Dim> start, end;
 
-    /// Both ends of this cell are set. `flows`: its material may have dissipated energy in the step.
-    void set_defect(std::int32_t c, bool flows);
+    /// Both ends of this cell are set. `flows`: its material may have dissipated energy in the step. `of_capped_jumps`: what these
+    /// add [J].
+    void set_defect(std::int32_t c, bool flows, double of_capped_jumps);
     /// Energy that this cell has dissipated in the step from `start` to `end` [J].
     [[nodiscard]] StepLoss loss(std::int32_t c) const;
     /// Of the step from `start` to `end`, less the moment of `direct`.

@@ -102,11 +102,8 @@ PlasticCells<Dim>::PlasticCells(const mesh::Mesh<Dim>& mesh, std::span<const Mat
     if (!any_) return;
     index_.assign(static_cast<std::size_t>(mesh.n_cells()), -1);
     std::vector<std::vector<Strain>> free(index_.size());
-    std::vector<char> is_loaded(static_cast<std::size_t>(boundary_faces(mesh).size()), 0);
-    for (const std::vector<BoundaryFace>& faces : conditions.traction)
-        for (const BoundaryFace b : faces) is_loaded[static_cast<std::size_t>(b)] = 1;
     for (const BoundaryFace b : boundary_faces(mesh)) {
-        if (rule != FreeFaceRule::local_equilibrium || is_loaded[static_cast<std::size_t>(b)]) continue;
+        if (rule != FreeFaceRule::local_equilibrium) break;
         const Matrix<Dim> directions = Matrix<Dim>::Identity() - conditions.prescribed[b];
         const Vector<Dim>& normal = mesh.face_normal[mesh_face(mesh, b)];
         for (int i = 0; i < Dim; ++i) {
@@ -177,10 +174,10 @@ double PlasticCells<Dim>::flow(const Cell& cell, const Strain& trial, Strain& no
 template <int Dim>
 Matrix<Dim> PlasticCells<Dim>::advance(std::ptrdiff_t cell, const Matrix<Dim>& g_0, const Matrix<Dim>& g_1) {
     Cell& of = at(cell);
-    const Stiffness& stiffness = response(of).stiffness;
+    const Stiffness &stiffness = response(of).stiffness, &whole = response_inside(of).stiffness;
     const double back = two_thirds * of.material->kinematic_hardening;
     const auto driving = [&](const Matrix<Dim>& g) {
-        return Strain(deviator_of(Strain(stiffness * (packed(g) - of.memory.plastic))) - back * of.memory.plastic);
+        return Strain(deviator_of(Strain(whole * packed(g) - stiffness * of.memory.plastic)) - back * of.memory.plastic);
     };
     of.next = of.memory;
     of.loss = 0.0;
@@ -198,7 +195,7 @@ template <int Dim>
 double PlasticCells<Dim>::energy(std::ptrdiff_t cell, const Matrix<Dim>& g) const {
     const Cell& of = at(cell);
     const Strain& plastic = of.memory.plastic;
-    return plastic.dot(response(of).stiffness * (0.5 * plastic - packed(g))) +
+    return plastic.dot(response(of).stiffness * (0.5 * plastic) - response_inside(of).stiffness * packed(g)) +
            of.material->kinematic_hardening / 3.0 * plastic.squaredNorm();
 }
 

@@ -15,9 +15,10 @@ namespace abut::solid {
 /// Cells of MaterialLaw::j2 whose strains are linear: they flow by von Mises's rule, with isotropic and kinematic hardening. Per
 /// volume a cell stores, eps being the strain of its displacement gradient and p its plastic strain, both in space,
 ///
-///     1/2 eps : C : eps - eps : C_e : p + 1/2 p : C_e : p + H/3 p : p
+///     1/2 eps : C : eps - eps : C : p + 1/2 p : C_e : p + H/3 p : p
 ///
-/// with C_e, what free faces leave of C. docs/method.md, Metal that yields.
+/// with C_e, what faces that are free or bear a traction t leave of C. These stand where they would without p: C : eps is C_e : eps' and a
+/// part of t, eps' being of the other faces, and the second term is also what t does as p moves them. docs/method.md, Metal that yields.
 ///
 /// Only a step that has ended is remembered. Functions of different cells may be called from several threads at once.
 template <int Dim>
@@ -92,6 +93,11 @@ private:
     }
     [[nodiscard]] const Response& response(const Cell& cell) const {
         return responses_[static_cast<std::size_t>(cell.response)];
+    }
+
+    /// Without free faces.
+    [[nodiscard]] const Response& response_inside(const Cell& cell) const {
+        return responses_[static_cast<std::size_t>(cell.material - materials_.data())];
     }
 
     std::vector<Material> materials_;

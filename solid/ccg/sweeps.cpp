@@ -24,13 +24,15 @@ void for_all(const std::vector<Id>& list, const Body& body) {
 
 template <int Dim, class Real>
 CcgSweeps<Dim, Real>::CcgSweeps(const CcgArrays<Dim>& arrays, const CcgCoefficients<Dim, Real>& coefficients,
-                                const FiniteCells<Dim>& finite, ViscousCells<Dim>* viscous, PlasticCells<Dim>* plastic)
+                                const FiniteCells<Dim>& finite, ViscousCells<Dim>* viscous, PlasticCells<Dim>* plastic,
+                                CappedJumps<Dim>* capped)
     : arrays_(arrays),
       coefficients_(coefficients),
       finite_(finite),
       kept_(arrays, finite),
       viscous_(viscous && viscous->any() ? viscous : nullptr),
-      plastic_(plastic && plastic->any() ? plastic : nullptr) {
+      plastic_(plastic && plastic->any() ? plastic : nullptr),
+      capped_(capped && capped->any() ? capped : nullptr) {
     constexpr std::size_t width = lane_width<Dim>;
     u_.resize(width * arrays.cells.size());
     of_face_.resize(width * arrays.faces.size());
@@ -45,7 +47,7 @@ CcgSweeps<Dim, Real>::CcgSweeps(const CcgArrays<Dim>& arrays, const CcgCoefficie
     correction_.resize(width * arrays.boundary_faces.size());
     pair_gradient_.resize(width * arrays.boundary_faces.size());
     free_.resize(finite.free().size());
-    if (finite.any()) g_change_.resize(g_.size());
+    if (finite.any() || capped_) g_change_.resize(s_.size());
     flows_.resize(finite.n_inelastic());
     const bool has_gradients = finite.any() && !finite.takes_ends();
     if (has_gradients || viscous_ || plastic_) u_change_.resize(u_.size());
@@ -257,7 +259,8 @@ template class CcgSweeps<3>;
 // In single precision there are whole steps alone.
 #define ABUT_INSTANTIATE(Dim)                                                                                    \
     template CcgSweeps<Dim, float>::CcgSweeps(const CcgArrays<Dim>&, const CcgCoefficients<Dim, float>&,         \
-                                              const FiniteCells<Dim>&, ViscousCells<Dim>*, PlasticCells<Dim>*);  \
+                                              const FiniteCells<Dim>&, ViscousCells<Dim>*, PlasticCells<Dim>*,   \
+                                              CappedJumps<Dim>*);                                                \
     template void CcgSweeps<Dim, float>::gradient(std::span<const Vector<Dim>>, const BoundaryLoad<Dim>&,        \
                                                   const FaceCorrections<Dim>&, std::span<Vector<Dim>>);          \
     template void CcgSweeps<Dim, float>::mean_gradient(const StepEnds<Dim>&, const BoundaryLoad<Dim>&,           \

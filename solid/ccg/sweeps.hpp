@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "abut/solid/ccg/arrays.hpp"
+#include "abut/solid/ccg/capped_jumps.hpp"
 #include "abut/solid/ccg/ccg.hpp"
 #include "abut/solid/ccg/cell_moments.hpp"
 #include "abut/solid/ccg/finite_cells.hpp"
@@ -45,9 +46,10 @@ namespace abut::solid {
 template <int Dim, class Real = double>
 class CcgSweeps {
 public:
-    /// All must outlive the sweeps. Without `viscous` or `plastic` no cell is.
+    /// All must outlive the sweeps. Without `viscous`, `plastic` or `capped` no cell is.
     CcgSweeps(const CcgArrays<Dim>& arrays, const CcgCoefficients<Dim, Real>& coefficients, const FiniteCells<Dim>& finite,
-              ViscousCells<Dim>* viscous = nullptr, PlasticCells<Dim>* plastic = nullptr);
+              ViscousCells<Dim>* viscous = nullptr, PlasticCells<Dim>* plastic = nullptr,
+              CappedJumps<Dim>* capped = nullptr);
     CcgSweeps(const CcgSweeps&) = delete;
     CcgSweeps& operator=(const CcgSweeps&) = delete;
 
@@ -138,7 +140,7 @@ private:
     void advance(std::int32_t c, std::int32_t inelastic, const Matrix<Dim>& g);
     [[nodiscard]] Tensor finite_stress(std::ptrdiff_t c, const Tensor& strain) const;
     [[nodiscard]] Response<Dim> law_response(std::int32_t c, const Matrix<Dim>& g) const;
-    void keep_end(std::int32_t c, const Response<Dim>& of_law, Tensor& sum);
+    void keep_end(std::int32_t c, const Response<Dim>& of_law, double of_jumps, Tensor& sum);
     [[nodiscard]] CellStretch end_stretch(std::int32_t c) const;
     [[nodiscard]] Vectors boundary_change(BoundaryFace b) const;
     void set_finite_displacement_gradient(std::int32_t c);
@@ -157,6 +159,17 @@ private:
     void add_moments(std::int32_t begin, std::int32_t end);
     [[nodiscard]] std::pair<Vector<Dim>, Matrix<Dim>> tilted_face(BoundaryFace b) const;
     [[nodiscard]] Matrix<Dim> cauchy_stress(std::int32_t c) const;
+
+    // One jump that yields: capped_sweeps.cpp
+    [[nodiscard]] Vectors jump(std::int32_t c, std::int32_t half_face) const;
+    [[nodiscard]] Vectors elastic_jump(std::int32_t c, std::int32_t half_face) const;
+    void keep_linear_change(std::int32_t c);
+    [[nodiscard]] Matrix<Dim> known_change(std::int32_t c) const;
+    [[nodiscard]] Vector<Dim> jump_change(std::int32_t c, std::int32_t half_face) const;
+    void add_lasting_jumps(std::int32_t c);
+    [[nodiscard]] Matrix<Dim> trace_gradient(std::int32_t c) const;
+    [[nodiscard]] Matrix<Dim> gradient_at_face(std::int32_t face) const;
+    [[nodiscard]] Tensor sum_capped_jumps(std::int32_t c, double& defect);
 
     // All
     [[nodiscard]] PlacedCorrections<Dim, Real> placed(const FaceCorrections<Dim>& corrections);
@@ -208,6 +221,7 @@ private:
     // Of damped materials, and of linear ones that flow; null where there are none
     ViscousCells<Dim>* viscous_;
     PlasticCells<Dim>* plastic_;
+    CappedJumps<Dim>* capped_;
     bool steps_ = false;                    // while the sweeps make a step of theirs
     double dt_ = 0.0;                       // of that
     std::vector<Vector<Dim>> load_change_;  // of BoundaryLoad::displacement in it; empty: none

@@ -33,6 +33,9 @@ struct Material {
     double saturation_rate = 0.0;  ///< per plastic strain [-]; > 0 with `saturation`
     double kinematic_hardening =
         0.0;  ///< Prager's: by how much yielding shifts the stresses at which it does [Pa], >= 0; not of finite bodies
+    /// Largest traction of the stabilisation of jumps between cells over `yield_stress` [-], >= 0; 0: 0.1 where both cells are
+    /// simplices and 0.3 elsewhere, none in finite bodies that contact may push.
+    double jump_cap = 0.0;
 
     // Of bodies that deform, with schemes that take mean forces.
     double mass_damping = 0.0;         ///< Rayleigh's alpha: a force alpha M v against the motion [1/s], >= 0

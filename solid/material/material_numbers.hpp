@@ -74,6 +74,13 @@ inline constexpr std::array material_numbers{
         "of j2: rise of the stress that shifts the yield surface (Prager), per plastic strain; not of finite bodies",
         false,
         MaterialLaw::j2},
+    MaterialNumber{"jump_cap",
+                   &Material::jump_cap,
+                   {.above = 0.0, .zero = true},
+                   "of j2: largest stress of the stabilisation of jumps over yield_stress; 0: 0.1 between simplices, 0.3 "
+                   "elsewhere, none in finite bodies with contact",
+                   false,
+                   MaterialLaw::j2},
     MaterialNumber{"mass_damping",
                    &Material::mass_damping,
                    {.unit = "1/s", .above = 0.0, .zero = true},

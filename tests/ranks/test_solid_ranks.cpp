@@ -115,6 +115,7 @@ TEMPLATE_TEST_CASE_SIG("damped metal bodies that flow as they strike each other 
                                 .hardening = 0.05};
     options.materials = {metal, metal};
     options.materials[0].kinematic_hardening = 0.02;
+    options.materials[1].jump_cap = 0.2;
     options.materials[0].stiffness_damping = 0.01;
     options.materials[1].mass_damping = 0.1;
     options.materials[1].linear_viscosity = 0.1;

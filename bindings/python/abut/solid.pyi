@@ -23,6 +23,7 @@ class Material:
     saturation: float
     saturation_rate: float
     kinematic_hardening: float
+    jump_cap: float
     mass_damping: float
     stiffness_damping: float
     linear_viscosity: float

@@ -1,0 +1,182 @@
+#include "abut/solid/ccg/capped_jumps.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace abut::solid {
+namespace {
+
+// Material::jump_cap where none is given. Gradients of bricks are central differences, so that jumps have more to hold.
+constexpr double cap_of_simplices = 0.1, cap_of_others = 0.3;
+// None where contact squeezes finite bodies: cells fold up without their jumps.
+constexpr double cap_of_large_strains = std::numeric_limits<double>::infinity();
+constexpr double same_normal = 1e-10;  // 1 - |cos| of two normals that count as one
+
+template <int Dim>
+bool is_simplex(const mesh::Mesh<Dim>& mesh, std::int32_t cell) {
+    return mesh.cell_faces[cell].size() == Dim + 1;
+}
+
+template <int Dim>
+bool is_finite(const mesh::Mesh<Dim>& mesh, std::span<const Kinematics> kinematics, std::int32_t cell) {
+    return !kinematics.empty() && kinematics[static_cast<std::size_t>(mesh.cell_body[cell])] == Kinematics::finite;
+}
+
+/// Cells whose jumps stay elastic, as nothing else holds them:
+///
+///  - with free faces of more than one normal, which leave no more stress than a bar has, or none;
+///  - with a free face that contact may push, as what it pushes with is not in the stress of the cell;
+///  - of finite bodies and no simplices, behind a load: their faces go where the cells around point.
+template <int Dim>
+std::vector<char> held_by_jumps(const mesh::Mesh<Dim>& mesh, std::span<const Kinematics> kinematics,
+                                const FaceConditions<Dim>& conditions, FreeFaces free_faces) {
+    const auto is_loaded = conditions.are_loaded();
+    const auto bends = [&](std::int32_t cell) { return is_finite(mesh, kinematics, cell) && !is_simplex(mesh, cell); };
+    std::vector<char> held(static_cast<std::size_t>(mesh.n_cells()), 0);
+    std::vector<const Vector<Dim>*> first(held.size(), nullptr);
+    for (const BoundaryFace b : boundary_faces(mesh)) {
+        const std::int32_t cell = cell_of(mesh, b);
+        const auto i = static_cast<std::size_t>(cell);
+        if (is_loaded[b] && bends(cell)) held[i] = 1;
+        if (!conditions.prescribed[b].isZero(0.0)) continue;
+        const Vector<Dim>& normal = mesh.face_normal[mesh_face(mesh, b)];
+        if (!first[i]) first[i] = &normal;
+        const bool has_other = std::abs(first[i]->dot(normal)) < 1.0 - same_normal;
+        if (has_other || free_faces == FreeFaces::may_touch) held[i] = 1;
+    }
+    return held;
+}
+
+}  // namespace
+
+template <int Dim>
+CappedJumps<Dim>::CappedJumps(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials,
+                              std::span<const Kinematics> kinematics, const FaceConditions<Dim>& conditions,
+                              FreeFaces free_faces, const CcgArrays<Dim>& arrays)
+    : arrays_(arrays) {
+    const auto yields = [](const Material& material) { return material.law == MaterialLaw::j2; };
+    any_ = std::ranges::any_of(materials, yields);
+    if (!any_) return;
+    const auto material_of = [&](std::int32_t cell) -> const Material& {
+        return materials[static_cast<std::size_t>(mesh.cell_body[cell])];
+    };
+    for (std::int32_t c = 0; c < mesh.n_cells(); ++c) capped_.push_back(yields(material_of(c)) ? 1 : 0);
+    const std::vector<char> held = held_by_jumps(mesh, kinematics, conditions, free_faces);
+    const auto is_held = [&](std::int32_t cell) { return held[static_cast<std::size_t>(cell)] != 0; };
+    const auto cap_by_default = [&](std::int32_t a, std::int32_t b) {
+        if (free_faces == FreeFaces::may_touch && is_finite(mesh, kinematics, a)) return cap_of_large_strains;
+        return is_simplex(mesh, a) && is_simplex(mesh, b) ? cap_of_simplices : cap_of_others;
+    };
+    largest_.assign(arrays.face_cells.size(), std::numeric_limits<double>::infinity());
+    for (std::size_t f = 0; f < largest_.size(); ++f) {
+        const auto [a, b] = arrays.face_cells[f];
+        const double stiffness = arrays.faces[f].jump_stiffness;
+        if (!contains(a) || stiffness == 0.0 || is_held(a) || is_held(b)) continue;
+        const Material& material = material_of(a);
+        const double traction = (material.jump_cap > 0.0 ? material.jump_cap : cap_by_default(a, b)) * material.yield_stress;
+        largest_[f] = mesh.face_measure[f] * traction / stiffness;
+    }
+    memory_.assign(arrays.half_faces.size(), Vector<Dim>::Zero());
+    next_ = memory_;
+    start_.resize(memory_.size());
+    end_.resize(memory_.size());
+    loss_.assign(capped_.size(), 0.0);
+}
+
+template <int Dim>
+Vector<Dim> CappedJumps<Dim>::excess(std::int32_t face, const Vector<Dim>& trial) const {
+    const double size = trial.norm(), largest = largest_[static_cast<std::size_t>(face)];
+    if (!(size > largest)) return Vector<Dim>::Zero();
+    return (1.0 - largest / size) * trial;
+}
+
+/// With J_b and [u]_b the means of both ends D = k ([u]_b - J_b) . Delta J, which is exact; half of it is of this cell.
+template <int Dim>
+Vector<Dim> CappedJumps<Dim>::advance(std::ptrdiff_t cell, std::ptrdiff_t half_face, const Vector<Dim>& mean,
+                                      const Vector<Dim>& change) {
+    const auto i = static_cast<std::size_t>(half_face);
+    const std::int32_t face = arrays_.half_faces[i].face;
+    const Vector<Dim>& before = memory_[i];
+    const Vector<Dim> yielded = excess(face, mean + 0.5 * change - before);
+    next_[i] = before + yielded;
+    const Vector<Dim> lasting = 0.5 * (before + next_[i]);
+    loss_[static_cast<std::size_t>(cell)] +=
+        0.5 * arrays_.faces[face].jump_stiffness * (mean - lasting).dot(next_[i] - before);
+    return lasting;
+}
+
+template <int Dim>
+auto CappedJumps<Dim>::of(const Vector<Dim>& lasting, const Vector<Dim>& jump, const Matrix<Dim>& gradient) -> Elastic {
+    return {jump - lasting - gradient * lasting, gradient, lasting};
+}
+
+template <int Dim>
+auto CappedJumps<Dim>::at(std::ptrdiff_t half_face, const Vector<Dim>& jump, const Matrix<Dim>& gradient) const -> Elastic {
+    return of(lasting(half_face), jump, gradient);
+}
+
+template <int Dim>
+auto CappedJumps<Dim>::start(std::ptrdiff_t half_face, const Vector<Dim>& jump, const Matrix<Dim>& gradient) -> Elastic {
+    return start_[static_cast<std::size_t>(half_face)] = at(half_face, jump, gradient);
+}
+
+/// With s = [x] - F J, F the mean of both cells, the energy is k s^2/2 and its gradient k s . (d[x] - dF J). The mean of both ends does
+///
+///     k s_b . (Delta [x] - Delta F J_b) - k/4 Delta s . Delta F Delta J = Delta V + k s_b . F_b Delta J - k/4 Delta s . Delta F Delta J
+template <int Dim>
+auto CappedJumps<Dim>::advance(std::ptrdiff_t cell, std::ptrdiff_t half_face, const Vector<Dim>& jump,
+                               const Matrix<Dim>& gradient, double& defect) -> Elastic {
+    const auto i = static_cast<std::size_t>(half_face);
+    const std::int32_t face = arrays_.half_faces[i].face;
+    const Elastic& start = start_[i];
+    Elastic& end = end_[i] = at(half_face, jump, gradient);
+    next_[i] = memory_[i];
+    const Vector<Dim> yielded = excess(face, end.jump);
+    if (yielded.isZero(0.0)) return end;
+    const Matrix<Dim> deformed = Matrix<Dim>::Identity() + gradient;
+    next_[i] = memory_[i] + deformed.inverse() * yielded;
+    end = of(next_[i], jump, gradient);
+    const Vector<Dim> change = next_[i] - memory_[i];
+    const Matrix<Dim> turned = gradient - start.gradient;
+    const double taken = (0.5 * (start.jump + end.jump)).dot(deformed * change - 0.5 * turned * change) -
+                         0.25 * (end.jump - start.jump).dot(turned * change);
+    const double of_cell = 0.5 * arrays_.faces[face].jump_stiffness * taken;
+    loss_[static_cast<std::size_t>(cell)] += std::max(0.0, of_cell);
+    defect += std::min(0.0, of_cell);
+    return end;
+}
+
+/// A step sets `next_` and `end_` of all cells that anybody looks at.
+template <int Dim>
+void CappedJumps<Dim>::end_step() {
+    std::swap(memory_, next_);
+    std::swap(start_, end_);
+}
+
+template <int Dim>
+std::int32_t CappedJumps<Dim>::memory_size(std::ptrdiff_t cell) const {
+    if (!contains(cell)) return 0;
+    return Dim * static_cast<std::int32_t>(arrays_.half_faces_of(static_cast<std::int32_t>(cell)).size());
+}
+
+template <int Dim>
+void CappedJumps<Dim>::put_memory(std::ptrdiff_t cell, std::vector<double>& values) const {
+    if (!contains(cell)) return;
+    for (std::int32_t i = arrays_.half_face_offsets[cell]; i < arrays_.half_face_offsets[cell + 1]; ++i)
+        values.insert(values.end(), lasting(i).data(), lasting(i).data() + Dim);
+}
+
+template <int Dim>
+void CappedJumps<Dim>::set_memory(std::ptrdiff_t cell, std::span<const double> values) {
+    for (std::int32_t i = arrays_.half_face_offsets[cell]; i < arrays_.half_face_offsets[cell + 1]; ++i) {
+        memory_[i] = Eigen::Map<const Vector<Dim>>(values.data());
+        values = values.subspan(Dim);
+    }
+}
+
+template class CappedJumps<2>;
+template class CappedJumps<3>;
+
+}  // namespace abut::solid

@@ -1,0 +1,89 @@
+#pragma once
+// Private to the sources of this layer.
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "abut/mesh/mesh.hpp"
+#include "abut/solid/boundary_conditions.hpp"
+#include "abut/solid/ccg/arrays.hpp"
+#include "abut/solid/ccg/ccg.hpp"
+#include "abut/solid/kinematics/kinematics.hpp"
+#include "abut/solid/material/material.hpp"
+
+namespace abut::solid {
+
+/// Faces between cells of MaterialLaw::j2, whose stabilisation yields: its traction k ([u] - J)/|f| stays below Material::jump_cap
+/// times the yield stress, and J, the part of the jump that lasts, follows where it would not. Where nothing else holds a cell it
+/// stays elastic: at edges, and under contact. docs/method.md, Metal that yields.
+///
+/// Each half-face remembers J as its cell sees it: of a finite body as a vector of the material, which F turns. That of the twin
+/// is its negative, bit by bit, since both come from the same sums. Only a step that has ended is remembered. Functions of different
+/// cells may be called from several threads at once.
+template <int Dim>
+class CappedJumps {
+public:
+    /// One material and kinematics per body, the latter empty where all are small. `arrays` must outlive it.
+    CappedJumps(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials, std::span<const Kinematics> kinematics,
+                const FaceConditions<Dim>& conditions, FreeFaces free_faces, const CcgArrays<Dim>& arrays);
+    CappedJumps(const CappedJumps&) = delete;
+    CappedJumps& operator=(const CappedJumps&) = delete;
+
+    /// Whether a body has them, on any rank.
+    [[nodiscard]] bool any() const { return any_; }
+    [[nodiscard]] bool contains(std::ptrdiff_t cell) const { return any() && capped_[static_cast<std::size_t>(cell)] != 0; }
+    /// J of a half-face at the start of the step, or where no step is made [m].
+    [[nodiscard]] const Vector<Dim>& lasting(std::ptrdiff_t half_face) const {
+        return memory_[static_cast<std::size_t>(half_face)];
+    }
+
+    /// Nothing is dissipated in this step so far.
+    void begin(std::ptrdiff_t cell) { loss_[static_cast<std::size_t>(cell)] = 0.0; }
+    /// Lets a half-face of a body whose strains are linear yield in a step in which [u] changes by `change` about `mean`. Returns the
+    /// mean of J [m].
+    [[nodiscard]] Vector<Dim> advance(std::ptrdiff_t cell, std::ptrdiff_t half_face, const Vector<Dim>& mean,
+                                      const Vector<Dim>& change);
+
+    /// A finite body in one state: [x] - F J, with what its jump was made of.
+    struct Elastic {
+        Vector<Dim> jump = Vector<Dim>::Zero();
+        Matrix<Dim> gradient = Matrix<Dim>::Zero();  // F - I, the mean of both cells
+        Vector<Dim> lasting = Vector<Dim>::Zero();
+    };
+    /// Of a state with this [x] as it is remembered.
+    [[nodiscard]] Elastic at(std::ptrdiff_t half_face, const Vector<Dim>& jump, const Matrix<Dim>& gradient) const;
+    /// The same, kept as the start of the next step.
+    [[nodiscard]] Elastic start(std::ptrdiff_t half_face, const Vector<Dim>& jump, const Matrix<Dim>& gradient);
+    /// Lets a half-face yield in the step from the start to a state with this [x]. What the mean force of both ends does beyond the
+    /// change of energy is booked as lost, or where it is negative, as it may be by what the step is too long, added to `defect` [J].
+    [[nodiscard]] Elastic advance(std::ptrdiff_t cell, std::ptrdiff_t half_face, const Vector<Dim>& jump,
+                                  const Matrix<Dim>& gradient, double& defect);
+
+    /// Energy that a cell's half of its faces has dissipated in the step [J].
+    [[nodiscard]] double loss(std::ptrdiff_t cell) const {
+        return contains(cell) ? loss_[static_cast<std::size_t>(cell)] : 0.0;
+    }
+    /// The next step begins where this one ends.
+    void end_step();
+
+    /// How many numbers a cell remembers.
+    [[nodiscard]] std::int32_t memory_size(std::ptrdiff_t cell) const;
+    /// Writes them behind `values`.
+    void put_memory(std::ptrdiff_t cell, std::vector<double>& values) const;
+    void set_memory(std::ptrdiff_t cell, std::span<const double> values);
+
+private:
+    [[nodiscard]] static Elastic of(const Vector<Dim>& lasting, const Vector<Dim>& jump, const Matrix<Dim>& gradient);
+    /// What J changes by, in space, so that `trial` comes back to the cap [m].
+    [[nodiscard]] Vector<Dim> excess(std::int32_t face, const Vector<Dim>& trial) const;
+
+    const CcgArrays<Dim>& arrays_;
+    bool any_ = false;                        // known from materials alone: this rank may have no cell of them
+    std::vector<char> capped_;                // of each cell; empty, as all below, where no body has them
+    std::vector<double> largest_;             // |[u] - J| at the cap, by face [m]
+    std::vector<Vector<Dim>> memory_, next_;  // J by half-face
+    std::vector<Elastic> start_, end_;        // by half-face, of finite bodies
+    std::vector<double> loss_;                // by cell
+};
+
+}  // namespace abut::solid

@@ -1,0 +1,122 @@
+#include "abut/solid/ccg/sweeps.hpp"
+
+// What the sweeps do with jumps between cells whose stabilisation yields. docs/method.md, Metal that yields.
+
+namespace abut::solid {
+
+/// [u] as the cell sees it.
+template <int Dim, class Real>
+Lanes<Dim, Real> CcgSweeps<Dim, Real>::jump(std::int32_t c, std::int32_t half_face) const {
+    const HalfFace& half = arrays_.half_faces[half_face];
+    if (!arrays_.simplices.contains(c)) return load_packed<Dim>(trace_, half_face) - load_packed<Dim>(trace_, half.twin);
+    const auto [first, second] = arrays_.face_cells[half.face];
+    return load_packed<Dim>(deviation_, c) - load_packed<Dim>(deviation_, c == first ? second : first);
+}
+
+// Bodies whose strains are linear --------------------------------------------------------------------------------------
+
+/// For its own stress, and for the jumps of its neighbours.
+template <int Dim, class Real>
+void CcgSweeps<Dim, Real>::keep_linear_change(std::int32_t c) {
+    if (capped_->contains(c)) store_tensor(load_packed<Dim>(linear_change(c)), g_change_, c);
+}
+
+template <int Dim, class Real>
+Matrix<Dim> CcgSweeps<Dim, Real>::known_change(std::int32_t c) const {
+    return capped_ && capped_->contains(c) ? unload(load_tensor<Dim>(g_change_, c)) : linear_change(c);
+}
+
+/// Of [u] in the step.
+template <int Dim, class Real>
+Vector<Dim> CcgSweeps<Dim, Real>::jump_change(std::int32_t c, std::int32_t half_face) const {
+    const HalfFace& half = arrays_.half_faces[half_face];
+    const auto [first, second] = arrays_.face_cells[half.face];
+    const auto of_trace = [&](std::int32_t cell, std::int32_t of_cell) {
+        return load_tensor<Dim>(g_change_, cell).times(coefficients_.lever_arms[of_cell]);
+    };
+    const std::int32_t other = c == first ? second : first;
+    return unload(of_trace(c, half_face) - of_trace(other, half.twin) +
+                  (load_packed<Dim>(u_change_, c) - load_packed<Dim>(u_change_, other)));
+}
+
+/// Takes what lasts of the jumps out of those that push the cell: in a step the mean of both ends.
+template <int Dim, class Real>
+void CcgSweeps<Dim, Real>::add_lasting_jumps(std::int32_t c) {
+    if (steps_) capped_->begin(c);
+    LaneTensor<Dim, Real> sum{};
+    Vectors direct = load_packed<Dim>(direct_, c);
+    for (std::int32_t i = arrays_.half_face_offsets[c]; i < arrays_.half_face_offsets[c + 1]; ++i) {
+        const std::int32_t face = arrays_.half_faces[i].face;
+        if (arrays_.boundary_index[face] != no_face) continue;
+        const Vector<Dim> lasting =
+            steps_ ? capped_->advance(c, i, unload(jump(c, i)), jump_change(c, i)) : capped_->lasting(i);
+        const Vectors gradient = coefficients_.faces[face].jump_stiffness * load_packed<Dim>(lasting);
+        direct -= gradient;
+        sum.add_outer(gradient, coefficients_.lever_arms[i]);
+    }
+    store(direct, direct_, c);
+    if (!arrays_.simplices.contains(c)) add_stress(c, -coefficients_.cells[c].inverse_measure * unload(sum));
+}
+
+// Bodies of Kinematics::finite -----------------------------------------------------------------------------------------
+
+/// F - I as the traces of the cell take it.
+template <int Dim, class Real>
+Matrix<Dim> CcgSweeps<Dim, Real>::trace_gradient(std::int32_t c) const {
+    return finite_.condensed(c) ? free_[finite_.free_position(c)].gradient() : unload(load_tensor<Dim>(g_, c));
+}
+
+/// The mean of both cells.
+template <int Dim, class Real>
+Matrix<Dim> CcgSweeps<Dim, Real>::gradient_at_face(std::int32_t face) const {
+    const auto [first, second] = arrays_.face_cells[face];
+    return 0.5 * (trace_gradient(first) + trace_gradient(second));
+}
+
+/// As SweepElements::sum_jumps, where F of both cells also moves what lasts of a jump.
+template <int Dim, class Real>
+LaneTensor<Dim, Real> CcgSweeps<Dim, Real>::sum_capped_jumps(std::int32_t c, double& defect) {
+    const bool advances = keeps_ == &kept_.end;
+    if (advances) capped_->begin(c);
+    Matrix<Dim> sum = Matrix<Dim>::Zero();
+    Vector<Dim> direct = Vector<Dim>::Zero();
+    for (std::int32_t i = arrays_.half_face_offsets[c]; i < arrays_.half_face_offsets[c + 1]; ++i) {
+        const std::int32_t face = arrays_.half_faces[i].face;
+        if (arrays_.boundary_index[face] != no_face) continue;
+        const Vector<Dim> jumped = unload(jump(c, i));
+        const Matrix<Dim> g = gradient_at_face(face);
+        const auto elastic = advances ? capped_->advance(c, i, jumped, g, defect)
+                             : keeps_ ? capped_->start(i, jumped, g)
+                                      : capped_->at(i, jumped, g);
+        const Vector<Dim> gradient = coefficients_.faces[face].jump_stiffness * elastic.jump;
+        direct += gradient;
+        sum += gradient *
+               (Eigen::Map<const Vector<Dim>>(coefficients_.lever_arms[i].data()) - 0.5 * elastic.lasting).transpose();
+    }
+    store(load_packed<Dim>(direct), direct_, c);
+    return load_packed<Dim>(Matrix<Dim>(coefficients_.cells[c].inverse_measure * sum));
+}
+
+// Energy -----------------------------------------------------------------------------------------------------------------
+
+/// What is left of [u] without what lasts.
+template <int Dim, class Real>
+Lanes<Dim, Real> CcgSweeps<Dim, Real>::elastic_jump(std::int32_t c, std::int32_t half_face) const {
+    const Vectors all = jump(c, half_face);
+    if (!capped_ || !capped_->contains(c)) return all;
+    const Matrix<Dim> g =
+        finite_.contains(c) ? gradient_at_face(arrays_.half_faces[half_face].face) : Matrix<Dim>(Matrix<Dim>::Zero());
+    return load_packed<Dim>(capped_->at(half_face, unload(all), g).jump);
+}
+
+#define ABUT_INSTANTIATE(Dim)                                                         \
+    template void CcgSweeps<Dim>::keep_linear_change(std::int32_t);                   \
+    template Matrix<Dim> CcgSweeps<Dim>::known_change(std::int32_t) const;            \
+    template void CcgSweeps<Dim>::add_lasting_jumps(std::int32_t);                    \
+    template LaneTensor<Dim> CcgSweeps<Dim>::sum_capped_jumps(std::int32_t, double&); \
+    template Lanes<Dim> CcgSweeps<Dim>::elastic_jump(std::int32_t, std::int32_t) const;
+ABUT_INSTANTIATE(2)
+ABUT_INSTANTIATE(3)
+#undef ABUT_INSTANTIATE
+
+}  // namespace abut::solid
