@@ -64,9 +64,7 @@ struct Journal {
     std::vector<Piece> pieces;
 };
 
-void put(std::string& text, Number number) {
-    text.append(reinterpret_cast<const char*>(&number), sizeof number);
-}
+void put(std::string& text, Number number) { text.append(reinterpret_cast<const char*>(&number), sizeof number); }
 
 std::string text_of(const Journal& journal) {
     std::string text;
@@ -112,25 +110,19 @@ bool brought_to_its_place(const Journal& journal, int file) {
 struct Journaled : H5FD_t {
     fs::path path;
     int file = -1;
-    haddr_t old_end = 0;        // of what must stay as it is until the file is closed
-    haddr_t end = 0;            // of what is written
-    haddr_t allocated = 0;      // HDF5's end
+    haddr_t old_end = 0;           // of what must stay as it is until the file is closed
+    haddr_t end = 0;               // of what is written
+    haddr_t allocated = 0;         // HDF5's end
     std::vector<Piece> pending{};  // within the old bytes, in the order in which they came
 };
 
-Journaled& journaled(H5FD_t* file) {
-    return *static_cast<Journaled*>(file);
-}
+Journaled& journaled(H5FD_t* file) { return *static_cast<Journaled*>(file); }
 
-const Journaled& journaled(const H5FD_t* file) {
-    return *static_cast<const Journaled*>(file);
-}
+const Journaled& journaled(const H5FD_t* file) { return *static_cast<const Journaled*>(file); }
 
 constexpr herr_t done = 0, failed = -1;
 
-herr_t result_of(bool is_done) {
-    return is_done ? done : failed;
-}
+herr_t result_of(bool is_done) { return is_done ? done : failed; }
 
 H5FD_t* open_file(const char* name, unsigned flags, hid_t, haddr_t) {
     const bool is_new = (flags & H5F_ACC_TRUNC) != 0;
@@ -168,9 +160,7 @@ herr_t close_file(H5FD_t* closed) {
     return done;
 }
 
-int compare(const H5FD_t* a, const H5FD_t* b) {
-    return journaled(a).path.compare(journaled(b).path);
-}
+int compare(const H5FD_t* a, const H5FD_t* b) { return journaled(a).path.compare(journaled(b).path); }
 
 herr_t query(const H5FD_t*, unsigned long* flags) {
     if (flags)
@@ -179,18 +169,14 @@ herr_t query(const H5FD_t*, unsigned long* flags) {
     return done;
 }
 
-haddr_t allocated_end(const H5FD_t* file, H5FD_mem_t) {
-    return journaled(file).allocated;
-}
+haddr_t allocated_end(const H5FD_t* file, H5FD_mem_t) { return journaled(file).allocated; }
 
 herr_t set_allocated_end(H5FD_t* file, H5FD_mem_t, haddr_t end) {
     journaled(file).allocated = end;
     return done;
 }
 
-haddr_t end_of(const H5FD_t* file, H5FD_mem_t) {
-    return journaled(file).end;
-}
+haddr_t end_of(const H5FD_t* file, H5FD_mem_t) { return journaled(file).end; }
 
 herr_t read_bytes(H5FD_t* from, H5FD_mem_t, hid_t, haddr_t begin, std::size_t n, void* to) {
     const Journaled& file = journaled(from);
@@ -207,7 +193,8 @@ herr_t write_bytes(H5FD_t* to, H5FD_mem_t, hid_t, haddr_t begin, std::size_t n, 
     const char* bytes = static_cast<const char*>(from);
     const std::size_t n_old = begin < file.old_end ? std::min<std::size_t>(n, file.old_end - begin) : 0;
     if (n_old > 0) {
-        std::erase_if(file.pending, [&](const Piece& piece) { return piece.begin >= begin && piece.end() <= begin + n_old; });
+        std::erase_if(file.pending,
+                      [&](const Piece& piece) { return piece.begin >= begin && piece.end() <= begin + n_old; });
         file.pending.push_back({.begin = begin, .bytes = {bytes, bytes + n_old}});
     }
     file.end = std::max(file.end, begin + n);

@@ -274,9 +274,10 @@ H5::H5File opened(const fs::path& path) {
     try {
         return {path.string(), H5F_ACC_RDWR, H5::FileCreatPropList::DEFAULT, journaled_access()};
     } catch (const H5::Exception& error) {
-        throw BadInput(fmt::format("{}: HDF5 cannot open it: {}. Put the file back as the run has left it, or move it away: a new "
-                                   "one then begins with the next frame; or run from the start.",
-                                   path.string(), error.getDetailMsg()));
+        throw BadInput(
+            fmt::format("{}: HDF5 cannot open it: {}. Put the file back as the run has left it, or move it away: a new "
+                        "one then begins with the next frame; or run from the start.",
+                        path.string(), error.getDetailMsg()));
     }
 }
 

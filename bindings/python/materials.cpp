@@ -76,7 +76,8 @@ py::dict all_known() {
 void add_materials(py::module_& module) {
     py::class_<solid::Material> of_material(
         module, "Material",
-        "Isotropic; plane strain in 2D. Values are given by name, and may be texts with units, young=\"210 GPa\"; with a name in "
+        "Isotropic; plane strain in 2D. Values are given by name, and may be texts with units, young=\"210 GPa\"; with a "
+        "name in "
         "front, Material(\"steel S235\", law=\"j2\"), those of known_materials() stand where none is given.");
     of_material.def(py::init(&material_of), "material"_a = py::none());
     for (const solid::MaterialNumber& number : solid::material_numbers) {
@@ -84,15 +85,19 @@ void add_materials(py::module_& module) {
         const std::string doc = number.help + (unit.empty() ? "" : " [" + unit + "]");
         of_material.def_property(
             number.name, [member = number.member](const solid::Material& material) { return material.*member; },
-            [&number](solid::Material& material, const py::object& value) { material.*(number.member) = material_value(number, value); },
+            [&number](solid::Material& material, const py::object& value) {
+                material.*(number.member) = material_value(number, value);
+            },
             doc.c_str());
     }
     of_material.def_property(
         "law", [](const solid::Material& material) { return word_of(solid::material_law_words, material.law); },
         [](solid::Material& material, const std::string& law) { material.law = material_law(law); },
-        "beyond small strains: 'st_venant_kirchhoff', of finite bodies 'neo_hookean' or 'mooney_rivlin', or 'j2', which yields");
+        "beyond small strains: 'st_venant_kirchhoff', of finite bodies 'neo_hookean' or 'mooney_rivlin', or 'j2', which "
+        "yields");
     module.def("known_materials", &all_known,
-               "Materials that scenes and Material know by their names: values [Pa, kg/m^3], yield_stress 0 where there is none, and "
+               "Materials that scenes and Material know by their names: values [Pa, kg/m^3], yield_stress 0 where there is "
+               "none, and "
                "sources.");
 }
 

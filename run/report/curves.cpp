@@ -72,7 +72,8 @@ Markup energy_pictures(const RunResult<Dim>& result) {
     return figure(energies,
                   "Kinetic and potential energy, their sum H, and the pseudo-energy H~ that the scheme conserves.") +
            figure(errors,
-                  "What H~ has gained beyond the work W from outside less all that was dissipated, and H - H~, the part of H that "
+                  "What H~ has gained beyond the work W from outside less all that was dissipated, and H - H~, the part of "
+                  "H that "
                   "it does not hold. An exact zero, or less, is drawn at the lower end.");
 }
 

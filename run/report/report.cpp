@@ -339,8 +339,7 @@ std::string report_html(const std::string& program, const Scene<Dim>& scene, con
                         energies_part(figures, result) + bodies_part(figures, scene, result) +
                         materials_part(scene, result) + contact_part(figures, scene, result, sources) +
                         friction_part(figures, scene, result) + plasticity_part(figures) + damping_part(figures) +
-                        bonds_part(figures, scene) +
-                        probes_part(scene, sources) + findings_part(figures, result.findings) +
+                        bonds_part(figures, scene) + probes_part(scene, sources) + findings_part(figures, result.findings) +
                         settings_part(figures, scene, result) + seconds_part(figures) + files_part(files);
     return "<!DOCTYPE html>\n" + page((scene.title.empty() ? program : scene.title) + ": report of a run", body).html() +
            "\n";

@@ -28,9 +28,7 @@ H5::H5File open_with(const fs::path& path, unsigned flags) {
     return {path.string(), flags, H5::FileCreatPropList::DEFAULT, run::journaled_access()};
 }
 
-std::string group_name(int number) {
-    return "frames/" + std::to_string(number);
-}
+std::string group_name(int number) { return "frames/" + std::to_string(number); }
 
 /// A group with three arrays, of which the first one has the number as its values.
 void add_group(const H5::H5File& file, int number) {
@@ -70,9 +68,7 @@ void in_own_process(const std::function<void()>& action) {
     REQUIRE(WIFSIGNALED(status));
 }
 
-void die() {
-    ::kill(::getpid(), SIGKILL);
-}
+void die() { ::kill(::getpid(), SIGKILL); }
 
 }  // namespace
 
@@ -142,6 +138,7 @@ TEST_CASE("a file of HDF5 whose journal cannot be written stays as it was", "[ru
     fs::create_directories(run::journal_of(path) / "in the way");
     H5::H5File file = open_with(path, H5F_ACC_RDWR);
     add_group(file, 4);
-    CHECK_THROWS_WITH(run::close_journaled(file), Catch::Contains("frames.h5.journal") && Catch::Contains("cannot be written"));
+    CHECK_THROWS_WITH(run::close_journaled(file),
+                      Catch::Contains("frames.h5.journal") && Catch::Contains("cannot be written"));
     check_groups(H5::H5File(path.string(), H5F_ACC_RDONLY), 4);
 }
