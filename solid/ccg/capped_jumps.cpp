@@ -10,8 +10,6 @@ namespace {
 
 // Material::jump_cap where none is given. Gradients of bricks are central differences, so that jumps have more to hold.
 constexpr double cap_of_simplices = 0.1, cap_of_others = 0.3;
-// None where contact squeezes finite bodies: cells fold up without their jumps.
-constexpr double cap_of_large_strains = std::numeric_limits<double>::infinity();
 constexpr double same_normal = 1e-10;  // 1 - |cos| of two normals that count as one
 
 template <int Dim>
@@ -19,9 +17,8 @@ bool is_simplex(const mesh::Mesh<Dim>& mesh, std::int32_t cell) {
     return mesh.cell_faces[cell].size() == Dim + 1;
 }
 
-template <int Dim>
-bool is_finite(const mesh::Mesh<Dim>& mesh, std::span<const Kinematics> kinematics, std::int32_t cell) {
-    return !kinematics.empty() && kinematics[static_cast<std::size_t>(mesh.cell_body[cell])] == Kinematics::finite;
+bool is_finite(std::span<const Kinematics> kinematics, std::size_t body) {
+    return !kinematics.empty() && kinematics[body] == Kinematics::finite;
 }
 
 /// Cells whose jumps stay elastic, as nothing else holds them:
@@ -33,7 +30,9 @@ template <int Dim>
 std::vector<char> held_by_jumps(const mesh::Mesh<Dim>& mesh, std::span<const Kinematics> kinematics,
                                 const FaceConditions<Dim>& conditions, FreeFaces free_faces) {
     const auto is_loaded = conditions.are_loaded();
-    const auto bends = [&](std::int32_t cell) { return is_finite(mesh, kinematics, cell) && !is_simplex(mesh, cell); };
+    const auto bends = [&](std::int32_t cell) {
+        return is_finite(kinematics, static_cast<std::size_t>(mesh.cell_body[cell])) && !is_simplex(mesh, cell);
+    };
     std::vector<char> held(static_cast<std::size_t>(mesh.n_cells()), 0);
     std::vector<const Vector<Dim>*> first(held.size(), nullptr);
     for (const BoundaryFace b : boundary_faces(mesh)) {
@@ -56,26 +55,25 @@ CappedJumps<Dim>::CappedJumps(const mesh::Mesh<Dim>& mesh, std::span<const Mater
                               std::span<const Kinematics> kinematics, const FaceConditions<Dim>& conditions,
                               FreeFaces free_faces, const CcgArrays<Dim>& arrays)
     : arrays_(arrays) {
-    const auto yields = [](const Material& material) { return material.law == MaterialLaw::j2; };
-    any_ = std::ranges::any_of(materials, yields);
-    if (!any_) return;
-    const auto material_of = [&](std::int32_t cell) -> const Material& {
-        return materials[static_cast<std::size_t>(mesh.cell_body[cell])];
+    // By default not where contact squeezes finite bodies: cells fold up without their jumps.
+    const auto yields = [&](std::size_t body) {
+        const bool may_fold = free_faces == FreeFaces::may_touch && is_finite(kinematics, body);
+        return materials[body].law == MaterialLaw::j2 && (materials[body].jump_cap > 0.0 || !may_fold);
     };
-    for (std::int32_t c = 0; c < mesh.n_cells(); ++c) capped_.push_back(yields(material_of(c)) ? 1 : 0);
+    for (std::size_t body = 0; body < materials.size(); ++body) any_ = any_ || yields(body);
+    if (!any_) return;
+    const auto body_of = [&](std::int32_t cell) { return static_cast<std::size_t>(mesh.cell_body[cell]); };
+    for (std::int32_t c = 0; c < mesh.n_cells(); ++c) capped_.push_back(yields(body_of(c)) ? 1 : 0);
     const std::vector<char> held = held_by_jumps(mesh, kinematics, conditions, free_faces);
     const auto is_held = [&](std::int32_t cell) { return held[static_cast<std::size_t>(cell)] != 0; };
-    const auto cap_by_default = [&](std::int32_t a, std::int32_t b) {
-        if (free_faces == FreeFaces::may_touch && is_finite(mesh, kinematics, a)) return cap_of_large_strains;
-        return is_simplex(mesh, a) && is_simplex(mesh, b) ? cap_of_simplices : cap_of_others;
-    };
     largest_.assign(arrays.face_cells.size(), std::numeric_limits<double>::infinity());
     for (std::size_t f = 0; f < largest_.size(); ++f) {
         const auto [a, b] = arrays.face_cells[f];
         const double stiffness = arrays.faces[f].jump_stiffness;
         if (!contains(a) || stiffness == 0.0 || is_held(a) || is_held(b)) continue;
-        const Material& material = material_of(a);
-        const double traction = (material.jump_cap > 0.0 ? material.jump_cap : cap_by_default(a, b)) * material.yield_stress;
+        const Material& material = materials[body_of(a)];
+        const double by_default = is_simplex(mesh, a) && is_simplex(mesh, b) ? cap_of_simplices : cap_of_others;
+        const double traction = (material.jump_cap > 0.0 ? material.jump_cap : by_default) * material.yield_stress;
         largest_[f] = mesh.face_measure[f] * traction / stiffness;
     }
     memory_.assign(arrays.half_faces.size(), Vector<Dim>::Zero());
