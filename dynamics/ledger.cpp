@@ -34,7 +34,8 @@ void for_each_value(Entry& entry, const Visit& visit) {
     visit_vector(entry.rest_angular_momentum);
     visit_all(entry.restarts.restarts, entry.restarts.shortened, entry.restarts.skipped, entry.restarts.paid);
     visit_vector(entry.pseudo_angular_momentum);
-    visit_all(entry.dissipated, entry.friction_energy, entry.sticking_faces, entry.sliding_faces, entry.material_dissipated);
+    visit_all(entry.dissipated, entry.friction_energy, entry.sticking_faces, entry.sliding_faces);
+    for (const Loss& loss : all_losses) visit(entry.losses.*loss.of);
 }
 
 /// Sum of term(i) over all points of a run.
@@ -55,7 +56,8 @@ std::vector<std::string> ledger_columns() {
     append_names<Dim>(names, "rest_angular_momentum", n_rotations<Dim>);
     names.insert(names.end(), {"restarts", "restarts_shortened", "restarts_skipped", "restart_paid"});
     append_names<Dim>(names, "pseudo_angular_momentum", n_rotations<Dim>);
-    names.insert(names.end(), {"dissipated", "friction_energy", "sticking_faces", "sliding_faces", "material_dissipated"});
+    names.insert(names.end(), {"dissipated", "friction_energy", "sticking_faces", "sliding_faces"});
+    for (const Loss& loss : all_losses) names.emplace_back(loss.name);
     return names;
 }
 

@@ -6,6 +6,7 @@
 
 #include "abut/base/vector.hpp"
 #include "abut/dynamics/integrator.hpp"
+#include "abut/dynamics/losses.hpp"
 #include "abut/dynamics/point_system.hpp"
 
 namespace abut::dynamics {
@@ -51,11 +52,11 @@ struct LedgerEntry {
     RestartReport restarts;                      ///< so far
     /// J~, which MEMM conserves where bodies may turn [kg m^2/s]: see `pseudo_angular_momentum`
     AngularMomentum<Dim> pseudo_angular_momentum;
-    double dissipated;            ///< by friction and materials so far [J]
+    double dissipated;            ///< by friction, materials and bonds so far [J]
     double friction_energy;       ///< part of `potential` that friction holds [J]
     std::int64_t sticking_faces;  ///< in the last step
     std::int64_t sliding_faces;   ///< the same
-    double material_dissipated;   ///< part of `dissipated` that materials have taken as they flow, and bonds that broke [J]
+    Losses losses;                ///< `dissipated` by kind
 
     /// Energy that H~ has received since the start: work and jumps of restarts, less dissipation by friction and materials [J].
     [[nodiscard]] double received() const { return work + restart_jumps - dissipated; }
@@ -138,19 +139,19 @@ template <class Scheme, PointSystem S>
     std::vector<double> e(integrator.q().size());
     integrator.parasitic_momentum(e);
     if constexpr (requires { system.work(); }) entry.work = system.work();
+    double friction = 0.0;
     if constexpr (requires { system.contact_counts(); }) {
         const ContactCounts counts = system.contact_counts();
         entry.active_pairs = counts.active_pairs;
         entry.events = counts.events;
-        entry.dissipated = counts.dissipated;
+        friction = counts.dissipated;
         entry.friction_energy = counts.friction_energy;
         entry.sticking_faces = counts.sticking_faces;
         entry.sliding_faces = counts.sliding_faces;
     }
-    if constexpr (requires { system.dissipated(); }) {
-        entry.material_dissipated = system.dissipated().total();
-        entry.dissipated += entry.material_dissipated;
-    }
+    if constexpr (requires { system.dissipated(); }) entry.losses = system.dissipated();
+    entry.losses.by_friction = friction;
+    entry.dissipated = entry.losses.total();
     if constexpr (requires { system.rotations(integrator.q()); })
         entry.rotation = detail::largest_angle(system.rotations(integrator.q()));
     detail::add_motion<Dim>(entry, integrator, e, system.rest_positions(), system.masses());

@@ -4,6 +4,8 @@
 #include <array>
 #include <string_view>
 
+#include "abut/dynamics/losses.hpp"
+
 namespace abut::run {
 namespace {
 
@@ -26,7 +28,6 @@ constexpr std::array units_of_columns = {ColumnUnit{"time", "s", "s"},
                                          ColumnUnit{"restart_paid", "J/m", "J"},
                                          ColumnUnit{"rotation", "rad", "rad"},
                                          ColumnUnit{"dissipated", "J/m", "J"},
-                                         ColumnUnit{"material_dissipated", "J/m", "J"},
                                          ColumnUnit{"friction_energy", "J/m", "J"},
                                          ColumnUnit{"displacement", "m", "m"},
                                          ColumnUnit{"velocity", "m/s", "m/s"},
@@ -48,7 +49,10 @@ std::string_view without_probe_and_axis(std::string_view column) {
 template <int Dim>
 std::vector<std::string> with_units(std::vector<std::string> columns) {
     for (std::string& column : columns) {
-        const auto known = std::ranges::find(units_of_columns, without_probe_and_axis(column), &ColumnUnit::name);
+        std::string_view name = without_probe_and_axis(column);
+        if (std::ranges::find(dynamics::all_losses, name, &dynamics::Loss::name) != dynamics::all_losses.end())
+            name = "dissipated";
+        const auto known = std::ranges::find(units_of_columns, name, &ColumnUnit::name);
         if (known != units_of_columns.end())
             column += " [" + std::string(Dim == 2 ? known->in_plane : known->in_space) + "]";
     }

@@ -112,7 +112,7 @@ struct RunResult {
     std::vector<solid::BodyMotion<Dim>> start;
     std::vector<solid::BodyMotion<Dim>> end;
     solid::FiniteExtremes finite;         ///< of all steps: Solid::finite_extremes
-    solid::StepLoss dissipated;           ///< by materials in all steps: Solid::dissipated
+    dynamics::Losses dissipated;          ///< by materials in all steps: Solid::dissipated
     std::vector<double> local_rotations;  ///< at the end: Solid::local_rotations [rad]
     Sightings<Dim> sightings;             ///< at records; on rank 0 all of them
     solid::SolidTimes times;              ///< of the steps

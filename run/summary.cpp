@@ -193,7 +193,7 @@ Json friction_json(const RunResult<Dim>& result) {
     const auto& last = result.ledger.entries().back();
     return {
         {"friction",
-         {{"dissipated", last.dissipated - last.material_dissipated},
+         {{"dissipated", last.losses.by_friction},
           {"energy", last.friction_energy},
           {"least_dissipated", contact.least_dissipated},
           {"sticking_faces_max", contact.sticking_faces_max},
@@ -205,14 +205,15 @@ Json friction_json(const RunResult<Dim>& result) {
 /// Nothing where no material flows or is damped.
 template <int Dim>
 Json material_json(const RunResult<Dim>& result) {
-    const solid::StepLoss& loss = result.dissipated;
+    const dynamics::Losses& loss = result.dissipated;
     Json json = Json::object();
     if (loss.in_cells != 0.0)
         json["plasticity"] = {{"dissipated", loss.in_cells},
                               {"dissipated_in_jumps", loss.in_jumps},
                               {"dissipated_on_faces", loss.on_faces},
                               {"strain_max", result.finite.plastic_strain}};
-    if (loss.by_rates != 0.0) json["damping"] = {{"dissipated", loss.by_rates}, {"lagged", loss.lagged}};
+    if (loss.by_damping != 0.0) json["damping"] = {{"dissipated", loss.by_damping}, {"lagged", loss.lagged}};
+    if (loss.by_viscosity != 0.0) json["viscosity"] = {{"dissipated", loss.by_viscosity}};
     return json;
 }
 
@@ -311,12 +312,12 @@ std::string friction_lines(const RunResult<Dim>& result) {
     if (contact.sticking_faces_max + contact.sliding_faces_max == 0) return "";
     const auto& last = result.ledger.entries().back();
     const std::string& name = result.scale.name;
-    std::string text = table_line(fmt::format("dissipated by friction, / {}", name),
-                                  fmt::format("{:.4g}; held by faces that stick {:.2e}",
-                                              result.scale.over(last.dissipated - last.material_dissipated),
-                                              result.scale.over(last.friction_energy))) +
-                       table_line("faces that stick, that slide, at most",
-                                  fmt::format("{}, {}", contact.sticking_faces_max, contact.sliding_faces_max));
+    std::string text =
+        table_line(fmt::format("dissipated by friction, / {}", name),
+                   fmt::format("{:.4g}; held by faces that stick {:.2e}", result.scale.over(last.losses.by_friction),
+                               result.scale.over(last.friction_energy))) +
+        table_line("faces that stick, that slide, at most",
+                   fmt::format("{}, {}", contact.sticking_faces_max, contact.sliding_faces_max));
     if (contact.sliding_limit > 0.0)
         text += table_line("force of sliding faces over its limit",
                            fmt::format("{:.3g}", contact.sliding_force / contact.sliding_limit));
@@ -326,7 +327,7 @@ std::string friction_lines(const RunResult<Dim>& result) {
 /// Nothing where no material flows or is damped.
 template <int Dim>
 std::string material_lines(const RunResult<Dim>& result) {
-    const solid::StepLoss& loss = result.dissipated;
+    const dynamics::Losses& loss = result.dissipated;
     std::string text;
     if (loss.in_cells != 0.0)
         text += table_line(fmt::format("dissipated by plastic flow, / {}", result.scale.name),
@@ -334,10 +335,13 @@ std::string material_lines(const RunResult<Dim>& result) {
                                        result.scale.over(loss.in_cells), result.scale.over(loss.in_jumps),
                                        result.scale.over(loss.on_faces))) +
                 table_line("largest plastic strain", fmt::format("{:.3g}", result.finite.plastic_strain));
-    if (loss.by_rates != 0.0)
+    if (loss.by_damping != 0.0)
         text += table_line(fmt::format("dissipated by damping, / {}", result.scale.name),
-                           fmt::format("{:.4g}; held in their lag {:.1e}", result.scale.over(loss.by_rates),
+                           fmt::format("{:.4g}; held in its lag {:.1e}", result.scale.over(loss.by_damping),
                                        result.scale.over(loss.lagged)));
+    if (loss.by_viscosity != 0.0)
+        text += table_line(fmt::format("dissipated by viscosity, / {}", result.scale.name),
+                           fmt::format("{:.4g}", result.scale.over(loss.by_viscosity)));
     return text;
 }
 

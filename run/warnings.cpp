@@ -357,7 +357,7 @@ std::vector<Warning> warnings_after(const RunResult<Dim>& result) {
                         "Venant and Kirchhoff's material is one of small strains, and weak in compression. Look at H - H~: "
                         "if noise grows, take {}",
                         result.finite.strain, large_strain, result.finite.determinant, calming_choices(result.options)));
-    const solid::StepLoss& loss = result.dissipated;
+    const dynamics::Losses& loss = result.dissipated;
     if (const double share = std::abs(loss.on_faces) / loss.in_cells; share > large_face_loss)
         add(WarningKind::face_loss, share, large_face_loss,
             fmt::format(

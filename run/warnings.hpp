@@ -22,7 +22,7 @@ inline constexpr double enough_inertia = 0.98;
 /// |E| above which the strain of a finite body is worth a word [-]: its material is one of small strains. docs/limits.md.
 inline constexpr double large_strain = 0.2;
 
-/// The size of StepLoss::on_faces over `in_cells` above which free faces that flow along take more than they should [-]: a bar eight cells
+/// The size of Losses::on_faces over `in_cells` above which free faces that flow along take more than they should [-]: a bar eight cells
 /// across has 0.02, boxes three cells across that collide 0.16. docs/limits.md.
 inline constexpr double large_face_loss = 0.1;
 

@@ -150,7 +150,7 @@ public:
     /// Work of prescribed displacements, of changing tractions and of moving obstacles so far [J].
     [[nodiscard]] double work() const { return work_; }
     /// Energy that materials have dissipated so far by flow, damping and viscosity, and bonds that broke; friction is not counted [J].
-    [[nodiscard]] StepLoss dissipated() const { return dissipated_; }
+    [[nodiscard]] dynamics::Losses dissipated() const { return dissipated_; }
     /// The linear part alone, without loads and contact: K q [N]; for the stable step.
     void stiffness_product(std::span<const double> q, std::span<double> product);
 
@@ -338,7 +338,7 @@ private:
     SolidTimes times_;
     std::int64_t evaluations_ = 0;
     double work_ = 0.0;
-    StepLoss dissipated_;
+    dynamics::Losses dissipated_;
     FiniteExtremes finite_extremes_;  // the cell in the mesh
     double time_ = 0.0;               // of the state that the last step ended in
     std::unique_ptr<Loads<Dim>> loads_;

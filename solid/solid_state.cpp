@@ -137,7 +137,7 @@ void Solid<Dim>::begin_run() {
 /// Writes how many numbers each cell remembers, and all of them, in the order of the cells of all ranks.
 template <int Dim>
 void Solid<Dim>::save_memory(StateWriter& state) const {
-    for (double StepLoss::*of : losses_of_cells) state.put(dissipated_.*of);
+    for (double dynamics::Losses::*of : losses_of_cells) state.put(dissipated_.*of);
     const auto n_cells = static_cast<std::size_t>(part_->n_all_cells());
     if (!any_memory()) {
         state.put_all(std::span<const std::int32_t>());
@@ -179,7 +179,7 @@ void Solid<Dim>::save_memory(StateWriter& state) const {
 
 template <int Dim>
 void Solid<Dim>::restore_memory(StateReader& state) {
-    for (double StepLoss::*of : losses_of_cells) dissipated_.*of = state.get<double>();
+    for (double dynamics::Losses::*of : losses_of_cells) dissipated_.*of = state.get<double>();
     const auto sizes = state.get_all<std::int32_t>();
     const auto values = state.get_all<double>();
     const std::vector<std::int32_t> here = any_memory() ? ccg_.memory_sizes() : std::vector<std::int32_t>();

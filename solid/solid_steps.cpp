@@ -253,13 +253,17 @@ void Solid<Dim>::add_work(double share) {
 
 template <int Dim>
 void Solid<Dim>::book_losses() {
-    const auto book = [&](double StepLoss::*of) {
+    const auto book = [&](double dynamics::Losses::*of) {
         dissipated_.*of += part_->sum_of_cells([&](std::int32_t c) { return ccg_.step_loss(c).*of; });
     };
     if (any_inelastic())
-        for (double StepLoss::*of : {&StepLoss::in_cells, &StepLoss::in_jumps, &StepLoss::on_faces}) book(of);
+        for (double dynamics::Losses::*of :
+             {&dynamics::Losses::in_cells, &dynamics::Losses::in_jumps, &dynamics::Losses::on_faces})
+            book(of);
     if (ccg_.any_damped())
-        for (double StepLoss::*of : {&StepLoss::by_rates, &StepLoss::lagged}) book(of);
+        for (double dynamics::Losses::*of :
+             {&dynamics::Losses::by_damping, &dynamics::Losses::by_viscosity, &dynamics::Losses::lagged})
+            book(of);
 }
 
 template <int Dim>

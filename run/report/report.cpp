@@ -236,10 +236,13 @@ Markup plasticity_part(const Figures& figures) {
 
 /// Nothing without a material that is damped.
 Markup damping_part(const Figures& figures) {
-    if (!figures.summary().contains("damping")) return {};
-    return section("Damping and viscosity",
-                   table({"", ""}, {figure_row(figures, "dissipated", "damping.dissipated", "J"),
-                                    figure_row(figures, "held in the lag of a step", "damping.lagged", "J")}));
+    std::vector<Markup> rows;
+    if (figures.summary().contains("damping"))
+        rows = {figure_row(figures, "dissipated by damping", "damping.dissipated", "J"),
+                figure_row(figures, "held in the lag of a step", "damping.lagged", "J")};
+    if (figures.summary().contains("viscosity"))
+        rows.push_back(figure_row(figures, "dissipated by viscosity", "viscosity.dissipated", "J"));
+    return rows.empty() ? Markup() : section("Damping and viscosity", table({"", ""}, rows));
 }
 
 /// Nothing without bonds.

@@ -9,6 +9,7 @@
 
 #include "abut/base/large_array.hpp"
 #include "abut/contact/step.hpp"
+#include "abut/dynamics/losses.hpp"
 #include "abut/solid/ccg/boundary_reconstruction.hpp"
 #include "abut/solid/ccg/cell_form.hpp"
 #include "abut/solid/ccg/finite_options.hpp"
@@ -54,30 +55,10 @@ struct StepDefect {
     AxialVector<Dim> moment;  ///< of dV/du about the mean position [N m]
 };
 
-/// Energy that a cell has dissipated in a step, or all of them in all steps [J].
-struct StepLoss {
-    double in_cells = 0.0;  ///< by inelastic materials: >= 0
-    double in_jumps = 0.0;  ///< by jumps between cells that reach their cap: >= 0
-    double on_faces = 0.0;  ///< what free faces take out of jumps and contact as they flow along: small, without a sign
-    double by_rates = 0.0;  ///< by damping and viscosity: >= 0
-    double in_bonds = 0.0;  ///< of a whole solid: what bonds had that broke
-    double lagged = 0.0;  ///< what damping has taken and may give back in the next step, as it acts on the mean of two rates
-
-    [[nodiscard]] double total() const { return in_cells + in_jumps + on_faces + by_rates + in_bonds + lagged; }
-    StepLoss& operator+=(const StepLoss& other) {
-        in_cells += other.in_cells;
-        in_jumps += other.in_jumps;
-        on_faces += other.on_faces;
-        by_rates += other.by_rates;
-        in_bonds += other.in_bonds;
-        lagged += other.lagged;
-        return *this;
-    }
-};
-
-/// Those that cells book, in the order in which they are saved.
-inline constexpr std::array losses_of_cells{&StepLoss::in_cells, &StepLoss::in_jumps, &StepLoss::on_faces,
-                                            &StepLoss::by_rates, &StepLoss::lagged};
+/// What cells dissipate, in the order in which it is saved.
+inline constexpr std::array losses_of_cells{&dynamics::Losses::in_cells,     &dynamics::Losses::in_jumps,
+                                            &dynamics::Losses::on_faces,     &dynamics::Losses::by_damping,
+                                            &dynamics::Losses::by_viscosity, &dynamics::Losses::lagged};
 
 /// Which state of a step operators look at. Inelastic materials remember at the end what the step makes of them.
 enum class StepState {
@@ -195,7 +176,7 @@ public:
     /// Force of Material::mass_damping on a cell of this mass that moves by `motion` in a step of `dt` [N].
     [[nodiscard]] Vector<Dim> drag(std::int32_t cell, double mass, const Vector<Dim>& motion, double dt);
     /// Energy that a cell has dissipated in the last step; none where its material is elastic and not damped.
-    [[nodiscard]] StepLoss step_loss(std::int32_t cell) const;
+    [[nodiscard]] dynamics::Losses step_loss(std::int32_t cell) const;
     /// Equivalent plastic strain of a cell [-]; 0 where its material has none.
     [[nodiscard]] double plastic_strain(std::int32_t cell) const;
     /// In the plane, of a cell of an inelastic material as of the last call: its stress out of the plane [Pa].

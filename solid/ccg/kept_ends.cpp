@@ -100,7 +100,7 @@ void KeptEnds<Dim>::set_defect(std::int32_t c, bool flows, double of_capped_jump
     const double measure = 1.0 / coefficients_.cells[c].inverse_measure;
     double energy = elastic_defect(c, g_0, g_1);
     const std::int32_t inelastic = finite_.inelastic(c);
-    StepLoss loss;
+    dynamics::Losses loss;
     if (flows) {
         loss.in_cells = measure * std::max(0.0, energy);
         energy = std::min(0.0, energy);
@@ -152,9 +152,9 @@ bool KeptEnds<Dim>::flows(std::int32_t c) const {
 }
 
 template <int Dim>
-StepLoss KeptEnds<Dim>::loss(std::int32_t c) const {
+dynamics::Losses KeptEnds<Dim>::loss(std::int32_t c) const {
     if (!flows(c)) return {};
-    StepLoss loss = losses_[static_cast<std::size_t>(finite_.inelastic(c))];
+    dynamics::Losses loss = losses_[static_cast<std::size_t>(finite_.inelastic(c))];
     if (finite_.condensed(c))
         loss.on_faces +=
             of_contact_[static_cast<std::size_t>(finite_.free_position(c))].energy / coefficients_.cells[c].inverse_measure;

@@ -84,7 +84,7 @@ public:
     /// add [J].
     void set_defect(std::int32_t c, bool flows, double of_capped_jumps);
     /// Energy that this cell has dissipated in the step from `start` to `end` [J].
-    [[nodiscard]] StepLoss loss(std::int32_t c) const;
+    [[nodiscard]] dynamics::Losses loss(std::int32_t c) const;
     /// Of the step from `start` to `end`, less the moment of `direct`.
     [[nodiscard]] StepDefect<Dim> defect(std::int32_t c) const;
 
@@ -107,7 +107,7 @@ private:
     const FiniteCells<Dim>& finite_;
     LargeArray<double> defects_;               // by cell: energy, moment
     std::vector<StepDefect<Dim>> of_contact_;  // over |c|, by position in FiniteCells::free; empty without a StoredEnergy
-    std::vector<StepLoss> losses_;             // by FiniteCells::inelastic
+    std::vector<dynamics::Losses> losses_;     // by FiniteCells::inelastic
     std::vector<char> flows_;                  // the same
 };
 

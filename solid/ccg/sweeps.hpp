@@ -87,7 +87,7 @@ public:
     void set_memory(std::span<const double> values);
     /// F - I of a cell with a law of its own, its free faces where its energy is least.
     [[nodiscard]] Matrix<Dim> law_gradient(std::int32_t c) const;
-    [[nodiscard]] StepLoss step_loss(std::int32_t cell) const { return kept_.loss(cell); }
+    [[nodiscard]] dynamics::Losses step_loss(std::int32_t cell) const { return kept_.loss(cell); }
     [[nodiscard]] FiniteExtremes finite_extremes(std::span<const std::int32_t> cells) const;
     [[nodiscard]] StepDefect<Dim> step_defect(std::int32_t cell, const Vector<Dim>& arm) const {
         StepDefect<Dim> defect = kept_.defect(cell);

@@ -37,8 +37,8 @@ Matrix<Dim> volume_of_strain(const Material& material, const FreeCell<Dim>* free
 
 /// Adds what a force c (now + before)/2 does in a step whose rate is `now`: `work`. Of it dt/4 c (now + before)^2 is dissipated, and
 /// the rest is lagged: it is the change of dt/4 c rate^2.
-void add_lagged(StepLoss& loss, double work, double dissipated) {
-    loss.by_rates += dissipated;
+void add_lagged(dynamics::Losses& loss, double work, double dissipated) {
+    loss.by_damping += dissipated;
     loss.lagged += work - dissipated;
 }
 
@@ -95,7 +95,7 @@ Matrix<Dim> ViscousCells<Dim>::stress(std::ptrdiff_t cell, const Matrix<Dim>& g,
                            material.quadratic_viscosity * material.quadratic_viscosity * of.size * squeeze) *
                           rate;
         if (pressure * of.now.volume < 0.0) pressure = 0.0;  // it never does work
-        of.of_stress.by_rates += dt * of.measure * volume * pressure * of.now.volume;
+        of.of_stress.by_viscosity += dt * of.measure * volume * pressure * of.now.volume;
         result += volume * pressure * f * of_strain;
     }
     of.now.deforms_known = true;
@@ -125,10 +125,10 @@ double ViscousCells<Dim>::damping_ratio(double omega) const {
 }
 
 template <int Dim>
-StepLoss ViscousCells<Dim>::loss(std::ptrdiff_t cell) const {
+dynamics::Losses ViscousCells<Dim>::loss(std::ptrdiff_t cell) const {
     if (!contains(cell)) return {};
     const Cell& of = at(cell);
-    StepLoss loss = of.of_stress;
+    dynamics::Losses loss = of.of_stress;
     loss += of.of_drag;
     return loss;
 }

@@ -33,7 +33,7 @@ public:
     /// Force on a cell of this mass that moves by `motion` in a step [N].
     [[nodiscard]] Vector<Dim> drag(std::ptrdiff_t cell, double mass, const Vector<Dim>& motion, double dt);
     /// What both have dissipated in the step.
-    [[nodiscard]] StepLoss loss(std::ptrdiff_t cell) const;
+    [[nodiscard]] dynamics::Losses loss(std::ptrdiff_t cell) const;
     /// The next step begins where this one ends.
     void end_step();
 
@@ -59,7 +59,7 @@ private:
         const Material* material;
         double measure, size;
         Rates before, now;
-        StepLoss of_stress, of_drag;
+        dynamics::Losses of_stress, of_drag;
     };
     [[nodiscard]] Cell& at(std::ptrdiff_t cell) {
         return cells_[static_cast<std::size_t>(index_[static_cast<std::size_t>(cell)])];

@@ -124,7 +124,14 @@ TEST_CASE("energy.csv holds a row for every record and what the summary says", "
                                                     "friction_energy",
                                                     "sticking_faces",
                                                     "sliding_faces",
-                                                    "material_dissipated"});
+                                                    "dissipated_by_friction",
+                                                    "dissipated_in_cells",
+                                                    "dissipated_in_jumps",
+                                                    "dissipated_on_faces",
+                                                    "dissipated_by_damping",
+                                                    "dissipated_by_viscosity",
+                                                    "damping_lagged",
+                                                    "dissipated_in_bonds"});
     for (const auto& row : table.rows) CHECK(row.size() == table.columns.size());
     CHECK(table.rows.back().front() == static_cast<double>(steps));
 

@@ -77,14 +77,15 @@ std::unique_ptr<TurningScene<Dim>> spinning_collision(const solid::SolidOptions<
 template <int Dim>
 inline constexpr int steps_of_collision = Dim == 2 ? 600 : 250;
 
-/// Makes these steps. The largest fall of what has been dissipated in one of them [J]: 0, or materials have given energy back.
-template <int Dim>
-double fall_of_dissipation(TurningScene<Dim>& scene, int steps, double solid::StepLoss::*of) {
+/// Makes these steps. The largest fall of what has been dissipated by one of these kinds in one of them [J]: 0, or materials have given
+/// energy back.
+template <int Dim, class... Kinds>
+double fall_of_dissipation(TurningScene<Dim>& scene, int steps, Kinds... kinds) {
     double fall = 0.0;
     for (int step = 0; step < steps; ++step) {
-        const double before = scene.solid.dissipated().*of;
+        const dynamics::Losses before = scene.solid.dissipated();
         scene.run(1);
-        raise(fall, before - scene.solid.dissipated().*of);
+        (raise(fall, before.*kinds - scene.solid.dissipated().*kinds), ...);
     }
     return fall;
 }

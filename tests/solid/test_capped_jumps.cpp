@@ -94,7 +94,7 @@ struct Sphere {
         const auto volume = [&](double t) { return area * moved(t); };
         const auto work_until = [&](double t) {
             fall = std::max(fall, fall_of_dissipation<3>(scene, static_cast<int>((t - scene.memm.time()) / scene.memm.dt()),
-                                                         &solid::StepLoss::in_jumps));
+                                                         &dynamics::Losses::in_jumps));
             return std::pair{scene.solid.work(), volume(scene.memm.time())};
         };
         const auto first = work_until(0.3 * duration), second = work_until(0.6 * duration), third = work_until(duration);
@@ -124,7 +124,7 @@ struct Torsion {
         TurningScene<3> scene(mesh, options, {moving<3>(Vector<3>::Zero())}, 0.9, Kinematics::small);
         const auto work_until = [&](double t) {
             fall = std::max(fall, fall_of_dissipation<3>(scene, static_cast<int>((t - scene.memm.time()) / scene.memm.dt()),
-                                                         &solid::StepLoss::in_jumps));
+                                                         &dynamics::Losses::in_jumps));
             return std::pair{scene.solid.work(), last * scene.memm.time() / duration};
         };
         const auto first = work_until(0.4 * duration), second = work_until(0.7 * duration), third = work_until(duration);
@@ -178,7 +178,7 @@ TEMPLATE_TEST_CASE_SIG(
                                        some_spin<Dim>(kinematics == Kinematics::small ? 0.0 : 0.02)};
             TurningScene<Dim> scene(mesh, alone<Dim>(perfect(0.3, 1e-3)), {spinning}, is_finite ? 0.5 : 0.9, kinematics,
                                     0.01);
-            const double fall = fall_of_dissipation<Dim>(scene, 300, &solid::StepLoss::in_jumps);
+            const double fall = fall_of_dissipation<Dim>(scene, 300, &dynamics::Losses::in_jumps);
             const Drifts drifts = scene.drifts();
             CHECK(scene.solid.dissipated().in_jumps > 0.005 * scene.ledger.largest_energy());
             CHECK(fall <= 0.0);

@@ -1,5 +1,6 @@
 // Rayleigh's damping and the viscosity of shocks, of bodies of all kinematics.
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -17,6 +18,11 @@ using solid::Material;
 using solid::MaterialLaw;
 
 namespace {
+
+template <int Dim>
+double by_rates(const solid::Solid<Dim>& solid) {
+    return solid.dissipated().by_damping + solid.dissipated().by_viscosity;
+}
 
 constexpr std::array kinematics_that_deform{Kinematics::small, Kinematics::floating, Kinematics::finite};
 
@@ -52,15 +58,45 @@ TEMPLATE_TEST_CASE_SIG(
                 const double spin = kinematics == Kinematics::small ? 0.0 : 0.02;
                 const Motion<Dim> spinning{Vector<Dim>::Constant(0.01), some_spin<Dim>(spin)};
                 TurningScene<Dim> scene(mesh, alone<Dim>(material), {spinning}, 0.6, kinematics, 0.01);
-                const double fall = fall_of_dissipation<Dim>(scene, 200, &solid::StepLoss::by_rates);
+                const double fall =
+                    fall_of_dissipation<Dim>(scene, 200, &dynamics::Losses::by_damping, &dynamics::Losses::by_viscosity);
                 const Drifts drifts = scene.drifts();
-                CHECK(scene.solid.dissipated().by_rates > 1e-3 * scene.ledger.largest_energy());
+                CHECK(by_rates(scene.solid) > 1e-3 * scene.ledger.largest_energy());
                 CHECK(fall <= 0.0);
-                CHECK(scene.ledger.entries().back().material_dissipated == scene.solid.dissipated().total());
+                CHECK(scene.ledger.entries().back().losses.total() == scene.solid.dissipated().total());
                 CHECK(drifts.pseudo_energy <= 1e-13);
                 CHECK(drifts.momentum <= 1e-13);
                 if (kinematics != Kinematics::small) CHECK(drifts.pseudo_moment <= 1e-13);
             }
+}
+
+TEST_CASE("damping and viscosity are booked apart, in columns of the ledger by name whose sum is what was dissipated",
+          "[solid][damping][ledger]") {
+    const auto mesh = boxes<2>()[0].mesh;
+    for (const bool damped : {false, true})
+        for (const bool viscous : {false, true}) {
+            Material material{.young = 1.0, .poisson = 0.3, .density = 1.0};
+            material.stiffness_damping = damped ? 0.02 : 0.0;
+            material.linear_viscosity = viscous ? 0.2 : 0.0;
+            TurningScene<2> scene(mesh, alone<2>(material), {moving<2>(Vector<2>::Zero())}, 0.6, Kinematics::small, 0.01);
+            scene.run(50);
+            const auto& entry = scene.ledger.entries().back();
+            CHECK((entry.losses.by_damping > 0.0) == damped);
+            CHECK((entry.losses.by_viscosity > 0.0) == viscous);
+            const auto names = dynamics::ledger_columns<2>();
+            const auto values = dynamics::ledger_values<2>(entry);
+            const auto of = [&](const char* name) {
+                const auto found = std::ranges::find(names, name);
+                REQUIRE(found != names.end());
+                return values[static_cast<std::size_t>(found - names.begin())];
+            };
+            CHECK(of("dissipated_by_damping") == scene.solid.dissipated().by_damping);
+            CHECK(of("dissipated_by_viscosity") == scene.solid.dissipated().by_viscosity);
+            double sum = 0.0;
+            for (const dynamics::Loss& loss : dynamics::all_losses) sum += of(loss.name);
+            CHECK(of("dissipated") == sum);
+            CHECK(scene.ledger.pseudo_energy_drift() <= 1e-13 * scene.ledger.largest_energy());
+        }
 }
 
 TEMPLATE_TEST_CASE_SIG("damped bodies collide and keep H~ + D and momentum, under both laws of contact", "[solid][damping]",
@@ -69,7 +105,7 @@ TEMPLATE_TEST_CASE_SIG("damped bodies collide and keep H~ + D and momentum, unde
         const auto scene = spinning_collision<Dim>(finite_of<Dim>(material, 2));
         scene->run(steps_of_collision<Dim>);
         check_collision<Dim>(*scene);
-        CHECK(scene->solid.dissipated().by_rates > 1e-4 * scene->ledger.largest_energy());
+        CHECK(by_rates(scene->solid) > 1e-4 * scene->ledger.largest_energy());
         for (const solid::ContactLaw law : {solid::ContactLaw::reconstruction, solid::ContactLaw::pair_potential}) {
             auto options = bodies<Dim>(2);
             options.materials.assign(2, material);
@@ -90,7 +126,7 @@ TEMPLATE_TEST_CASE_SIG("damped bodies collide and keep H~ + D and momentum, unde
             small.run(steps_of_collision<Dim>);
             CHECK(small.solid.contact_report().active_pairs_max > 0);
             CHECK(small.solid.contact_report().missed_contacts == 0);
-            CHECK(small.solid.dissipated().by_rates > 1e-4 * small.ledger.largest_energy());
+            CHECK(by_rates(small.solid) > 1e-4 * small.ledger.largest_energy());
             CHECK(small.drifts().pseudo_energy <= 1e-12);
             CHECK(small.drifts().momentum <= 1e-13);
         }
@@ -109,7 +145,7 @@ TEST_CASE("a drag of the mass slows a body that flies by 1 - alpha dt in each st
         scene.run(100);
         CHECK(scene.view().momentum(0).norm() / first == Approx(std::pow(1.0 - alpha * dt, 100)).epsilon(alpha * dt * 0.05));
         CHECK(scene.drifts().pseudo_energy <= 1e-13);
-        CHECK(scene.solid.dissipated().by_rates > 0.5 * scene.ledger.largest_energy());
+        CHECK(by_rates(scene.solid) > 0.5 * scene.ledger.largest_energy());
     }
 }
 
@@ -155,7 +191,7 @@ TEST_CASE("work that supports do on a damped body is what it stores and dissipat
                                   }}};
     TurningScene<2> scene(bar(8, 4), options, {moving<2>(Vector<2>::Zero())}, 0.8, Kinematics::small);
     scene.run(2000);
-    CHECK(scene.solid.dissipated().by_rates > scene.ledger.largest_energy());
+    CHECK(by_rates(scene.solid) > scene.ledger.largest_energy());
     CHECK(scene.drifts().pseudo_energy <= 1e-12);
 }
 

@@ -100,7 +100,7 @@ TEMPLATE_TEST_CASE_SIG(
                 const Motion<Dim> spinning{Vector<Dim>::Constant(0.003),
                                            some_spin<Dim>(kinematics == Kinematics::small ? 0.0 : 0.01)};
                 TurningScene<Dim> scene(mesh, alone<Dim>(material), {spinning}, 0.9, kinematics, 0.005);
-                const double fall = fall_of_dissipation<Dim>(scene, 300, &solid::StepLoss::in_cells);
+                const double fall = fall_of_dissipation<Dim>(scene, 300, &dynamics::Losses::in_cells);
                 const Drifts drifts = scene.drifts();
                 CHECK(scene.solid.dissipated().in_cells > 0.02 * scene.ledger.largest_energy());
                 CHECK(fall <= 0.0);

@@ -203,11 +203,11 @@ TEMPLATE_TEST_CASE_SIG("a metal block that spins and rings flows, keeps H~ + D a
         CAPTURE(name);
         const Motion<Dim> spinning{Vector<Dim>::Zero(), some_spin<Dim>(0.02)};
         TurningScene<Dim> scene(mesh, alone<Dim>(metal), {spinning}, 0.4, Kinematics::finite, 0.03);
-        const double fall = fall_of_dissipation<Dim>(scene, 400, &solid::StepLoss::in_cells);
+        const double fall = fall_of_dissipation<Dim>(scene, 400, &dynamics::Losses::in_cells);
         const Drifts drifts = scene.drifts();
         CHECK(scene.solid.dissipated().in_cells > 0.1 * scene.ledger.largest_energy());
         CHECK(fall <= 0.0);
-        CHECK(scene.ledger.entries().back().material_dissipated == scene.solid.dissipated().total());
+        CHECK(scene.ledger.entries().back().losses.total() == scene.solid.dissipated().total());
         CHECK(drifts.pseudo_energy <= 1e-13);
         CHECK(drifts.pseudo_moment <= 1e-13);
         CHECK(drifts.momentum <= 1e-13);
