@@ -355,6 +355,62 @@ def spinning_discs(programs):
         require(balance(done.rows()) <= 1e-12, f"{kinematics}: the balance is open")
 
 
+# --- Bodies that dissipate, too ------------------------------------------------------------------------------------------
+
+
+def stopping_path(rows, mass):
+    return sum(row["linear_momentum_x"] / mass * (row["time"] - before["time"]) for before, row in zip(rows, rows[1:]))
+
+
+@claim
+def bodies_that_yield_rub(programs):
+    """Plastic flow and friction share what a block has that slides to its stop: each is booked, and the path is v^2/(2 mu g)."""
+    metal = keys(bodies__block__law='"j2"', bodies__block__yield_stress=8e3, bodies__block__hardening=1e6)
+    for kinematics in ("small", "floating", "finite"):
+        done = run(programs, "block.toml", *with_law("pair_potential", kinematics), "--interval", 1, *metal).require_end()
+        rows, start = done.rows(), done.rows()[0]["kinetic"]
+        of_flow, of_both = rows[-1]["material_dissipated"], rows[-1]["dissipated"]
+        require(of_flow > 1e-3 * start, f"{kinematics}: nothing flows")
+        require(of_both > of_flow + 0.9 * start, f"{kinematics}: friction takes {of_both - of_flow:.4g} of {start:.4g} J")
+        near(of_both / start, 1.0, 5e-3, f"{kinematics}: D/K0")
+        near(stopping_path(rows, done.body("block")["mass"]) / (4.0 / (2 * MU * G)), 1.0, 0.05, f"{kinematics}: the path over v^2/(2 mu g)")
+        require(balance(rows) <= 1e-11, f"{kinematics}: the balance is open by {balance(rows):.2g}")
+
+
+@claim
+def bodies_that_damp_rub(programs):
+    """Faces that do not vibrate do not reverse: the path of a damped block is v^2/(2 mu g) within 1 %."""
+    for kinematics in ("small", "floating", "finite"):
+        done = run(programs, "block.toml", *with_law("pair_potential", kinematics), "--interval", 1,
+                   *keys(bodies__block__stiffness_damping=1e-4)).require_end()
+        rows, start = done.rows(), done.rows()[0]["kinetic"]
+        require(rows[-1]["material_dissipated"] > 1e-4 * start, f"{kinematics}: nothing is damped")
+        near(rows[-1]["dissipated"] / start, 1.0, 2e-3, f"{kinematics}: D/K0")
+        near(stopping_path(rows, done.body("block")["mass"]) / (4.0 / (2 * MU * G)), 1.0, 0.01, f"{kinematics}: the path over v^2/(2 mu g)")
+        require(balance(rows) <= 1e-11, f"{kinematics}: the balance is open by {balance(rows):.2g}")
+
+
+@claim
+def a_body_rubs_on_itself(programs):
+    """Arms of a clip that touch: friction between them is booked, on two ranks with the same bits, and mu = 0 is no law."""
+    def clip(*options):
+        done = run(programs, SCENES / "closing_clip.toml", *options).require_end()
+        return done, done.rows()
+
+    _, none = clip()
+    _, zero = clip(*keys(contact__friction=0))
+    require(zero == none, "mu = 0 has other bits than no friction")
+    for options in (keys(contact__friction=0.3), ["--kinematics", "small", *keys(contact__friction=0.3)]):
+        done, rows = clip(*options)
+        require(rows[-1]["dissipated"] > 0, f"{options}: nothing is dissipated")
+        require(max(row["sliding_faces"] for row in rows) > 0, f"{options}: nothing slides")
+        require(balance(rows) <= 1e-11, f"{options}: the balance is open by {balance(rows):.2g}")
+    short = keys(contact__friction=0.3, run__time=0.4)
+    _, one = clip(*short)
+    require(one[-1]["dissipated"] > 0, "arms do not touch within 0.4 s: this shows nothing of ranks")
+    require(clip(*short, "--ranks", 2)[1] == one, "2 ranks have other bits")
+
+
 # --- Runs -----------------------------------------------------------------------------------------------------------------
 
 
