@@ -7,12 +7,22 @@
 #include "abut/geometry/plane_frame.hpp"
 
 namespace abut::contact {
+namespace {
+
+/// Index of a face in a sorted list; -1: it is not there.
+std::int32_t index_of_face(std::span<const Face> listed, Face face) {
+    const auto at = std::ranges::lower_bound(listed, face);
+    return at != listed.end() && *at == face ? static_cast<std::int32_t>(at - listed.begin()) : -1;
+}
+
+}  // namespace
 
 template <int Dim>
 geometry::Tangents<Dim> FaceFrictionLaw<Dim>::tangents(const SurfaceView<Dim>& surface, const Pair& pair, std::size_t side) {
+    const Vector<Dim> normal = side == 0 ? pair.normal : Vector<Dim>(-pair.normal);
+    if constexpr (Dim == 2) return geometry::PlaneFrame<2>(normal).tangents();  // the tangent of a line is turned as its normal is
     const Vector<Dim>& own = surface.normal[static_cast<std::size_t>(pair.facets.facet[side])];
-    return geometry::turned<Dim>(geometry::PlaneFrame<Dim>(own).tangents(), own,
-                                 side == 0 ? pair.normal : Vector<Dim>(-pair.normal));
+    return geometry::turned<Dim>(geometry::PlaneFrame<Dim>(own).tangents(), own, normal);
 }
 
 template <int Dim>
@@ -26,8 +36,10 @@ void FaceFrictionLaw<Dim>::take_pairs(const SurfaceView<Dim>& surface, const Pai
         PairStep<Dim>& of_step = step.pairs[static_cast<std::size_t>(a)];
         const Pressing pressing{of_step.normal_force, of_step.area, of_step.active_share};
         if (pair.friction < 0 || !pressing.acts()) continue;
-        last_.push_back(
-            {.facets = {.facet = {Facet{pair.face_1}, Facet{pair.face_2}}}, .normal = of_step.normal, .in_step = a});
+        last_.push_back({.facets = {.facet = {Facet{pair.face_1}, Facet{pair.face_2}}},
+                         .normal = of_step.normal,
+                         .in_step = a,
+                         .listed = {pair.listed_1, pair.listed_2}});
         Pair& sliding = last_.back();
         append_halves<Dim>(
             surface, options_.laws[static_cast<std::size_t>(pair.friction)], pressing, slip_of(pair, of_step),
@@ -76,6 +88,8 @@ void FaceFrictionLaw<Dim>::evaluate(const SurfaceView<Dim>& surface, const PairL
         const auto at = std::ranges::lower_bound(step.pairs, wanted, {}, key);
         in_step.in_step =
             at != step.pairs.end() && key(*at) == wanted ? static_cast<std::int32_t>(at - step.pairs.begin()) : -1;
+        for (std::size_t side = 0; side < 2; ++side)
+            in_step.listed[side] = index_of_face(step.faces, Face{number_of(pair.facets.facet[side])});
         add_force(in_step, force, step);
     }
 }
@@ -83,10 +97,7 @@ void FaceFrictionLaw<Dim>::evaluate(const SurfaceView<Dim>& surface, const PairL
 template <int Dim>
 void FaceFrictionLaw<Dim>::add_force(const Pair& pair, const Vector<Dim>& force, ContactStep<Dim>& step) {
     for (std::size_t side = 0; side < 2; ++side) {
-        const Face face{number_of(pair.facets.facet[side])};
-        const auto at = std::ranges::lower_bound(step.faces, face);
-        if (at == step.faces.end() || *at != face) continue;
-        step.mean_gradient[ListedFace{static_cast<std::int32_t>(at - step.faces.begin())}] -= sign_of(side) * force;
+        if (pair.listed[side] >= 0) step.mean_gradient[ListedFace{pair.listed[side]}] -= sign_of(side) * force;
     }
     if (pair.in_step < 0) return;
     PairStep<Dim>& of_step = step.pairs[static_cast<std::size_t>(pair.in_step)];

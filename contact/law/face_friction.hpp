@@ -53,7 +53,8 @@ private:
     struct Pair {
         FrictionPair facets;
         Vector<Dim> normal;
-        std::int32_t in_step = -1;  // its index in the pairs of the step; -1: it is not among them
+        std::int32_t in_step = -1;                   // its index in the pairs of the step; -1: it is not among them
+        std::array<std::int32_t, 2> listed{-1, -1};  // of its faces in those of the step; -1: it is not among them
     };
 
     /// Finds the pairs that press, and their halves. `slip_of(pair, of_step)`: of a pair with friction, across its normal.

@@ -42,6 +42,7 @@ void append_halves(const Facets& facets, const Friction& law, const Pressing& pr
                    const TangentsOf& tangents_of, FrictionPair& pair, std::vector<FrictionHalf<Dim - 1>>& halves) {
     const std::array<std::int32_t, 2> facet{number_of(pair.facet[0]), number_of(pair.facet[1])};
     const auto is_rigid = [&](std::size_t side) { return std::isinf(facets.stiffness[facet[side]]); };
+    const double stiffness = series_stiffness(facets.shear_stiffness[facet[0]], facets.shear_stiffness[facet[1]]);
     for (std::size_t side = 0; side < 2; ++side) {
         if (is_rigid(side)) continue;
         const double share = is_rigid(1 - side) ? 1.0 : 0.5;
@@ -52,7 +53,7 @@ void append_halves(const Facets& facets, const Friction& law, const Pressing& pr
                           .area = share * pressing.area,
                           .pair_area = pressing.area,
                           .facet_area = facets.area[facet[side]],
-                          .stiffness = series_stiffness(facets.shear_stiffness[facet[0]], facets.shear_stiffness[facet[1]]),
+                          .stiffness = stiffness,
                           .law = &law,
                           .motion = geometry::components<Dim>(tangents_of(side), Vector<Dim>(sign_of(side) * motion))});
     }

@@ -65,13 +65,20 @@ Vector<Dim> PairSlip<Dim>::motion() const {
     return of_face[1] - of_face[0];
 }
 
-template <int Dim>
-Tangents<Dim> PairSlip<Dim>::tangents(int face) const {
+/// The tangent of a line stands on its normal, and is turned as it is.
+template <>
+Tangents<2> PairSlip<2>::tangents(int face) const {
+    const double sign = face == 0 ? 1.0 : -1.0;
+    return Vector<2>(-sign * normal_[1], sign * normal_[0]);
+}
+
+template <>
+Tangents<3> PairSlip<3>::tangents(int face) const {
     const Side& side = side_[static_cast<std::size_t>(face)];
-    Tangents<Dim> own;
+    Tangents<3> own;
     own.col(0) = (side.corner[1] - side.corner[0]).normalized();
-    if constexpr (Dim == 3) own.col(1) = side.normal.cross(Vector<3>(own.col(0)));
-    return turned<Dim>(own, side.normal, face == 0 ? normal_ : Vector<Dim>(-normal_));
+    own.col(1) = side.normal.cross(Vector<3>(own.col(0)));
+    return turned<3>(own, side.normal, face == 0 ? normal_ : Vector<3>(-normal_));
 }
 
 template <int Dim>
