@@ -49,7 +49,7 @@ struct NodalStableStep {
 
 /// The contact of bodies whose surfaces are made of nodes, and whose faces may turn: finite elements and nearly all other
 /// solvers. Every pair of facing facets has a potential W of its corners (geometry::pair_mean_gradient): the spring of the
-/// half elements behind both, over their overlap. H~, momentum and angular momentum are kept to round-off by MEMM, for steps
+/// half elements behind both, over their overlap. In the plane a corner below 60 degrees has a facet of its own across the tip. H~, momentum and angular momentum are kept to round-off by MEMM, for steps
 /// of any size; other schemes take the force at the end of the step.
 ///
 /// A host calls `step` once per step, with its nodes at both ends, and adds the forces to its own. Obstacles are bodies with
@@ -85,6 +85,10 @@ public:
     /// Whether the candidate list is still a superset of all that can touch, when no node of a face is farther than `motion`
     /// [m] from where the step began that was last searched for.
     [[nodiscard]] bool is_valid_for(double motion) const;
+    /// Farthest that what acts reaches beyond the faces of the surface, at rest [m]: half the width of a facet across a sharp
+    /// corner, 0 without any; and how far its ends move at most when no node moves by more than 1.
+    [[nodiscard]] double bevel_width() const;
+    [[nodiscard]] double bevel_stretch() const;
     /// Makes a new list for a step from x_0 to x_1; throws as `step`. The list holds for that step, however long it is.
     void search(PointsView<Dim> x_0, PointsView<Dim> x_1);
     /// Like `step` and `evaluate`, without checking that the list is valid: they read the nodes of the list alone,
@@ -101,8 +105,8 @@ public:
     [[nodiscard]] NodalStableStep stable_step(std::span<const double> mass, double omega_free) const;
 
     /// Corners so sharp that pairs with a flat face that comes straight at them have less than a quarter of their weight
-    /// (`NodalOptions::facing`; by default tips of 38 degrees and less in 2D): bodies go through each other there, or leave
-    /// much too fast. To be asked once, where positions are those at rest.
+    /// (`NodalOptions::facing`; by default tips of 38 degrees and less in 2D), and that have no bevel: bodies go through each
+    /// other there, or leave much too fast. To be asked once, where positions are those at rest.
     [[nodiscard]] std::vector<BlindCorner<Dim>> blind_corners() const;
 
     /// Bodies whose sharpest edges have less than a quarter of the weight of flat sides where they cross

@@ -60,8 +60,8 @@ std::int32_t index_in(const std::vector<T>& sorted, const T& value) {
 }  // namespace
 
 template <int Dim>
-NodalPair<Dim> NodalPairs<Dim>::make_pair(const NodalSurface<Dim>& surface, const FacetPair& of_facets) const {
-    const Surface<Dim>& facets = surface.facets();
+NodalPair<Dim> NodalPairs<Dim>::make_pair(const BevelledSurface<Dim>& surface, const FacetPair& of_facets) const {
+    const Surface<Dim>& facets = surface.acting().facets();
     const std::int32_t facet_1 = number_of(of_facets.facet_1), facet_2 = number_of(of_facets.facet_2);
     NodalPair<Dim> pair{.facet_1 = facet_1, .facet_2 = facet_2};
     for (int v = 0; v < Dim; ++v) {
@@ -75,12 +75,15 @@ NodalPair<Dim> NodalPairs<Dim>::make_pair(const NodalSurface<Dim>& surface, cons
     pair.admission_depth =
         admission_depth(k_1, facets.cell_depth[facet_1]) + admission_depth(k_2, facets.cell_depth[facet_2]);
     if (friction_.any())
-        pair.friction = friction_.law_between(surface.face_of(of_facets.facet_1), surface.face_of(of_facets.facet_2));
+        pair.friction =
+            friction_.law_between(surface.acting().face_of(of_facets.facet_1), surface.acting().face_of(of_facets.facet_2));
+    pair.has_bevel = surface.has_bevel(facet_1, facet_2);
+    if (pair.has_bevel) pair.law = surface.law_with_bevel(facet_1, facet_2, pair.law);
     return pair;
 }
 
 template <int Dim>
-void NodalPairs<Dim>::assign(const NodalSurface<Dim>& surface, std::vector<FacetPair>& facets,
+void NodalPairs<Dim>::assign(const BevelledSurface<Dim>& surface, std::vector<FacetPair>& facets,
                              std::span<const FacetPair> in_contact, std::span<const NodalPair<Dim>> watched,
                              PointsView<Dim> x_0, PointsView<Dim> x_1, double reach, double compression) {
     compression_ = compression;
@@ -102,7 +105,7 @@ void NodalPairs<Dim>::assign(const NodalSurface<Dim>& surface, std::vector<Facet
 }
 
 template <int Dim>
-void NodalPairs<Dim>::assign(const NodalSurface<Dim>& surface, std::span<const FacetPair> facets) {
+void NodalPairs<Dim>::assign(const BevelledSurface<Dim>& surface, std::span<const FacetPair> facets) {
     pairs_.clear();
     for (const FacetPair& of_facets : facets) pairs_.push_back(make_pair(surface, of_facets));
     index(surface);
@@ -175,13 +178,13 @@ std::span<const NodalPair<Dim>> NodalPairs<Dim>::in_reach(PointsView<Dim> x) con
 }
 
 template <int Dim>
-void NodalPairs<Dim>::index(const NodalSurface<Dim>& surface, std::span<const NodalPair<Dim>> watched) {
+void NodalPairs<Dim>::index(const BevelledSurface<Dim>& surface, std::span<const NodalPair<Dim>> watched) {
     nodes_.clear();
     bodies_.clear();
     body_pairs_.clear();
     in_reach_.clear();
     pruned_at_.clear();
-    const std::vector<std::int32_t>& body = surface.facets().body;
+    const std::vector<std::int32_t>& body = surface.acting().facets().body;
     for (const NodalPair<Dim>& pair : watched) nodes_.insert(nodes_.end(), pair.node.begin(), pair.node.end());
     for (const NodalPair<Dim>& pair : pairs_) {
         nodes_.insert(nodes_.end(), pair.node.begin(), pair.node.end());
@@ -189,6 +192,7 @@ void NodalPairs<Dim>::index(const NodalSurface<Dim>& surface, std::span<const No
         body_pairs_.push_back(of_bodies);
         bodies_.insert(bodies_.end(), {of_bodies.body_1, of_bodies.body_2});
     }
+    surface.append_host_nodes(nodes_);
     sort_unique(nodes_);
     sort_unique(bodies_);
     sort_unique(body_pairs_);

@@ -1,5 +1,6 @@
 #pragma once
 // Private to the layer.
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <compare>
@@ -11,6 +12,7 @@
 
 #include "abut/base/ids.hpp"
 #include "abut/contact/admission.hpp"
+#include "abut/contact/bevels.hpp"
 #include "abut/contact/friction.hpp"
 #include "abut/contact/nodal_surface.hpp"
 #include "abut/contact/pair_store.hpp"
@@ -34,6 +36,7 @@ struct NodalPair {
     std::int32_t memory;     ///< index of what it remembers
     geometry::PairLaw<Dim> law;
     double admission_depth;                ///< D = d_1 + d_2 [m]
+    bool has_bevel = false;                ///< one of its facets is a bevel
     std::int32_t friction = -1;            ///< index of its law of friction; -1: none
     geometry::PairOutlook<Dim> outlook{};  ///< while the list holds
 
@@ -60,14 +63,14 @@ public:
     /// For a step from x_0 to x_1, and for all positions in which no node is farther than `reach` from x_0 [m]. Leaves out
     /// of `facets` what cannot act there with |g| up to `compression` D, except those `in_contact` (increasing): boxes know
     /// nothing of how faces lie to each other. The nodes of `watched` pairs are listed, too.
-    void assign(const NodalSurface<Dim>& surface, std::vector<FacetPair>& facets, std::span<const FacetPair> in_contact,
+    void assign(const BevelledSurface<Dim>& surface, std::vector<FacetPair>& facets, std::span<const FacetPair> in_contact,
                 std::span<const NodalPair<Dim>> watched, PointsView<Dim> x_0, PointsView<Dim> x_1, double reach,
                 double compression);
     /// Pairs without an outlook: of a list that does not hold.
-    void assign(const NodalSurface<Dim>& surface, std::span<const FacetPair> facets);
+    void assign(const BevelledSurface<Dim>& surface, std::span<const FacetPair> facets);
     [[nodiscard]] std::span<const NodalPair<Dim>> pairs() const { return pairs_; }
     /// A pair that is in no list.
-    [[nodiscard]] NodalPair<Dim> make_pair(const NodalSurface<Dim>& surface, const FacetPair& facets) const;
+    [[nodiscard]] NodalPair<Dim> make_pair(const BevelledSurface<Dim>& surface, const FacetPair& facets) const;
 
     /// The list is pruned again and again while it holds: these of its pairs can act in the step from x_0 to x_1, and in the
     /// next ones as long as no node moves too far. They are chosen again where they must be; what leaves them is admitted from
@@ -83,7 +86,7 @@ public:
 
 private:
     /// Lists nodes, bodies and pairs of bodies, and the indices of the pairs in these.
-    void index(const NodalSurface<Dim>& surface, std::span<const NodalPair<Dim>> watched = {});
+    void index(const BevelledSurface<Dim>& surface, std::span<const NodalPair<Dim>> watched = {});
     /// Fills `outlooks_` for the step from x_0 to x_1, and for nodes that are not farther than `reach` from x_0.
     void look_ahead(PointsView<Dim> x_0, PointsView<Dim> x_1, double reach);
     void prune(PointsView<Dim> x_0, PointsView<Dim> x_1, std::span<PairMemory> memory);
@@ -109,14 +112,17 @@ inline constexpr double beside_depth = 0.01;
 
 /// Whether a pair may be pressed in from here on, where W = 0: it is no far side of a body. Sides that end on both bodies
 /// where their overlap would begin, and are behind each other there, look past each other: two corners or edges, the tips of
-/// which are thinner than D. docs/method.md, The potential of a pair.
+/// which are thinner than D. Flanks that overlap without facing each other are contacts, for bodies turn; bevels are none then.
+/// docs/method.md, The potential of a pair.
 template <int Dim>
 [[nodiscard]] bool may_touch(const NodalPair<Dim>& pair, const geometry::PairCorners<Dim>& corners,
                              const geometry::PairState<Dim>& state, const SideOutlines<Dim>& sides) {
     if (!std::isfinite(state.gap) || state.gap <= -pair.admission_depth) return false;
-    if (state.gap > -beside_depth * pair.admission_depth || state.overlap > 0.0) return true;
+    if (state.gap > -beside_depth * pair.admission_depth) return true;
+    if (state.overlap > 0.0) return !pair.has_bevel;
     const auto approach = geometry::pair_approach<Dim>(corners, pair.law);
-    return sides.goes_on(pair.facet_1, approach[0]) || sides.goes_on(pair.facet_2, approach[1]);
+    return -state.gap <
+           std::max(sides.deepest_past(pair.facet_1, approach[0]), sides.deepest_past(pair.facet_2, approach[1]));
 }
 
 /// Of a pair that was not in the list before. Where the run begins the depth alone decides.

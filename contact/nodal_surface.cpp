@@ -7,8 +7,10 @@
 #include <string>
 
 #include "abut/base/error.hpp"
+#include "abut/base/ids.hpp"
 #include "abut/base/messages.hpp"
 #include "abut/base/sort_unique.hpp"
+#include "abut/contact/bevels.hpp"
 #include "abut/geometry/polygon.hpp"
 
 namespace abut::contact {
@@ -246,6 +248,33 @@ void NodalSurface<Dim>::append_facet(std::int32_t face, std::span<const std::int
     facets_.normal.push_back(geometry::face_normal<Dim>(points));
     facets_.area.push_back(area);
     face_of_.push_back(Face{face});
+}
+
+template <int Dim>
+NodalSurface<Dim> NodalSurface<Dim>::with(const Bevels<Dim>& bevels) const {
+    NodalSurface both = *this;
+    Surface<Dim>& facets = both.facets_;
+    for (std::int32_t i = 0; i < bevels.n_nodes(); ++i) {
+        Vector<Dim> y = Vector<Dim>::Zero();
+        for (std::int32_t j = bevels.offsets[i]; j < bevels.offsets[i + 1]; ++j)
+            y += bevels.weight[j] * facets_.vertices[static_cast<std::size_t>(bevels.node[j])];
+        both.nodes_.push_back(static_cast<std::int32_t>(facets.vertices.size()));
+        facets.vertices.push_back(y);
+    }
+    for (std::int32_t i = 0; i < bevels.size(); ++i) {
+        const auto [facet_1, facet_2] = bevels.beside[i];
+        std::array<std::int32_t, Dim> corners = bevels.corners[i];
+        for (std::int32_t& corner : corners) corner += n_nodes();
+        both.append_facet(number_of(face_of(Facet{facet_1})), corners, {0, 1, 2});
+        const auto append_least = [&](std::vector<double>& values) {
+            values.push_back(std::min(values[facet_1], values[facet_2]));
+        };
+        append_least(facets.cell_depth);
+        append_least(facets.stiffness);
+        if (has_shear_stiffness()) append_least(facets.shear_stiffness);
+        facets.body.push_back(facets.body[facet_1]);
+    }
+    return both;
 }
 
 template <int Dim>

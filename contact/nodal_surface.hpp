@@ -45,6 +45,9 @@ struct NodalFaces {
 /// k of two springs one behind the other [Pa/m]; infinity is that of a rigid body.
 [[nodiscard]] double series_stiffness(double k_1, double k_2);
 
+template <int Dim>
+struct Bevels;
+
 /// The boundary of a host's bodies, for laws of contact on nodes: flat facets between nodes. A face with four corners is cut
 /// in two along its shorter diagonal, or along that which lies inside it.
 template <int Dim>
@@ -74,6 +77,9 @@ public:
     [[nodiscard]] std::vector<std::int32_t> inward_bodies() const;
     /// Nodes that belong to a face, increasing.
     [[nodiscard]] std::span<const std::int32_t> nodes() const { return nodes_; }
+    /// This surface with more facets, on nodes behind its own: facets across sharp corners, as the law has them. A face at the
+    /// corner stands for them in `face_of`.
+    [[nodiscard]] NodalSurface with(const Bevels<Dim>& bevels) const;
 
 private:
     /// `facet`: which of the corners of its face, Dim of them.

@@ -29,4 +29,10 @@ template <int Dim>
     return from_1_to_2.dot(surface.normal[ridge.face_1] - surface.normal[ridge.face_2]) < 0.0;
 }
 
+/// A convex corner in the plane below 60 degrees: what comes straight at it is faced by none of its flanks enough.
+[[nodiscard]] inline bool is_sharp_corner(const SurfaceView<2>& surface, const Ridge& ridge) {
+    return surface.normal[ridge.face_1].dot(surface.normal[ridge.face_2]) < -0.5 - cosine_rounding &&
+           is_convex(surface, ridge);
+}
+
 }  // namespace abut::contact

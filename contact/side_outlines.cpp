@@ -1,6 +1,7 @@
 #include "abut/contact/side_outlines.hpp"
 
 #include <Eigen/Geometry>  // cross()
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -11,6 +12,7 @@ namespace abut::contact {
 namespace {
 
 constexpr float all_around = std::numeric_limits<float>::infinity();
+constexpr double endless = std::numeric_limits<double>::infinity();
 
 /// Faces deform, and are seen from aside: directions this near to a side are on it, and the pair is admitted [rad].
 constexpr double angle_tolerance = 0.1;
@@ -79,14 +81,42 @@ float reach(const SurfaceView<3>& facets, const std::vector<Beyond>& beyond, std
     }
 }
 
+/// Along both flanks of a sharp corner, as long as they look the way they do there: half the thickness, half the distance from the
+/// corner times the sine of the angle between them. Places are twice the facet and the corner.
+void bound_by_thickness(const SurfaceView<2>& facets, const std::vector<std::int32_t>& beyond, const Ridge& ridge,
+                        std::vector<double>& deepest) {
+    const double cosine = facets.normal[ridge.face_1].dot(facets.normal[ridge.face_2]);
+    const double half_sine = 0.5 * std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
+    const double enough = 2.0 * *std::ranges::max_element(facets.cell_depth);  // no contact is admitted deeper
+    for (const std::int32_t first : {ridge.face_1, ridge.face_2}) {
+        double distance = 0.0;
+        std::int32_t place = 2 * first + corner_at(facets, first, ridge.vertex_1);
+        while (distance * half_sine < enough) {
+            distance += facets.area[place / 2];
+            place ^= 1;  // the other end
+            const std::int32_t next = beyond[place];
+            if (next < 0 || looks_elsewhere(facets, first, next / 2)) break;
+            for (const std::int32_t end : {place, next}) deepest[end] = std::min(deepest[end], distance * half_sine);
+            place = next;
+        }
+    }
+}
+
 }  // namespace
 
-SideOutlines<2>::SideOutlines(const SurfaceView<2>& facets) : goes_on_(2 * static_cast<std::size_t>(facets.size()), 0) {
-    for (const Ridge& ridge : ridges(facets)) {
+SideOutlines<2>::SideOutlines(const SurfaceView<2>& facets) : deepest_(2 * static_cast<std::size_t>(facets.size()), 0.0) {
+    const std::vector<Ridge> corners = ridges(facets);
+    std::vector<std::int32_t> beyond(deepest_.size(), -1);  // place of the corner of the next facet, by place
+    for (const Ridge& ridge : corners) {
+        const std::int32_t place_1 = 2 * ridge.face_1 + corner_at(facets, ridge.face_1, ridge.vertex_1);
+        const std::int32_t place_2 = 2 * ridge.face_2 + corner_at(facets, ridge.face_2, ridge.vertex_1);
+        beyond[place_1] = place_2;
+        beyond[place_2] = place_1;
         const bool ends = looks_elsewhere(facets, ridge.face_1, ridge.face_2) && is_convex(facets, ridge);
-        for (const std::int32_t facet : {ridge.face_1, ridge.face_2})
-            goes_on_[2 * facet + corner_at(facets, facet, ridge.vertex_1)] = ends ? 0 : 1;
+        deepest_[place_1] = deepest_[place_2] = ends ? 0.0 : endless;
     }
+    for (const Ridge& ridge : corners)
+        if (is_sharp_corner(facets, ridge)) bound_by_thickness(facets, beyond, ridge, deepest_);
 }
 
 SideOutlines<3>::SideOutlines(const SurfaceView<3>& facets)
@@ -99,6 +129,10 @@ SideOutlines<3>::SideOutlines(const SurfaceView<3>& facets)
             goes_on_[i] = there.facet >= 0 && !(there.is_convex && looks_elsewhere(facets, facet, there.facet)) ? 1 : 0;
             reach_[i] = {reach(facets, beyond, facet, corner, true), reach(facets, beyond, facet, corner, false)};
         }
+}
+
+double SideOutlines<3>::deepest_past(std::int32_t facet, const geometry::OutlinePart& part) const {
+    return goes_on(facet, part) ? endless : 0.0;
 }
 
 bool SideOutlines<3>::goes_on(std::int32_t facet, const geometry::OutlinePart& part) const {

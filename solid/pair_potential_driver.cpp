@@ -138,7 +138,7 @@ void PairPotentialDriver<Dim>::search(std::span<const Vector<Dim>> q_0, std::spa
 }
 
 /// Of faces that reach into the box of another body or obstacle when that grows by twice `far_reach_`, and by all that contact
-/// itself looks ahead.
+/// itself looks ahead and reaches beyond faces.
 template <int Dim>
 std::vector<std::int32_t> PairPotentialDriver<Dim>::near_nodes() const {
     const contact::SurfaceView<Dim> facets = contact_.surface().facets().view();
@@ -154,7 +154,8 @@ std::vector<std::int32_t> PairPotentialDriver<Dim>::near_nodes() const {
         box_of_body[facets.body[facet]].extend(box_of(facet));
         deepest = std::max(deepest, facets.cell_depth[facet]);
     }
-    const double margin = 2.0 * far_reach_ + contact_.skin() + 4.0 * deepest;
+    const double margin =
+        2.0 * (contact_.bevel_stretch() * far_reach_ + contact_.bevel_width()) + contact_.skin() + 4.0 * deepest;
     std::vector<std::vector<geometry::Box<Dim>>> others(box_of_body.size());  // that a body may come near to
     for (std::size_t body = 0; body < others.size(); ++body)
         for (std::size_t other = 0; other < others.size(); ++other)

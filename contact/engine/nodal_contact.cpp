@@ -5,11 +5,11 @@
 
 #include "abut/base/error.hpp"
 #include "abut/base/messages.hpp"
+#include "abut/contact/bevels.hpp"
 #include "abut/contact/engine/engine.hpp"
 #include "abut/contact/host_checks.hpp"
 #include "abut/contact/law/node_law.hpp"
 #include "abut/contact/nodal_stable_step.hpp"
-#include "abut/contact/old_facets.hpp"
 
 namespace abut::contact {
 namespace {
@@ -59,12 +59,23 @@ template <int Dim>
 struct NodalContact<Dim>::Implementation {
     /// `options` have been checked.
     Implementation(NodalSurface<Dim>&& surface, const NodalOptions& options, Sharing* sharing)
-        : engine(NodeLaw<Dim>(std::move(surface), options, sharing), options.search,
+        : engine(NodeLaw<Dim>(BevelledSurface<Dim>(std::move(surface)), options, sharing), options.search,
                  {options.compression_warning, options.compression_limit}, sharing),
           facing(options.facing) {}
 
+    // Positions as the law wants them: of all nodes, or of those of the list.
+    PointsView<Dim> start(PointsView<Dim> x) { return surface().place(x, start_); }
+    PointsView<Dim> end(PointsView<Dim> x) { return surface().place(x, end_); }
+    PointsView<Dim> listed_start(PointsView<Dim> x) { return surface().place(x, engine.law().listed_nodes(), start_); }
+    PointsView<Dim> listed_end(PointsView<Dim> x) { return surface().place(x, engine.law().listed_nodes(), end_); }
+
+    [[nodiscard]] const BevelledSurface<Dim>& surface() const { return engine.law().surface(); }
+
     Engine<NodeLaw<Dim>> engine;
     geometry::FacingFade facing;
+
+private:
+    std::vector<Vector<Dim>> start_, end_;  // work arrays, with bevels alone
 };
 
 template <int Dim>
@@ -85,40 +96,52 @@ const NodalStep<Dim>& NodalContact<Dim>::step(double dt, PointsView<Dim> x_0, Po
     check_step_length(dt);
     check_size(surface(), x_0);
     check_size(surface(), x_1);
-    const auto& engine = implementation_->engine;
-    if (!engine.is_valid_at(x_0) || !engine.is_valid_at(x_1)) search(x_0, x_1);
-    return step_listed(dt, x_0, x_1, take);
+    auto& engine = implementation_->engine;
+    const PointsView<Dim> start = implementation_->start(x_0), end = implementation_->end(x_1);
+    if (!engine.is_valid_at(start) || !engine.is_valid_at(end)) engine.search(start, end, nothing_more);
+    return engine.step(dt, {start, end, take});
 }
 
 template <int Dim>
 const NodalStep<Dim>& NodalContact<Dim>::evaluate(PointsView<Dim> x) {
     check_size(surface(), x);
     auto& engine = implementation_->engine;
-    if (engine.has_searched() && !engine.is_valid_at(x)) return engine.evaluate_elsewhere(x);
-    if (!engine.has_list()) search(x, x);  // the run begins here
-    return evaluate_listed(x);
+    const PointsView<Dim> at = implementation_->start(x);
+    if (engine.has_searched() && !engine.is_valid_at(at)) return engine.evaluate_elsewhere(at);
+    if (!engine.has_list()) engine.search(at, at, nothing_more);  // the run begins here
+    return engine.evaluate(at);
 }
 
 template <int Dim>
 bool NodalContact<Dim>::is_valid_for(double motion) const {
-    return implementation_->engine.is_valid_for(motion);
+    return implementation_->engine.is_valid_for(implementation_->surface().stretch() * motion);
+}
+
+template <int Dim>
+double NodalContact<Dim>::bevel_width() const {
+    return implementation_->surface().bevels().width;
+}
+
+template <int Dim>
+double NodalContact<Dim>::bevel_stretch() const {
+    return implementation_->surface().stretch();
 }
 
 template <int Dim>
 void NodalContact<Dim>::search(PointsView<Dim> x_0, PointsView<Dim> x_1) {
     check_size(surface(), x_0);
     check_size(surface(), x_1);
-    implementation_->engine.search(x_0, x_1, nothing_more);
+    implementation_->engine.search(implementation_->start(x_0), implementation_->end(x_1), nothing_more);
 }
 
 template <int Dim>
 const NodalStep<Dim>& NodalContact<Dim>::step_listed(double dt, PointsView<Dim> x_0, PointsView<Dim> x_1, TakenForce take) {
-    return implementation_->engine.step(dt, {x_0, x_1, take});
+    return implementation_->engine.step(dt, {implementation_->listed_start(x_0), implementation_->listed_end(x_1), take});
 }
 
 template <int Dim>
 const NodalStep<Dim>& NodalContact<Dim>::evaluate_listed(PointsView<Dim> x) {
-    return implementation_->engine.evaluate(x);
+    return implementation_->engine.evaluate(implementation_->listed_start(x));
 }
 
 template <int Dim>
@@ -133,7 +156,10 @@ NodalStableStep NodalContact<Dim>::stable_step(std::span<const double> mass, dou
 
 template <int Dim>
 std::vector<BlindCorner<Dim>> NodalContact<Dim>::blind_corners() const {
-    return contact::blind_corners<Dim>(surface().facets().view(), quarter_weight_cosine(implementation_->facing));
+    auto corners = contact::blind_corners<Dim>(surface().facets().view(), quarter_weight_cosine(implementation_->facing));
+    const Bevels<Dim>& bevels = implementation_->surface().bevels();
+    std::erase_if(corners, [&](const BlindCorner<Dim>& corner) { return bevels.is_at(corner.position); });
+    return corners;
 }
 
 template <int Dim>
@@ -159,13 +185,14 @@ void NodalContact<Dim>::restore(std::span<const std::byte> state) {
 template <int Dim>
 void NodalContact<Dim>::surface_replaced(NodalSurface<Dim> surface, std::span<const std::int32_t> old_face_of) {
     auto& engine = implementation_->engine;
-    const std::vector<std::int32_t> old_of_new = old_facets(engine.law().surface(), surface, old_face_of);
-    engine.replace(engine.law().on(std::move(surface)), old_of_new);
+    NodeLaw<Dim> law = engine.law().on(std::move(surface));
+    const std::vector<std::int32_t> old_of_new = old_acting_facets(engine.law().surface(), law.surface(), old_face_of);
+    engine.replace(std::move(law), old_of_new);
 }
 
 template <int Dim>
 const NodalSurface<Dim>& NodalContact<Dim>::surface() const {
-    return implementation_->engine.law().surface();
+    return implementation_->surface().host();
 }
 
 template <int Dim>

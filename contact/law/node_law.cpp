@@ -31,24 +31,24 @@ std::vector<char> touches_itself(const NodalSurface<Dim>& surface, const Candida
 }  // namespace
 
 template <int Dim>
-NodeLaw<Dim>::NodeLaw(NodalSurface<Dim> surface, const NodalOptions& options, Sharing* sharing)
+NodeLaw<Dim>::NodeLaw(BevelledSurface<Dim> surface, const NodalOptions& options, Sharing* sharing)
     : surface_(std::move(surface)),
       options_(options),
       sharing_(sharing),
-      sides_(surface_.facets().view()),
-      inside_(surface_.facets().view(), touches_itself(surface_, options_.search)),
+      sides_(acting().facets().view()),
+      inside_(acting().facets().view(), touches_itself(acting(), options_.search)),
       pairs_(options_.facing, options_.friction, sharing),
       law_(options_.events, options_.friction, sharing) {
-    const Surface<Dim>& facets = surface_.facets();
+    const Surface<Dim>& facets = surface_.host().facets();
     for (std::int32_t facet = 0; facet < facets.size(); ++facet)
-        if (!surface_.is_rigid(facets.body[facet]))
+        if (!surface_.host().is_rigid(facets.body[facet]))
             for (std::int32_t v = Dim * facet; v < Dim * (facet + 1); ++v)
                 least_force_size_ = std::max(least_force_size_, facets.face_vertices[v] + 1);
 }
 
 template <int Dim>
 std::string NodeLaw<Dim>::face_name(Face face) const {
-    const std::int32_t facet = surface_.facet_offsets()[static_cast<std::size_t>(face)];
+    const std::int32_t facet = acting().facet_offsets()[static_cast<std::size_t>(face)];
     return contact::face_name(facets(), facet, number_of(face));
 }
 
@@ -58,9 +58,8 @@ void NodeLaw<Dim>::search(CandidateSearch<Dim>& candidates, State x_0, State x_1
     geometry::PairFilter within;
     if (options_.search.self_contact) {
         place_facets(x_0);
-        const double in_step = std::sqrt(largest(std::ssize(surface_.nodes()), [&](std::ptrdiff_t i) {
-            return (position(x_1, i) - position(x_0, i)).squaredNorm();
-        }));
+        const double in_step = std::sqrt(
+            largest(n_watched(), [&](std::ptrdiff_t i) { return (position(x_1, i) - position(x_0, i)).squaredNorm(); }));
         within = [this, reach = std::max(0.5 * candidates.next_skin(), in_step)](std::int32_t facet_1,
                                                                                  std::int32_t facet_2) {
             return may_come_together({Facet{std::min(facet_1, facet_2)}, Facet{std::max(facet_1, facet_2)}}, reach);
@@ -71,7 +70,7 @@ void NodeLaw<Dim>::search(CandidateSearch<Dim>& candidates, State x_0, State x_1
     } catch (const Diverged& error) {
         ErrorFacts facts = error.facts();
         const auto facet = static_cast<std::int32_t>(facts.face_1);
-        const Face face = surface_.face_of(Facet{facet});
+        const Face face = acting().face_of(Facet{facet});
         const std::string of_facet = contact::face_name(facets(), facet);
         std::string text = error.what();
         if (const auto at = text.find(of_facet); at != std::string::npos) text.replace(at, of_facet.size(), face_name(face));
@@ -194,21 +193,28 @@ bool NodeLaw<Dim>::is_pressed_in(std::size_t p, State x) const {
 
 template <int Dim>
 void NodeLaw<Dim>::clear(NodalStep<Dim>& step) const {
-    step.nodes = pairs_.nodes();
+    step.nodes = listed_nodes();
     step.least_force_size = least_force_size_;
     step.friction.clear();
     clear_step(pairs_, step);
+    fold(step);
 }
 
 template <int Dim>
 std::int64_t NodeLaw<Dim>::step(double dt, const Path& path, std::span<PairMemory> memory, FacetStore& facets,
                                 NodalStep<Dim>& step) {
-    return law_.apply(surface_, sides_, pairs_, memory, facets, dt, path.x_0, path.x_1, path.take, step);
+    unfold(step);
+    const std::int64_t inadmissible =
+        law_.apply(acting(), sides_, pairs_, memory, facets, dt, path.x_0, path.x_1, path.take, step);
+    fold(step);
+    return inadmissible;
 }
 
 template <int Dim>
 void NodeLaw<Dim>::evaluate(State x, std::span<const PairMemory> memory, const FacetStore& facets, NodalStep<Dim>& step) {
-    law_.evaluate(surface_, pairs_, memory, facets, x, step);
+    unfold(step);
+    law_.evaluate(acting(), pairs_, memory, facets, x, step);
+    fold(step);
 }
 
 template class NodeLaw<2>;

@@ -7,7 +7,9 @@
 #include <utility>
 #include <vector>
 
+#include "abut/base/ids.hpp"
 #include "abut/contact/admission.hpp"
+#include "abut/contact/bevels.hpp"
 #include "abut/contact/facet_store.hpp"
 #include "abut/contact/inside_pairs.hpp"
 #include "abut/contact/law/pair_potential.hpp"
@@ -26,7 +28,7 @@ template <int Dim>
 class NodeLaw {
 public:
     static constexpr int dimension = Dim;
-    using State = PointsView<Dim>;  ///< positions of all nodes (n_nodes) [m]
+    using State = PointsView<Dim>;  ///< positions of all nodes, corners of bevels last (BevelledSurface::place) [m]
     struct Path {
         PointsView<Dim> x_0;
         PointsView<Dim> x_1;
@@ -34,21 +36,22 @@ public:
     };
     using Step = NodalStep<Dim>;
 
-    NodeLaw(NodalSurface<Dim> surface, const NodalOptions& options, Sharing* sharing);
+    NodeLaw(BevelledSurface<Dim> surface, const NodalOptions& options, Sharing* sharing);
 
     [[nodiscard]] std::string name() const { return "nodal contact"; }
-    [[nodiscard]] SurfaceView<Dim> facets() const { return surface_.facets().view(); }
+    [[nodiscard]] SurfaceView<Dim> facets() const { return acting().facets().view(); }
     [[nodiscard]] std::string face_name(Face face) const;
     [[nodiscard]] std::int32_t facet_memory() const { return law_.friction().memory(); }
     [[nodiscard]] double stored_energy(const FacetStore& facets) const { return law_.friction().stored_energy(facets); }
-    [[nodiscard]] std::ptrdiff_t n_watched() const { return std::ssize(surface_.nodes()); }
+    [[nodiscard]] std::ptrdiff_t n_watched() const { return std::ssize(acting().nodes()); }
     [[nodiscard]] Vector<Dim> position(State x, std::ptrdiff_t i) const {
-        return x[surface_.nodes()[static_cast<std::size_t>(i)]];
+        return x[acting().nodes()[static_cast<std::size_t>(i)]];
     }
 
     void search(CandidateSearch<Dim>& candidates, State x_0, State x_1);
     [[nodiscard]] bool is_wanted(FacetPair pair) const {
-        return !options_.wanted || options_.wanted(surface_.face_of(pair.facet_1), surface_.face_of(pair.facet_2));
+        return surface_.may_meet(number_of(pair.facet_1), number_of(pair.facet_2)) &&
+               (!options_.wanted || options_.wanted(acting().face_of(pair.facet_1), acting().face_of(pair.facet_2)));
     }
     void list(std::vector<FacetPair>& pairs, std::span<const FacetPair> in_contact, State x_0, State x_1, double reach);
     void list_remembered(std::span<const FacetPair> pairs) { pairs_.assign(surface_, pairs); }
@@ -69,17 +72,27 @@ public:
     std::int64_t step(double dt, const Path& path, std::span<PairMemory> memory, FacetStore& facets, NodalStep<Dim>& step);
     void evaluate(State x, std::span<const PairMemory> memory, const FacetStore& facets, NodalStep<Dim>& step);
 
-    [[nodiscard]] const NodalSurface<Dim>& surface() const { return surface_; }
+    [[nodiscard]] const BevelledSurface<Dim>& surface() const { return surface_; }
+    /// Nodes of the pairs of the list, corners of bevels last.
+    [[nodiscard]] const std::vector<std::int32_t>& listed_nodes() const { return pairs_.nodes(); }
     /// The same law on another surface, without a list.
-    [[nodiscard]] NodeLaw on(NodalSurface<Dim> surface) const { return {std::move(surface), options_, sharing_}; }
+    [[nodiscard]] NodeLaw on(NodalSurface<Dim> surface) const {
+        return {BevelledSurface<Dim>(std::move(surface)), options_, sharing_};
+    }
 
 private:
+    [[nodiscard]] const NodalSurface<Dim>& acting() const { return surface_.acting(); }
+    /// Where it is made a step has the corners of bevels, and in the end the nodes of the host alone.
+    void unfold(NodalStep<Dim>& step) const {
+        if (step.nodes.size() != listed_nodes().size()) step.nodes = listed_nodes();
+    }
+    void fold(NodalStep<Dim>& step) const { surface_.fold(step.nodes, step.gradient); }
     void place_facets(State x);
     [[nodiscard]] bool may_come_together(FacetPair pair, double reach) const;
     [[nodiscard]] bool is_seen_from_outside(const NodalPair<Dim>& pair, State x) const;
     void set_inside_pairs_apart(std::vector<FacetPair>& pairs, State x_0);
 
-    NodalSurface<Dim> surface_;
+    BevelledSurface<Dim> surface_;
     NodalOptions options_;
     Sharing* sharing_;
     SideOutlines<Dim> sides_;

@@ -153,7 +153,7 @@ TEST_CASE("a block that slides along an edge of another one, flush with it, is p
 }
 
 TEST_CASE(
-    "tips for which a flat face has less than a quarter of the weight of a pair are told of, with their body and place",
+    "tips for which a flat face has less than a quarter of the weight of a pair are blind, with body and place; bevels see them",
     "[contact][blind]") {
     // y^2 (3 - 2 y) = 1/4 at y = 1/2 - sin(10 degrees) of the fade from -0.6 to -0.2; the flanks of a tip look at a face that
     // comes straight at it by minus the sine of half its angle.
@@ -169,7 +169,9 @@ TEST_CASE(
         scene.faces.stiffness.push_back(5.0);
         for (int i = 0; i < 3; ++i)  // counter-clockwise: the outside is on the right
             scene.faces.append_face(std::vector<std::int32_t>{first + i, first + (i + 1) % 3}, depth_of_faces, 1);
-        const auto blind = NodalContact<2>(scene.surface()).blind_corners();
+        const auto surface = scene.surface();
+        const auto blind = contact::blind_corners<2>(surface.facets().view(), contact::quarter_weight_cosine({}));
+        CHECK(NodalContact<2>(surface).blind_corners().empty());
         REQUIRE(blind.size() == (angle < limit ? 1 : 0));
         if (blind.empty()) continue;
         CHECK(blind[0].body == 1);

@@ -43,7 +43,7 @@ public:
     std::int64_t step(double dt, const typename NodeLaw<Dim>::Path& path, std::span<contact::PairMemory> memory,
                       FacetStore& facets, contact::NodalStep<Dim>& step) {
         const std::int64_t inadmissible = NodeLaw<Dim>::step(dt, path, memory, facets, step);
-        const auto offsets = this->surface().facet_offsets();
+        const auto offsets = this->surface().host().facet_offsets();
         std::map<Facet, std::array<double, 2>> next;
         for (const auto& pair : step.pairs)
             for (const Face face : {pair.face_1, pair.face_2}) {
@@ -120,7 +120,7 @@ struct Expected {
 
 template <int Dim>
 void check_memory(const Adding<Dim>& adding, const Expected<Dim>& expected) {
-    const auto offsets = adding.engine.law().surface().facet_offsets();
+    const auto offsets = adding.engine.law().surface().host().facet_offsets();
     for (std::size_t face = 0; face < expected.impulse.size(); ++face)
         for (std::int32_t facet = offsets[face]; facet < offsets[face + 1]; ++facet) {
             const auto values = adding.engine.facets()[Facet{facet}];
