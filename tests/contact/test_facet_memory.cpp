@@ -284,7 +284,11 @@ TEMPLATE_TEST_CASE_SIG("the length of a step must be finite and > 0; a step that
     const contact::HostStep<Dim> host{.displacement_0 = u,
                                       .displacement_1 = u,
                                       .coupling_of = [](auto listed) { return uncoupled<Dim>(listed.size()); },
-                                      .gradients_of = [](auto, auto, auto) {}};
+                                      .gradients_of =
+                                          [](auto, auto y_0, auto y_1) {
+                                              std::ranges::fill(y_0, Vector<Dim>(Vector<Dim>::Zero()));
+                                              std::ranges::fill(y_1, Vector<Dim>(Vector<Dim>::Zero()));
+                                          }};
     for (const double dt : {0.0, -1e-3, nan, infinity}) {
         CHECK_THROWS_AS(nodal.step(dt, scene.rest, scene.rest), BadInput);
         CHECK_THROWS_WITH(nodal.step(dt, scene.rest, scene.rest), Contains("dt = ") && Contains("finite and > 0"));
