@@ -6,18 +6,12 @@
 #include "abut/solid/ccg/precision.hpp"
 #include "abut/solid/ccg/step_device.hpp"
 #include "abut/solid/kinematics/kinematics.hpp"
-#include "abut/solid/material/material.hpp"
 
 namespace abut::solid {
 
 inline constexpr std::array<Word<ContactLaw>, 3> law_words{{{"automatic", ContactLaw::automatic},
                                                             {"reconstruction", ContactLaw::reconstruction},
                                                             {"pair_potential", ContactLaw::pair_potential}}};
-inline constexpr std::array<Word<MaterialLaw>, 4> material_law_words{
-    {{"st_venant_kirchhoff", MaterialLaw::st_venant_kirchhoff},
-     {"neo_hookean", MaterialLaw::neo_hookean},
-     {"mooney_rivlin", MaterialLaw::mooney_rivlin},
-     {"j2", MaterialLaw::j2}}};
 inline constexpr std::array<Word<MeanForce>, 4> mean_force_words{{{"automatic", MeanForce::automatic},
                                                                   {"discrete_gradient", MeanForce::discrete_gradient},
                                                                   {"trapezoid", MeanForce::trapezoid},

@@ -9,7 +9,6 @@
 #include "abut/base/error.hpp"
 #include "abut/input/materials.hpp"
 #include "abut/solid/material/material_numbers.hpp"
-#include "abut/solid/option_words.hpp"
 #include "numbers.hpp"
 
 namespace py = pybind11;

@@ -17,7 +17,7 @@
 #include "abut/run/summary.hpp"
 #include "abut/run/verdict.hpp"
 #include "abut/run/warnings.hpp"
-#include "abut/solid/option_words.hpp"
+#include "abut/solid/material/material_numbers.hpp"
 
 namespace abut::run {
 namespace {

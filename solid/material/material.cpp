@@ -9,7 +9,6 @@
 #include "abut/solid/material/j2_plasticity.hpp"
 #include "abut/solid/material/material_numbers.hpp"
 #include "abut/solid/material/mooney_rivlin.hpp"
-#include "abut/solid/option_words.hpp"
 
 namespace abut::solid {
 namespace {

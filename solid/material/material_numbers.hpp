@@ -7,6 +7,12 @@
 
 namespace abut::solid {
 
+inline constexpr std::array<Word<MaterialLaw>, 4> material_law_words{
+    {{"st_venant_kirchhoff", MaterialLaw::st_venant_kirchhoff},
+     {"neo_hookean", MaterialLaw::neo_hookean},
+     {"mooney_rivlin", MaterialLaw::mooney_rivlin},
+     {"j2", MaterialLaw::j2}}};
+
 /// A number of a Material, under its name in scenes and in Python.
 struct MaterialNumber {
     const char* name;
