@@ -45,7 +45,7 @@ inline constexpr std::array material_numbers{
                    "stabilisation of jumps between cells; 0: Young's modulus"},
     MaterialNumber{"second_share",
                    &Material::second_share,
-                   {.above = 0.0, .below = 1.0, .closed = true, .zero = true},
+                   {.above = 0.0, .below = 1.0, .closed = true, .zero = true, .remedy = "It is at most lambda/(2 mu)."},
                    "of mooney_rivlin: shear modulus of the second invariant over all of it, at most lambda/(2 mu)",
                    false,
                    MaterialLaw::mooney_rivlin},
