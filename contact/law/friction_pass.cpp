@@ -33,10 +33,14 @@ double let_go(StickState<N>& state) {
     return lost;
 }
 
-/// Of a pair in the force of its facet, which has this normal force.
+/// Sets the weights of the halves of a facet; returns its normal force [N].
 template <int N>
-double weight_of(const FrictionHalf<N>& half, double normal_force) {
-    return half.normal_force / normal_force * half.active_share;
+double set_weights(std::span<FrictionHalf<N>> halves, std::span<const std::size_t> of_facet) {
+    double normal_force = 0.0;
+    for (const std::size_t i : of_facet) normal_force += halves[i].normal_force;
+    for (const std::size_t i : of_facet)
+        halves[i].weight = halves[i].normal_force / normal_force * halves[i].active_share;
+    return normal_force;
 }
 
 }  // namespace
@@ -102,11 +106,7 @@ void FrictionPass<N>::apply(double dt, TakenForce take, std::span<FrictionHalf<N
 
 template <int N>
 void FrictionPass<N>::weigh(std::span<FrictionHalf<N>> halves) {
-    for_each_facet(halves, [&](std::span<const std::size_t> of_facet) {
-        double normal_force = 0.0;
-        for (const std::size_t i : of_facet) normal_force += halves[i].normal_force;
-        for (const std::size_t i : of_facet) halves[i].weight = weight_of(halves[i], normal_force);
-    });
+    for_each_facet(halves, [&](std::span<const std::size_t> of_facet) { set_weights(halves, of_facet); });
 }
 
 template <int N>
@@ -137,12 +137,11 @@ FaceFriction FrictionPass<N>::advance(double dt, TakenForce take, std::span<Fric
         for (const std::size_t i : of_facet) result += term(halves[i]);
         return result;
     };
-    const double normal_force = sum([](const auto& half) { return half.normal_force; });
-    const auto share = [&](const FrictionHalf<N>& half) { return half.normal_force / normal_force; };
-    const double active = sum([&](const auto& half) { return share(half) * half.active_share; });
+    const double normal_force = set_weights(halves, of_facet);
+    const double active = sum([](const auto& half) { return half.weight; });
     const double area = sum([](const auto& half) { return half.area; });
     Along<N> motion = Along<N>::Zero();
-    for (const std::size_t i : of_facet) motion += (share(halves[i]) * halves[i].active_share) * halves[i].motion;
+    for (const std::size_t i : of_facet) motion += halves[i].weight * halves[i].motion;
     if (state.stiffness == 0.0) {  // fixed from here on, as long as something presses
         const double pair_area = sum([](const auto& half) { return half.pair_area; });
         state.stiffness =
@@ -154,13 +153,12 @@ FaceFriction FrictionPass<N>::advance(double dt, TakenForce take, std::span<Fric
                              return coefficient_of(*half.law, sliding) * half.normal_force + half.law->strength * half.area;
                          }) /
                          active;
-    const double creep = 0.5 * active * dt * sum([&](const auto& half) { return share(half) / half.law->relaxation_time; });
+    const double creep = 0.5 * active * dt * sum([&](const auto& half) {
+                             return half.normal_force / normal_force / half.law->relaxation_time;
+                         });
     const FrictionStep<N> step = take == TakenForce::mean ? take_mean_step<N>(state, motion, limit, creep)
                                                           : take_end_step<N>(state, motion, limit, creep);
-    for (const std::size_t i : of_facet) {
-        halves[i].weight = weight_of(halves[i], normal_force);
-        halves[i].force = halves[i].weight * step.force;
-    }
+    for (const std::size_t i : of_facet) halves[i].force = halves[i].weight * step.force;
     return {.face = Face{number_of(halves[of_facet[0]].facet)},
             .normal_force = normal_force,
             .force = active * step.force.norm(),
