@@ -19,6 +19,7 @@
 #include "abut/run/rebalancing.hpp"
 #include "abut/run/settling_report.hpp"
 #include "abut/run/sightings.hpp"
+#include "abut/run/sliding_windows.hpp"
 #include "abut/run/surface_looks.hpp"
 #include "abut/run/value.hpp"
 #include "abut/solid/body_inertia.hpp"
@@ -80,6 +81,7 @@ struct RunResult {
     solid::ContactLaw asked_law = solid::ContactLaw::automatic;  ///< of contact
     dynamics::Ledger<Dim> ledger;
     Accounts<Dim> accounts;
+    SlidingWindows sliding;
     dynamics::StableStep stable;
     double dt = 0.0;                        ///< [s]
     double finest_dt = 0.0;                 ///< of the finest cells; dt itself except with memm_async [s]

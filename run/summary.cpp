@@ -199,7 +199,8 @@ Json friction_json(const RunResult<Dim>& result) {
           {"sticking_faces_max", contact.sticking_faces_max},
           {"sliding_faces_max", contact.sliding_faces_max},
           {"force_over_limit_max", contact.friction_ratio_max},
-          {"sliding_share", contact.sliding_limit > 0.0 ? Json(contact.sliding_force / contact.sliding_limit) : Json()}}}};
+          {"sliding_share", contact.sliding_limit > 0.0 ? Json(contact.sliding_force / contact.sliding_limit) : Json()},
+          {"least_sliding_share", contact.sliding_limit > 0.0 ? Json(result.sliding.least_share()) : Json()}}}};
 }
 
 /// Nothing where no material flows or is damped.
@@ -320,7 +321,8 @@ std::string friction_lines(const RunResult<Dim>& result) {
                    fmt::format("{}, {}", contact.sticking_faces_max, contact.sliding_faces_max));
     if (contact.sliding_limit > 0.0)
         text += table_line("force of sliding faces over its limit",
-                           fmt::format("{:.3g}", contact.sliding_force / contact.sliding_limit));
+                           fmt::format("{:.3g}; at least {:.3g} in a part of the run",
+                                       contact.sliding_force / contact.sliding_limit, result.sliding.least_share()));
     return text;
 }
 

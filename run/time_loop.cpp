@@ -38,7 +38,7 @@ constexpr double sound_share = 0.5;
 const std::string observers_kind = "observers of a run";
 constexpr int observers_version = 4;
 const std::string looks_kind = "looks at surfaces";
-constexpr int looks_version = 3;
+constexpr int looks_version = 4;
 constexpr std::int64_t sightings_per_run = 40;  // looks for bodies past a rim and together with themselves, about
 
 /// One run, from the first step to the last.
@@ -223,6 +223,7 @@ private:
         whole_.on_first([&] {
             StateWriter looks(looks_kind, looks_version);
             result_.accounts.save(looks);
+            result_.sliding.save(looks);
             watch_.save(looks);
             result_.sightings.save(looks);
             checkpoint.looks = std::move(looks).finish();
@@ -248,6 +249,7 @@ private:
         if (result_.ledger.entries().empty()) throw BadInput("a checkpoint without ledger cannot be gone on from.");
         StateReader looks(from.looks, looks_kind, looks_version);
         result_.accounts.restore(looks);
+        result_.sliding.restore(looks);
         watch_.restore(looks);
         result_.sightings.restore(looks);
         looks.finish();
@@ -311,6 +313,7 @@ private:
             result_.accounts.record(result_.ledger.entries().back(), largest_speed(now, solid_),
                                     momentum_from_outside(integrator_->time(), scene_.mesh.n_bodies(), solid_));
             result_.contact = solid_.contact_report();
+            result_.sliding.record(result_.contact);
             result_.inadmissible_overlaps_max =
                 std::max(result_.inadmissible_overlaps_max, result_.contact.inadmissible_overlaps);
         }

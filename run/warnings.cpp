@@ -332,10 +332,10 @@ std::vector<Warning> warnings_after(const RunResult<Dim>& result) {
                         "cells. At a free edge that is as it should be; elsewhere bodies pass through each other. A lower "
                         "speed prevents it, and so does --overlap frozen, under which H~ drifts",
                         contact.slipped_pairs, contact.slipped_compression_max));
-    if (const double share = contact.sliding_force / contact.sliding_limit; share < least_sliding_share)
+    if (const double share = result.sliding.least_share(); share < least_sliding_share)
         add(WarningKind::alternating_slip, share, least_sliding_share,
             fmt::format(
-                "faces that slide feel {:.2g} of the friction that they should, {:g} is safe: their slip alternates from "
+                "faces that slide feel {:.2g} of the friction that they should for a part of the run, {:g} is safe: their slip alternates from "
                 "step to step, and dissipation is wrong though the balance of energy holds. Leave --restart out (10 and "
                 "the filter act with friction), or take a lower --cfl",
                 share, least_sliding_share));

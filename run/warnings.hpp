@@ -26,7 +26,8 @@ inline constexpr double large_strain = 0.2;
 /// across has 0.02, boxes three cells across that collide 0.16. docs/limits.md.
 inline constexpr double large_face_loss = 0.1;
 
-/// Force of sliding faces over the limit at which they slide: far below it their slip alternates from step to step [-].
+/// Force of sliding faces over the limit at which they slide, in a part of a run (SlidingWindows): far below it their slip
+/// alternates from step to step [-].
 inline constexpr double least_sliding_share = 0.7;
 /// (H - H~) over the energy in play above which the motion swings from step to step by more than belongs to it [-].
 inline constexpr double large_energy_excess = 0.02;

@@ -220,7 +220,8 @@ Markup friction_part(const Figures& figures, const Scene<Dim>& scene, const RunR
                              figure_row(figures, "held by faces that stick", "friction.energy", "J"),
                              figure_row(figures, "faces that stick, at most", "friction.sticking_faces_max", ""),
                              figure_row(figures, "faces that slide, at most", "friction.sliding_faces_max", ""),
-                             figure_row(figures, "force of sliding faces over its limit", "friction.sliding_share", "")}));
+                             figure_row(figures, "force of sliding faces over its limit", "friction.sliding_share", ""),
+                             figure_row(figures, "the least of a part of the run", "friction.least_sliding_share", "")}));
 }
 
 /// Nothing without a material that flows.

@@ -1,0 +1,64 @@
+#pragma once
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "abut/base/state_bytes.hpp"
+#include "abut/contact/report.hpp"
+
+namespace abut::run {
+
+/// Force of sliding faces over the limit at which they slide, by parts of a run: a slip that alternates for a while is seen even
+/// where the whole run has slid well.
+class SlidingWindows {
+public:
+    static constexpr std::int64_t records_per_window = 50;  ///< a fortieth of a run with as many records as there are by default
+    /// Part of the limit of the window with most of it from which on a window counts [-]: faces that stick slip a little now and then.
+    static constexpr double least_part = 0.1;
+
+    /// A record of a run: what happened until then.
+    void record(const contact::ContactReport& report) {
+        if (report.sliding_limit == 0.0) return;  // nothing has slid yet
+        if (n_records_++ % records_per_window == 0) {
+            force_.push_back(0.0);
+            limit_.push_back(0.0);
+        }
+        force_.back() += report.sliding_force - last_force_;
+        limit_.back() += report.sliding_limit - last_limit_;
+        last_force_ = report.sliding_force;
+        last_limit_ = report.sliding_limit;
+    }
+
+    /// The least of a window [-]; infinity where nothing has slid.
+    [[nodiscard]] double least_share() const {
+        double most = 0.0, least = std::numeric_limits<double>::infinity();
+        for (const double limit : limit_) most = std::max(most, limit);
+        for (std::size_t i = 0; i < limit_.size(); ++i)
+            if (limit_[i] > 0.0 && limit_[i] >= least_part * most) least = std::min(least, force_[i] / limit_[i]);
+        return least;
+    }
+
+    void save(StateWriter& state) const {
+        state.put_all(std::span<const double>(force_));
+        state.put_all(std::span<const double>(limit_));
+        state.put(n_records_);
+        state.put(last_force_);
+        state.put(last_limit_);
+    }
+    void restore(StateReader& state) {
+        force_ = state.get_all<double>();
+        limit_ = state.get_all<double>();
+        n_records_ = state.get<std::int64_t>();
+        last_force_ = state.get<double>();
+        last_limit_ = state.get<double>();
+    }
+
+private:
+    std::vector<double> force_, limit_;  // of each window [N s]
+    std::int64_t n_records_ = 0;
+    double last_force_ = 0.0, last_limit_ = 0.0;  // of the record before
+};
+
+}  // namespace abut::run
