@@ -229,8 +229,10 @@ void add_outputs(run::Scene<Dim>& scene, const Settings& settings, std::vector<F
         const std::string path = "output.probes." + probe.name;
         const auto body = names.body(probe.body, probe.where, path + ".body");
         if (!body) continue;
-        run::Probe<Dim> made{.name = probe.name, .body = *body};
+        run::Probe<Dim> made{.name = probe.name, .body = *body, .contact = probe.contact};
         if (probe.point) made.position = head<Dim>(*probe.point);
+        if (probe.point && probe.contact)
+            faults.push_back({probe.where, path + ".contact is of a body as a whole, and 'point' is given, too. Leave one of them out."});
         try {
             if (made.position) static_cast<void>(run::cell_at<Dim>(scene.mesh, *body, *made.position));
         } catch (const BadInput& error) {

@@ -194,6 +194,7 @@ struct BondSettings {
 struct ProbeSettings : Named {
     std::string body;
     std::optional<Vector<3>> point;  ///< [m]
+    bool contact = false;
 };
 
 struct Settings {

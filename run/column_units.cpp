@@ -34,6 +34,9 @@ constexpr std::array units_of_columns = {ColumnUnit{"time", "s", "s"},
                                          ColumnUnit{"stress", "Pa", "Pa"},
                                          ColumnUnit{"von_mises", "Pa", "Pa"},
                                          ColumnUnit{"force", "N/m", "N"},
+                                         ColumnUnit{"contact_normal", "N/m", "N"},
+                                         ColumnUnit{"friction", "N/m", "N"},
+                                         ColumnUnit{"slip_velocity", "m/s", "m/s"},
                                          ColumnUnit{"normal_force", "N/m", "N"}};
 
 /// "top.stress_xx" -> "stress"

@@ -1,12 +1,21 @@
 #include "abut/run/contact_forces.hpp"
 
 #include <cmath>
+#include <utility>
 
 #include "abut/dynamics/ledger.hpp"
 #include "abut/run/scene.hpp"
 #include "abut/solid/solid.hpp"
 
 namespace abut::run {
+namespace {
+
+template <int Dim>
+solid::BodyImpulse<Dim> none_yet(const solid::BodyImpulse<Dim>& pair) {
+    return {.body_1 = pair.body_1, .body_2 = pair.body_2, .impulse = Vector<Dim>::Zero(), .normal_impulse = 0.0};
+}
+
+}  // namespace
 
 template <int Dim>
 ContactForces<Dim>::ContactForces(const Scene<Dim>& scene, const RunResult<Dim>& result)
@@ -24,15 +33,17 @@ std::vector<ForceRow<Dim>> ContactForces<Dim>::rows(const dynamics::RunView<Dim>
     time_ = run.time;
     std::vector<ForceRow<Dim>> rows;
     for (const solid::BodyImpulse<Dim>& pair : solid.contact_impulses()) {
-        const auto [last, is_new] = last_.try_emplace({pair.body_1, pair.body_2}, pair);
-        const Vector<Dim> before = is_new ? Vector<Dim>(Vector<Dim>::Zero()) : last->second.impulse;
-        const double normal_before = is_new ? 0.0 : last->second.normal_impulse;
-        last->second = pair;
+        solid::BodyImpulse<Dim>& last = last_.try_emplace({pair.body_1, pair.body_2}, none_yet(pair)).first->second;
+        const solid::BodyImpulse<Dim> before = std::exchange(last, pair);
         if (is_start) continue;
-        if (pair.impulse == before && pair.normal_impulse == normal_before) continue;
+        if (pair.impulse == before.impulse && pair.normal_impulse == before.normal_impulse) continue;
         ForceRow<Dim> row{.step = run.steps, .time = run.time, .body_1 = pair.body_1, .body_2 = pair.body_2};
-        for (int i = 0; i < Dim; ++i) row.force[i] = (pair.impulse[i] - before[i]) / seconds;
-        row.normal_force = (pair.normal_impulse - normal_before) / seconds;
+        for (int i = 0; i < Dim; ++i) row.force[i] = (pair.impulse[i] - before.impulse[i]) / seconds;
+        row.normal_force = (pair.normal_impulse - before.normal_impulse) / seconds;
+        row.friction = (pair.friction - before.friction) / seconds;
+        const double rubbing_impulse = pair.rubbing_impulse - before.rubbing_impulse;
+        row.rubbing_force = rubbing_impulse / seconds;
+        if (rubbing_impulse > 0.0) row.slip_velocity = (pair.slip - before.slip) / rubbing_impulse;
         rows.push_back(row);
     }
     return rows;
@@ -47,6 +58,9 @@ void ContactForces<Dim>::save(StateWriter& state) const {
         state.put(bodies.second);
         for (const double value : pair.impulse) state.put(value);
         state.put(pair.normal_impulse);
+        for (const double value : pair.friction) state.put(value);
+        state.put(pair.rubbing_impulse);
+        for (const double value : pair.slip) state.put(value);
     }
 }
 
@@ -59,6 +73,9 @@ void ContactForces<Dim>::restore(StateReader& state) {
         pair.body_2 = state.get<std::int32_t>();
         for (double& value : pair.impulse) value = state.get<double>();
         pair.normal_impulse = state.get<double>();
+        for (double& value : pair.friction) value = state.get<double>();
+        pair.rubbing_impulse = state.get<double>();
+        for (double& value : pair.slip) value = state.get<double>();
         last_.emplace(std::pair(pair.body_1, pair.body_2), pair);
     }
 }

@@ -14,6 +14,7 @@ struct Probe {
     std::string name;
     std::int32_t body = 0;                  ///< number in the mesh
     std::optional<Vector<Dim>> position{};  ///< at rest [m]; none: the body as a whole
+    bool contact = false;                   ///< forces of contact on the body, and its slip; not with a position
 };
 
 /// Fields of frames for ParaView beside the displacement.

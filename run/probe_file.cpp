@@ -20,7 +20,7 @@ void ProbeFile<Dim>::begin(const Scene<Dim>& scene, const RunResult<Dim>& result
     probes_ = Probes<Dim>(scene, result);
     std::vector<std::string> columns{"step", "time"};
     for (const Probe<Dim>& probe : scene.outputs.probes)
-        for (const std::string& column : Probes<Dim>::columns()) columns.push_back(in_csv(probe.name) + "." + column);
+        for (const std::string& column : Probes<Dim>::columns(probe)) columns.push_back(in_csv(probe.name) + "." + column);
     file_.open();
     file_.write(fmt::format("{}\n", fmt::join(with_units<Dim>(columns), ",")));
 }
@@ -42,12 +42,14 @@ void ProbeFile<Dim>::look(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& 
 template <int Dim>
 void ProbeFile<Dim>::save(StateWriter& state) {
     state.put(static_cast<std::uint64_t>(file_.size()));
+    probes_.save(state);
 }
 
 template <int Dim>
 void ProbeFile<Dim>::resume(const Scene<Dim>& scene, const RunResult<Dim>& result, StateReader& state) {
     probes_ = Probes<Dim>(scene, result);
     file_.go_on_after(state.get<std::uint64_t>());
+    probes_.restore(state);
 }
 
 template <int Dim>

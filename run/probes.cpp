@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <tuple>
@@ -38,6 +39,23 @@ double distance_beside(const mesh::Mesh<Dim>& mesh, std::int32_t cell, const Vec
     return farthest;
 }
 
+/// Forces on a body along the normals of its faces, by friction, and its velocity past what it touches.
+template <int Dim>
+std::array<Vector<Dim>, 3> contact_of(std::int32_t body, const std::vector<ForceRow<Dim>>& rows) {
+    Vector<Dim> normal = Vector<Dim>::Zero(), friction = Vector<Dim>::Zero(), slip = Vector<Dim>::Zero();
+    double rubbing_force = 0.0;
+    for (const ForceRow<Dim>& row : rows) {
+        if (row.body_1 == row.body_2 || (row.body_1 != body && row.body_2 != body)) continue;
+        const double sign = row.body_2 == body ? 1.0 : -1.0;
+        normal += sign * (row.force - row.friction);
+        friction += sign * row.friction;
+        slip += (sign * row.rubbing_force) * row.slip_velocity;
+        rubbing_force += row.rubbing_force;
+    }
+    if (rubbing_force > 0.0) slip /= rubbing_force;
+    return {normal, friction, slip};
+}
+
 }  // namespace
 
 template <int Dim>
@@ -67,10 +85,13 @@ std::int32_t cell_at(const mesh::Mesh<Dim>& mesh, std::int32_t body, const Vecto
 template <int Dim>
 typename Probes<Dim>::Watched Probes<Dim>::watched(const mesh::Mesh<Dim>& mesh, const Probe<Dim>& probe) {
     if (probe.position) {
+        if (probe.contact)
+            throw BadInput("'contact' is of a body as a whole, and 'point' is given, too. Leave one of them out.");
         const std::int32_t cell = cell_at(mesh, probe.body, *probe.position);
         return {.cells = {cell}, .weights = {1.0}, .arms = {*probe.position - mesh.cell_centroid[cell]}};
     }
     Watched watched;
+    if (probe.contact) watched.contact_of = probe.body;
     double measure = 0.0;
     for (std::int32_t cell = 0; cell < mesh.n_cells(); ++cell) {
         if (mesh.cell_body[cell] != probe.body) continue;
@@ -87,7 +108,9 @@ typename Probes<Dim>::Watched Probes<Dim>::watched(const mesh::Mesh<Dim>& mesh, 
 
 template <int Dim>
 Probes<Dim>::Probes(const Scene<Dim>& scene, const RunResult<Dim>& result)
-    : interval_(scene.outputs.interval > 0 ? scene.outputs.interval : result.options.interval), n_steps_(result.steps) {
+    : forces_(scene, result),
+      interval_(scene.outputs.interval > 0 ? scene.outputs.interval : result.options.interval),
+      n_steps_(result.steps) {
     for (const Probe<Dim>& probe : scene.outputs.probes) {
         try {
             probes_.push_back(watched(scene.mesh, probe));
@@ -98,7 +121,7 @@ Probes<Dim>::Probes(const Scene<Dim>& scene, const RunResult<Dim>& result)
 }
 
 template <int Dim>
-std::vector<std::string> Probes<Dim>::columns() {
+std::vector<std::string> Probes<Dim>::columns(const Probe<Dim>& probe) {
     std::vector<std::string> columns;
     for (const char* vector : {"displacement", "velocity"})
         for (int i = 0; i < Dim; ++i) columns.push_back(fmt::format("{}_{}", vector, "xyz"[i]));
@@ -106,6 +129,9 @@ std::vector<std::string> Probes<Dim>::columns() {
         if (Dim == 3 || (std::string(component) != "yz" && std::string(component) != "xz"))
             columns.push_back(fmt::format("stress_{}", component));
     columns.push_back("von_mises");
+    if (probe.contact)
+        for (const char* vector : {"contact_normal", "friction", "slip_velocity"})
+            for (int i = 0; i < Dim; ++i) columns.push_back(fmt::format("{}_{}", vector, "xyz"[i]));
     return columns;
 }
 
@@ -115,7 +141,8 @@ bool Probes<Dim>::wants_look(std::int64_t step) const {
 }
 
 template <int Dim>
-std::vector<std::vector<double>> Probes<Dim>::values(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) const {
+std::vector<std::vector<double>> Probes<Dim>::values(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) {
+    const std::vector<ForceRow<Dim>> forces = forces_.rows(run, solid);
     static_cast<void>(solid.potential(run.q));  // leaves the stresses of this state behind
     const auto displacement = solid.cell_displacement(run.q);
     const auto velocity = cell_velocity(run, solid);
@@ -137,6 +164,9 @@ std::vector<std::vector<double>> Probes<Dim>::values(const dynamics::RunView<Dim
         values.insert(values.end(), v.begin(), v.end());
         for (const double value : components<Dim>(stress, out_of_plane)) values.push_back(value);
         values.push_back(von_mises<Dim>(stress, out_of_plane));
+        if (probe.contact_of >= 0)
+            for (const Vector<Dim>& vector : contact_of<Dim>(probe.contact_of, forces))
+                values.insert(values.end(), vector.begin(), vector.end());
         rows.push_back(std::move(values));
     }
     return rows;

@@ -36,7 +36,7 @@ namespace {
 constexpr double sound_share = 0.5;
 
 const std::string observers_kind = "observers of a run";
-constexpr int observers_version = 4;
+constexpr int observers_version = 5;
 const std::string looks_kind = "looks at surfaces";
 constexpr int looks_version = 4;
 constexpr std::int64_t sightings_per_run = 40;  // looks for bodies past a rim and together with themselves, about

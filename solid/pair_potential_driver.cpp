@@ -286,6 +286,12 @@ void PairPotentialDriver<Dim>::add_impulses(double dt) {
         if (pair.active_pairs > 0)
             this->impulses_.add(bodies_.mesh_body(pair.body_1), bodies_.mesh_body(pair.body_2), dt * pair.force,
                                 dt * pair.normal_force);
+    if (contact_.last().friction.empty()) return;
+    const auto mesh_body_of = [&](contact::Face face) {
+        return bodies_.mesh_body(static_cast<std::int32_t>(corners_.body_of(static_cast<std::size_t>(face))));
+    };
+    for (const contact::PairStep<Dim>& pair : contact_.last().pairs)
+        this->impulses_.add_friction(mesh_body_of(pair.face_1), mesh_body_of(pair.face_2), pair, dt);
 }
 
 template <int Dim>

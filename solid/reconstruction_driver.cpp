@@ -277,8 +277,10 @@ void ReconstructionDriver<Dim>::take_obstacle_forces(double share, double& work)
 template <int Dim>
 void ReconstructionDriver<Dim>::add_impulses(double dt) {
     const auto body = [&](contact::Face face) { return surface_.body[static_cast<std::size_t>(face)]; };
-    for (const contact::PairStep<Dim>& pair : contact_->last().pairs)
+    for (const contact::PairStep<Dim>& pair : contact_->last().pairs) {
         this->impulses_.add(body(pair.face_1), body(pair.face_2), dt * pair.force, dt * pair.normal_force);
+        this->impulses_.add_friction(body(pair.face_1), body(pair.face_2), pair, dt);
+    }
 }
 
 template <int Dim>

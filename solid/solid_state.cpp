@@ -18,7 +18,7 @@
 namespace abut::solid {
 namespace {
 
-constexpr std::uint32_t version = 5;
+constexpr std::uint32_t version = 6;
 
 template <int Dim>
 std::string kind() {
@@ -76,6 +76,9 @@ std::vector<std::byte> Solid<Dim>::state() const {
         state.put(pair.body_2);
         put(state, pair.impulse);
         state.put(pair.normal_impulse);
+        put(state, pair.friction);
+        state.put(pair.rubbing_impulse);
+        put(state, pair.slip);
     }
     return std::move(state).finish();
 }
@@ -116,6 +119,9 @@ void Solid<Dim>::restore(std::span<const std::byte> bytes, std::span<const doubl
             pair.body_2 = state.get<std::int32_t>();
             take(state, pair.impulse);
             pair.normal_impulse = state.get<double>();
+            take(state, pair.friction);
+            pair.rubbing_impulse = state.get<double>();
+            take(state, pair.slip);
         }
         contact_->restore_impulses(std::move(impulses));
     }

@@ -24,7 +24,10 @@ public:
     void begin(const run::Scene<Dim>& scene, const run::RunResult<Dim>& result) override {
         has_probes_ = !scene.outputs.probes.empty();
         probes_ = run::Probes<Dim>(scene, result);
-        for (const run::Probe<Dim>& probe : scene.outputs.probes) probe_names_.push_back(probe.name);
+        for (const run::Probe<Dim>& probe : scene.outputs.probes) {
+            probe_names_.push_back(probe.name);
+            probe_columns_.push_back(run::Probes<Dim>::columns(probe));
+        }
         probe_values_.resize(probe_names_.size());
         forces_ = run::ContactForces<Dim>(scene, result);
         names_ = scene.mesh.body_names;
@@ -47,7 +50,7 @@ public:
         py::dict tables;
         for (std::size_t probe = 0; probe < probe_names_.size(); ++probe) {
             py::dict table("step"_a = copy_of(probe_steps_), "time"_a = copy_of(probe_times_));
-            const std::vector<std::string> columns = run::Probes<Dim>::columns();
+            const std::vector<std::string>& columns = probe_columns_[probe];
             for (std::size_t i = 0; i < columns.size(); ++i) {
                 std::vector<double> column;
                 for (const std::vector<double>& values : probe_values_[probe]) column.push_back(values[i]);
@@ -114,6 +117,7 @@ private:
     bool has_probes_ = false;
     run::Probes<Dim> probes_;
     std::vector<std::string> probe_names_;
+    std::vector<std::vector<std::string>> probe_columns_;  // of each
     std::vector<std::int64_t> probe_steps_;
     std::vector<double> probe_times_;
     std::vector<std::vector<std::vector<double>>> probe_values_;  // by probe and row

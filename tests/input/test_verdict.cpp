@@ -249,7 +249,7 @@ TEST_CASE("a tip of 25 degrees that strikes a flat side keeps its energy, which 
     CHECK(result.contact.active_pairs_max > 0);
     CHECK(result.contact.missed_contacts == 0);
     CHECK(result.ledger.energy_excess() <= 1e-3 * result.accounts.energy_in_play);
-    CHECK(result.ledger.entries().back().momentum[1] > 0.0);  // it is on its way back
+    CHECK(result.ledger.entries().back().linear_momentum[1] > 0.0);  // it is on its way back
 }
 
 TEST_CASE("corners that meet and shake their cells are told of, and H~ is no praise then", "[input][verdict]") {
