@@ -35,7 +35,7 @@ struct Bevels {
     [[nodiscard]] bool is_at(const Vector<Dim>& position) const { return std::ranges::find(tips, position) != tips.end(); }
 };
 
-/// Those of all convex corners (2D) below 60 degrees; in a fixed order. n log n.
+/// The bevels of all convex corners below 60 degrees, in 2D; none in 3D. Their order is fixed; takes n log n.
 template <int Dim>
 [[nodiscard]] Bevels<Dim> bevels_of(const SurfaceView<Dim>& facets);
 

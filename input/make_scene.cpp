@@ -232,7 +232,8 @@ void add_outputs(run::Scene<Dim>& scene, const Settings& settings, std::vector<F
         run::Probe<Dim> made{.name = probe.name, .body = *body, .contact = probe.contact};
         if (probe.point) made.position = head<Dim>(*probe.point);
         if (probe.point && probe.contact)
-            faults.push_back({probe.where, path + ".contact is of a body as a whole, and 'point' is given, too. Leave one of them out."});
+            faults.push_back(
+                {probe.where, path + ".contact is of a body as a whole, and 'point' is given, too. Leave one of them out."});
         try {
             if (made.position) static_cast<void>(run::cell_at<Dim>(scene.mesh, *body, *made.position));
         } catch (const BadInput& error) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <set>
 #include <vector>
 
 #include "abut/geometry/broad_phase/broad_phase.hpp"
@@ -48,7 +49,11 @@ bool lie_on_each_other(const Mesh<Dim>& mesh, std::int32_t face_1, std::int32_t 
 }  // namespace
 
 template <int Dim>
-UnjoinedFaces find_unjoined_faces(const Mesh<Dim>& mesh) {
+UnjoinedFaces find_unjoined_faces(const Mesh<Dim>& mesh, std::span<const std::array<std::int32_t, 2>> bonded) {
+    using Pair = std::array<std::int32_t, 2>;
+    const auto ordered = [](const Pair& faces) { return Pair{std::min(faces[0], faces[1]), std::max(faces[0], faces[1])}; };
+    std::set<Pair> held;
+    for (const Pair& faces : bonded) held.insert(ordered(faces));
     const auto face_of = [&](std::int32_t i) { return mesh.boundary_faces[static_cast<std::size_t>(i)]; };
     const auto body_of = [&](std::int32_t face) {
         return mesh.cell_body[static_cast<std::size_t>(mesh.face_cells[static_cast<std::size_t>(face)][0])];
@@ -56,14 +61,16 @@ UnjoinedFaces find_unjoined_faces(const Mesh<Dim>& mesh) {
     std::vector<geometry::Box<Dim>> boxes;
     for (const std::int32_t face : mesh.boundary_faces) {
         geometry::Box<Dim> box;
-        for (const std::int32_t vertex : mesh.face_vertices[face]) box.extend(mesh.vertices[static_cast<std::size_t>(vertex)]);
+        for (const std::int32_t vertex : mesh.face_vertices[face])
+            box.extend(mesh.vertices[static_cast<std::size_t>(vertex)]);
         boxes.push_back(box.grown(lying_on * face_size<Dim>(mesh.face_measure[static_cast<std::size_t>(face)])));
     }
     const auto pairs = geometry::overlapping_pairs<Dim>({}, boxes, [&](std::int32_t i, std::int32_t k) {
         return body_of(face_of(i)) == body_of(face_of(k)) && lie_on_each_other(mesh, face_of(i), face_of(k));
     });
     std::vector<std::int32_t> faces;
-    for (const auto& [i, k] : pairs) faces.insert(faces.end(), {face_of(i), face_of(k)});
+    for (const auto& [i, k] : pairs)
+        if (!held.contains(ordered({face_of(i), face_of(k)}))) faces.insert(faces.end(), {face_of(i), face_of(k)});
     std::ranges::sort(faces);
     faces.erase(std::ranges::unique(faces).begin(), faces.end());
     UnjoinedFaces unjoined{.n_faces = static_cast<std::int32_t>(faces.size())};
@@ -74,7 +81,7 @@ UnjoinedFaces find_unjoined_faces(const Mesh<Dim>& mesh) {
     return unjoined;
 }
 
-template UnjoinedFaces find_unjoined_faces<2>(const Mesh<2>&);
-template UnjoinedFaces find_unjoined_faces<3>(const Mesh<3>&);
+template UnjoinedFaces find_unjoined_faces<2>(const Mesh<2>&, std::span<const std::array<std::int32_t, 2>>);
+template UnjoinedFaces find_unjoined_faces<3>(const Mesh<3>&, std::span<const std::array<std::int32_t, 2>>);
 
 }  // namespace abut::mesh

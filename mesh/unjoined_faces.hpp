@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <span>
 #include <string>
 
 #include "abut/mesh/mesh.hpp"
@@ -16,8 +17,10 @@ struct UnjoinedFaces {
 };
 
 /// Faces count as lying on each other up to 1e-6 of the smaller one: in the distance and the angle of their planes, and in the area
-/// that they share. Cells that do not match along a curved surface have faces in other planes, and are not found.
+/// that they share. Cells that do not match along a curved surface have faces in other planes, and are not found. `bonded`: pairs of
+/// faces of the mesh, in either order, that something else holds together.
 template <int Dim>
-[[nodiscard]] UnjoinedFaces find_unjoined_faces(const Mesh<Dim>& mesh);
+[[nodiscard]] UnjoinedFaces find_unjoined_faces(const Mesh<Dim>& mesh,
+                                                std::span<const std::array<std::int32_t, 2>> bonded = {});
 
 }  // namespace abut::mesh

@@ -16,11 +16,11 @@ namespace abut::run {
 template <int Dim>
 struct ForceRow {
     std::int64_t step = 0;
-    double time = 0.0;          ///< [s]
-    std::int32_t body_1 = 0;    ///< bodies, then obstacles behind them
-    std::int32_t body_2 = 0;    ///< the same
-    Vector<Dim> force{};        ///< on body 2, the mean since the rows before [N]
-    double normal_force = 0.0;  ///< the sum over all faces of what presses them together, the mean [N]
+    double time = 0.0;                           ///< [s]
+    std::int32_t body_1 = 0;                     ///< bodies, then obstacles behind them
+    std::int32_t body_2 = 0;                     ///< the same
+    Vector<Dim> force{};                         ///< on body 2, the mean since the rows before [N]
+    double normal_force = 0.0;                   ///< the sum over all faces of what presses them together, the mean [N]
     Vector<Dim> friction = Vector<Dim>::Zero();  ///< part of `force` that is friction [N]
     double rubbing_force = 0.0;                  ///< part of `normal_force` where there is friction [N]
     /// Velocity of body 2 past body 1 [m/s]: the mean over faces with friction, weighted with the force that presses on them.

@@ -14,7 +14,8 @@ namespace abut::run {
 /// where the whole run has slid well.
 class SlidingWindows {
 public:
-    static constexpr std::int64_t records_per_window = 50;  ///< a fortieth of a run with as many records as there are by default
+    static constexpr std::int64_t records_per_window =
+        50;  ///< a fortieth of a run with as many records as there are by default
     /// Part of the limit of the window with most of it from which on a window counts [-]: faces that stick slip a little now and then.
     static constexpr double least_part = 0.1;
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -13,6 +14,8 @@
 #include "abut/run/of_all_ranks.hpp"
 #include "abut/run/settling.hpp"
 #include "abut/run/start_contact.hpp"
+#include "abut/solid/bond_places.hpp"
+#include "abut/solid/boundary_face.hpp"
 #include "abut/solid/local_steps.hpp"
 
 namespace abut::run {
@@ -66,6 +69,15 @@ solid::SolidTimes added(const solid::SolidTimes& sum, const solid::SolidTimes& a
             sum.own_cells + a.own_cells - b.own_cells};
 }
 
+/// Faces of the mesh. None on several ranks, where nothing is bonded.
+template <int Dim>
+std::vector<std::array<std::int32_t, 2>> bonded_faces(const solid::Solid<Dim>& solid) {
+    std::vector<std::array<std::int32_t, 2>> pairs;
+    for (const solid::BondPlace<Dim>& place : solid.bond_places())
+        pairs.push_back({solid::mesh_face(solid.mesh(), place.faces[0]), solid::mesh_face(solid.mesh(), place.faces[1])});
+    return pairs;
+}
+
 template <int Dim>
 void check_for_ranks(const dynamics::Ranks& ranks, const Scene<Dim>& scene, const RunOptions& options) {
     dynamics::refuse_ranks(ranks, {{"a pilot run (--kinematics automatic)", options.kinematics == BodyKinematics::automatic},
@@ -91,7 +103,7 @@ Start<Dim>::Start(const Scene<Dim>& of, const RunOptions& given, std::optional<P
     if (share.ranks.rank() == 0) result.inertia = solid::inertia_of_bodies(seen);
     result.blind_corners = solid->blind_corners();
     result.unseen_edges = solid->unseen_edges();
-    if (share.ranks.rank() == 0) result.unjoined = mesh::find_unjoined_faces(scene.mesh);
+    if (share.ranks.rank() == 0) result.unjoined = mesh::find_unjoined_faces(scene.mesh, bonded_faces(*solid));
     set_outside();
     set_state();
     if (options.settle) settle();

@@ -191,16 +191,15 @@ Json friction_json(const RunResult<Dim>& result) {
     const contact::ContactReport& contact = result.contact;
     if (contact.sticking_faces_max + contact.sliding_faces_max == 0) return Json::object();
     const auto& last = result.ledger.entries().back();
-    return {
-        {"friction",
-         {{"dissipated", last.losses.by_friction},
-          {"energy", last.friction_energy},
-          {"least_dissipated", contact.least_dissipated},
-          {"sticking_faces_max", contact.sticking_faces_max},
-          {"sliding_faces_max", contact.sliding_faces_max},
-          {"force_over_limit_max", contact.friction_ratio_max},
-          {"sliding_share", contact.sliding_limit > 0.0 ? Json(contact.sliding_force / contact.sliding_limit) : Json()},
-          {"least_sliding_share", contact.sliding_limit > 0.0 ? Json(result.sliding.least_share()) : Json()}}}};
+    return {{"friction",
+             {{"dissipated", last.losses.by_friction},
+              {"energy", last.friction_energy},
+              {"least_dissipated", contact.least_dissipated},
+              {"sticking_faces_max", contact.sticking_faces_max},
+              {"sliding_faces_max", contact.sliding_faces_max},
+              {"force_over_limit_max", contact.friction_ratio_max},
+              {"sliding_share", contact.sliding_limit > 0.0 ? Json(contact.sliding_force / contact.sliding_limit) : Json()},
+              {"least_sliding_share", contact.sliding_limit > 0.0 ? Json(result.sliding.least_share()) : Json()}}}};
 }
 
 /// Nothing where no material flows or is damped.
@@ -208,7 +207,7 @@ template <int Dim>
 Json material_json(const RunResult<Dim>& result) {
     const dynamics::Losses& loss = result.dissipated;
     Json json = Json::object();
-    if (loss.in_cells != 0.0)
+    if (loss.in_cells + loss.in_jumps != 0.0)
         json["plasticity"] = {{"dissipated", loss.in_cells},
                               {"dissipated_in_jumps", loss.in_jumps},
                               {"dissipated_on_faces", loss.on_faces},
@@ -331,7 +330,7 @@ template <int Dim>
 std::string material_lines(const RunResult<Dim>& result) {
     const dynamics::Losses& loss = result.dissipated;
     std::string text;
-    if (loss.in_cells != 0.0)
+    if (loss.in_cells + loss.in_jumps != 0.0)
         text += table_line(fmt::format("dissipated by plastic flow, / {}", result.scale.name),
                            fmt::format("{:.4g}; in jumps between cells {:.1e}; with free faces that flow along {:.1e}",
                                        result.scale.over(loss.in_cells), result.scale.over(loss.in_jumps),

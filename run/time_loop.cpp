@@ -376,8 +376,8 @@ private:
     std::function<Integrator(Start<Dim>&)> make_;
     std::optional<Integrator> integrator_;  // always there
     LastSound sound_;
-    solid::SolidTimes times_of_setup_;      // the start-up of the scheme, in the seconds of set-up already
-    solid::SolidTimes times_before_;        // of steps with other parts
+    solid::SolidTimes times_of_setup_;  // the start-up of the scheme, in the seconds of set-up already
+    solid::SolidTimes times_before_;    // of steps with other parts
     RankBalance balance_;
     double own_seconds_before_ = 0.0;
     SurfaceWatch<Dim> watch_;  // on rank 0

@@ -60,13 +60,15 @@ void add_mesh(Counts& counts, const mesh::BuildReport& report) {
 template <int Dim>
 void add_unjoined(Counts& counts, const RunResult<Dim>& result) {
     const mesh::UnjoinedFaces& unjoined = result.unjoined;
-    counts.add(WarningKind::unjoined_faces, Severity::warning, unjoined.n_faces,
-               fmt::format("{} faces lie on faces of their own body without being joined to them, the first of body '{}' at ({:.4g}): "
-                           "cells on both sides move apart freely{}. Where this is no crack, merge vertices that coincide, make a "
-                           "mesh whose cells match, or make two bodies of it and bond them with [[bonds]]",
-                           unjoined.n_faces, unjoined.body, fmt::join(std::span<const double>(unjoined.place).first(Dim), ", "),
-                           result.options.contact.search.self_contact ? ", and touch where they come together again"
-                                                                      : " and through each other"));
+    counts.add(
+        WarningKind::unjoined_faces, Severity::warning, unjoined.n_faces,
+        fmt::format(
+            "{} faces lie on faces of their own body without being joined to them, the first of body '{}' at ({:.4g}): "
+            "cells on both sides move apart freely{}. Where this is no crack, merge vertices that coincide, make a "
+            "mesh whose cells match, or make two bodies of it and bond them with [[bonds]]",
+            unjoined.n_faces, unjoined.body, fmt::join(std::span<const double>(unjoined.place).first(Dim), ", "),
+            result.options.contact.search.self_contact ? ", and touch where they come together again"
+                                                       : " and through each other"));
 }
 
 /// Name of a body or an obstacle in messages.
@@ -335,7 +337,8 @@ std::vector<Warning> warnings_after(const RunResult<Dim>& result) {
     if (const double share = result.sliding.least_share(); share < least_sliding_share)
         add(WarningKind::alternating_slip, share, least_sliding_share,
             fmt::format(
-                "faces that slide feel {:.2g} of the friction that they should for a part of the run, {:g} is safe: their slip alternates from "
+                "faces that slide feel {:.2g} of the friction that they should for a part of the run, {:g} is safe: their "
+                "slip alternates from "
                 "step to step, and dissipation is wrong though the balance of energy holds. Leave --restart out (10 and "
                 "the filter act with friction), or take a lower --cfl",
                 share, least_sliding_share));
@@ -365,6 +368,12 @@ std::vector<Warning> warnings_after(const RunResult<Dim>& result) {
                 "and of jumps between cells, {:g} is safe: cells at the surface are too large for what happens "
                 "there, though the balance of energy holds. Take smaller cells",
                 share, large_face_loss));
+    if (const double share = loss.in_jumps / (loss.in_cells + loss.in_jumps); share > large_jump_loss)
+        add(WarningKind::jump_loss, share, large_jump_loss,
+            fmt::format("jumps between cells dissipate {:.2g} of what plastic flow does in all, {:g} is safe: they yield "
+                        "where cells "
+                        "may be elastic, though the balance of energy holds. Take smaller cells, or a larger jump_cap",
+                        share, large_jump_loss));
     add_sightings(counts, result);
     counts.add(WarningKind::missed_contacts, Severity::warning, contact.missed_contacts,
                fmt::format("{} contacts were missed, 0 are allowed: the energy is not exact", contact.missed_contacts));

@@ -26,6 +26,10 @@ inline constexpr double large_strain = 0.2;
 /// across has 0.02, boxes three cells across that collide 0.16. docs/limits.md.
 inline constexpr double large_face_loss = 0.1;
 
+/// The part of what cells and jumps between them dissipate by plastic flow that jumps have, above which these yield more than they
+/// should [-]: spheres and bars at their limit loads have 0.01 to 0.05, bars that collide at most 0.06. docs/validation.md.
+inline constexpr double large_jump_loss = 0.1;
+
 /// Force of sliding faces over the limit at which they slide, in a part of a run (SlidingWindows): far below it their slip
 /// alternates from step to step [-].
 inline constexpr double least_sliding_share = 0.7;
@@ -74,11 +78,12 @@ enum class WarningKind {
     rotation,        ///< Ledger::rotation [rad] where a body is small; threshold: far_rotation
     local_rotation,  ///< the largest of RunResult::local_rotations [rad] where none is; threshold: far_rotation
     finite_strain,   ///< FiniteExtremes::strain [-] of bodies of Kinematics::finite; threshold: large_strain
-    alternating_slip,       ///< force of sliding faces over its limit [-]; threshold: least_sliding_share
-    face_loss,              ///< size of what RunResult::dissipated has `on_faces` over that in cells [-]; threshold: large_face_loss
-    energy_excess,          ///< Ledger::energy_excess over the energy in play [-]; threshold: large_energy_excess
-    parasitic,              ///< Ledger::parasitic over Accounts::speed [-]; threshold: large_parasitic_share
-    moment_drift,           ///< of J~ where it is conserved [-]; threshold: large_moment_drift
+    alternating_slip,  ///< force of sliding faces over its limit [-]; threshold: least_sliding_share
+    face_loss,      ///< size of what RunResult::dissipated has `on_faces` over that in cells [-]; threshold: large_face_loss
+    jump_loss,      ///< part of the plastic dissipation that jumps between cells have [-]; threshold: large_jump_loss
+    energy_excess,  ///< Ledger::energy_excess over the energy in play [-]; threshold: large_energy_excess
+    parasitic,      ///< Ledger::parasitic over Accounts::speed [-]; threshold: large_parasitic_share
+    moment_drift,   ///< of J~ where it is conserved [-]; threshold: large_moment_drift
     interpenetration,       ///< SurfaceLooks::deepest [-]; threshold: deep_interpenetration
     remote_contact,         ///< SurfaceLooks::remote [-]; threshold: contact_from_afar
     sliding_pressure,       ///< note: SurfaceLooks::pressed [-]; threshold: high_sliding_pressure

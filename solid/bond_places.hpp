@@ -1,5 +1,4 @@
 #pragma once
-// Private to the sources of this layer.
 #include <array>
 #include <cstddef>
 #include <cstdint>

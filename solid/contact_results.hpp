@@ -35,9 +35,9 @@ struct ActingPair {
 template <int Dim>
 struct BodyImpulse {
     std::int32_t body_1;
-    std::int32_t body_2;    ///< > body_1
-    Vector<Dim> impulse;    ///< on body 2 [N s]; body 1 gets the opposite
-    double normal_impulse;  ///< of all pairs of faces along their normals [N s], > 0 in compression
+    std::int32_t body_2;                         ///< > body_1
+    Vector<Dim> impulse;                         ///< on body 2 [N s]; body 1 gets the opposite
+    double normal_impulse;                       ///< of all pairs of faces along their normals [N s], > 0 in compression
     Vector<Dim> friction = Vector<Dim>::Zero();  ///< part of `impulse` that is friction [N s]
     double rubbing_impulse = 0.0;                ///< part of `normal_impulse` where there is friction [N s]
     /// Sum of normal force times slip of these pairs, over all steps [N m]: over `rubbing_impulse` it is a velocity, that of body 2

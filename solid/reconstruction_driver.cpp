@@ -55,8 +55,8 @@ void ReconstructionDriver<Dim>::build_surface(const SolidOptions<Dim>& options) 
     boundary_of_surface_.assign(faces_->here().begin(), faces_->here().end());
     if (options.has_friction())
         for (std::int32_t face = 0; face < surface_.size(); ++face)
-            surface_.shear_stiffness.push_back(options.materials[static_cast<std::size_t>(surface_.body[face])].shear_ratio() *
-                                               surface_.stiffness[face]);
+            surface_.shear_stiffness.push_back(
+                options.materials[static_cast<std::size_t>(surface_.body[face])].shear_ratio() * surface_.stiffness[face]);
     obstacles_.append_to(surface_, mesh_.n_bodies());
     surface_.steps_to_sharp_edge = contact::steps_to_sharp_edge(surface_.view());
 }

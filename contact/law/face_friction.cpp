@@ -20,7 +20,8 @@ std::int32_t index_of_face(std::span<const Face> listed, Face face) {
 template <int Dim>
 geometry::Tangents<Dim> FaceFrictionLaw<Dim>::tangents(const SurfaceView<Dim>& surface, const Pair& pair, std::size_t side) {
     const Vector<Dim> normal = side == 0 ? pair.normal : Vector<Dim>(-pair.normal);
-    if constexpr (Dim == 2) return geometry::PlaneFrame<2>(normal).tangents();  // the tangent of a line is turned as its normal is
+    if constexpr (Dim == 2)
+        return geometry::PlaneFrame<2>(normal).tangents();  // the tangent of a line is turned as its normal is
     const Vector<Dim>& own = surface.normal[static_cast<std::size_t>(pair.facets.facet[side])];
     return geometry::turned<Dim>(geometry::PlaneFrame<Dim>(own).tangents(), own, normal);
 }

@@ -38,8 +38,7 @@ template <int N>
 double set_weights(std::span<FrictionHalf<N>> halves, std::span<const std::size_t> of_facet) {
     double normal_force = 0.0;
     for (const std::size_t i : of_facet) normal_force += halves[i].normal_force;
-    for (const std::size_t i : of_facet)
-        halves[i].weight = halves[i].normal_force / normal_force * halves[i].active_share;
+    for (const std::size_t i : of_facet) halves[i].weight = halves[i].normal_force / normal_force * halves[i].active_share;
     return normal_force;
 }
 
@@ -153,9 +152,8 @@ FaceFriction FrictionPass<N>::advance(double dt, TakenForce take, std::span<Fric
                              return coefficient_of(*half.law, sliding) * half.normal_force + half.law->strength * half.area;
                          }) /
                          active;
-    const double creep = 0.5 * active * dt * sum([&](const auto& half) {
-                             return half.normal_force / normal_force / half.law->relaxation_time;
-                         });
+    const double creep = 0.5 * active * dt *
+                         sum([&](const auto& half) { return half.normal_force / normal_force / half.law->relaxation_time; });
     const FrictionStep<N> step = take == TakenForce::mean ? take_mean_step<N>(state, motion, limit, creep)
                                                           : take_end_step<N>(state, motion, limit, creep);
     for (const std::size_t i : of_facet) halves[i].force = halves[i].weight * step.force;

@@ -82,7 +82,7 @@ public:
 
 private:
     [[nodiscard]] const NodalSurface<Dim>& acting() const { return surface_.acting(); }
-    /// Where it is made a step has the corners of bevels, and in the end the nodes of the host alone.
+    /// A step has the corners of bevels while it is made, and the nodes of the host alone in the end.
     void unfold(NodalStep<Dim>& step) const {
         if (step.nodes.size() != listed_nodes().size()) step.nodes = listed_nodes();
     }

@@ -153,7 +153,8 @@ TEST_CASE("a block that slides along an edge of another one, flush with it, is p
 }
 
 TEST_CASE(
-    "tips for which a flat face has less than a quarter of the weight of a pair are blind, with body and place; bevels see them",
+    "tips for which a flat face has less than a quarter of the weight of a pair are blind, with body and place; bevels see "
+    "them",
     "[contact][blind]") {
     // y^2 (3 - 2 y) = 1/4 at y = 1/2 - sin(10 degrees) of the fade from -0.6 to -0.2; the flanks of a tip look at a face that
     // comes straight at it by minus the sine of half its angle.

@@ -41,6 +41,18 @@ TEST_CASE("faces of one body that lie on each other and are not joined are found
     CHECK(pile.place[1] == Approx(1.0));
 }
 
+TEST_CASE("faces that something else holds together are joined", "[mesh][unjoined]") {
+    const Mesh<2> pile = stacked<2>({CellShape::quadrangle, CellShape::quadrangle}, {2, 2}, 0.0, true);
+    std::vector<std::array<std::int32_t, 2>> bonded;
+    for (const std::int32_t low : pile.boundary_faces)
+        for (const std::int32_t high : pile.boundary_faces)
+            if (low != high && pile.face_centroid[low] == pile.face_centroid[high]) bonded.push_back({high, low});
+    REQUIRE(bonded.size() == 2 * 2);  // two pairs, in both orders
+    CHECK(find_unjoined_faces(pile).n_faces == 4);
+    CHECK(find_unjoined_faces<2>(pile, bonded).n_faces == 0);
+    CHECK(find_unjoined_faces<2>(pile, std::span(bonded).first(1)).n_faces == 2);
+}
+
 TEST_CASE("in space faces that share a part of their area are found, whatever their shapes", "[mesh][unjoined]") {
     const auto found = [](CellShape low, CellShape high, const std::array<int, 2>& n) {
         return find_unjoined_faces(stacked<3>({low, high}, n, 0.0, true)).n_faces;

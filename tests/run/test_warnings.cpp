@@ -1,3 +1,4 @@
+#include "abut/run/summary.hpp"
 #include "abut/run/warnings.hpp"
 
 #include <algorithm>
@@ -88,6 +89,22 @@ TEST_CASE("free faces that take much of what plastic flow dissipates are told of
     }
 }
 
+TEST_CASE("jumps that yield where cells hardly flow are told of, and stand in the summary where no cell does",
+          "[run][warnings]") {
+    run::RunResult<2> result;
+    result.dt = result.finest_dt = 1.0;
+    result.dissipated = {.in_cells = 0.9, .in_jumps = 0.1};
+    CHECK(run::warnings_after(result).empty());
+    result.dissipated = {.in_jumps = 0.5};
+    const auto warnings = run::warnings_after(result);
+    REQUIRE(kinds(warnings) == std::vector{WarningKind::jump_loss});
+    CHECK(warnings.front().value == 1.0);
+    CHECK_THAT(warnings.front().text, Catch::Contains("jump_cap"));
+    result.ledger.record({});
+    CHECK_THAT(run::summary_json("mine", test::block_on_plane(1e-3), result),
+               Catch::Contains("\"dissipated_in_jumps\": 0.5"));
+}
+
 TEST_CASE("a body that turns is told of from 0.1 rad on, with what it has grown by", "[run][warnings]") {
     for (const double angle : {0.09, 0.2}) {
         run::RunResult<2> result;
@@ -136,7 +153,8 @@ TEST_CASE("what a mesh left out and corners that contact cannot see are known be
     const auto warnings = run::warnings_before(scene, result);
     CHECK(kinds(warnings) == std::vector{WarningKind::mesh_file, WarningKind::unused_vertices, WarningKind::ignored_elements,
                                          WarningKind::turned_cells, WarningKind::cut_cells, WarningKind::coincident_vertices,
-                                         WarningKind::unjoined_faces, WarningKind::extrapolated_faces, WarningKind::blind_corners});
+                                         WarningKind::unjoined_faces, WarningKind::extrapolated_faces,
+                                         WarningKind::blind_corners});
     CHECK(warnings.front().text == "mesh file: node 3 is lonely");
     for (std::size_t i = 1; i < warnings.size(); ++i) CHECK(warnings[i].value == static_cast<double>(i));
     for (const std::string& part :
@@ -146,8 +164,9 @@ TEST_CASE("what a mesh left out and corners that contact cannot see are known be
     const std::string text = run::warnings_before(scene, result).back().text;
     CHECK(text.find("--facing-none") != std::string::npos);
     CHECK(text.find("--facing-cosine") == std::string::npos);
-    CHECK(kinds(run::without_notes(warnings)) == std::vector{WarningKind::mesh_file, WarningKind::coincident_vertices, WarningKind::unjoined_faces,
-                                                             WarningKind::extrapolated_faces, WarningKind::blind_corners});
+    CHECK(kinds(run::without_notes(warnings)) == std::vector{WarningKind::mesh_file, WarningKind::coincident_vertices,
+                                                             WarningKind::unjoined_faces, WarningKind::extrapolated_faces,
+                                                             WarningKind::blind_corners});
 }
 
 TEST_CASE("records that all come right after a restart are told of", "[run][warnings]") {

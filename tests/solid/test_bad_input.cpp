@@ -45,7 +45,8 @@ TEST_CASE("every number of a material is refused where it is none, and where ano
         for (const double value : {not_a_number, infinite, -2.0}) {
             solid::Material material{.law = number.law.value_or(solid::MaterialLaw::st_venant_kirchhoff)};
             material.*number.member = value;
-            CHECK_THROWS_WITH(solid::check(material, 3), Contains("body 3") && Contains(number.name) && Contains("it must be"));
+            CHECK_THROWS_WITH(solid::check(material, 3),
+                              Contains("body 3") && Contains(number.name) && Contains("it must be"));
         }
         if (!number.law) continue;
         solid::Material other{.law = solid::MaterialLaw::neo_hookean};
