@@ -5,18 +5,12 @@
 #include <map>
 #include <utility>
 
+#include "abut/contact/bevel_shape.hpp"
 #include "abut/contact/old_facets.hpp"
 #include "abut/contact/ridges.hpp"
 
 namespace abut::contact {
 namespace {
-
-constexpr double widest = 1.0 / 8.0;  // half the width of a bevel over the shorter of the two facets, at most
-constexpr double narrowest = 1.0 / 4.0;
-constexpr double stiffness_length = 1.0;  // k w of a bevel over k of the corner times its facet
-
-/// A flank that lies on a flat face sees a bevel at n_1 . n_2 = -sin(beta/2) >= -0.5, where it must not act.
-constexpr geometry::FacingFade bevel_facing{.full = -0.8, .none = -0.5};
 
 /// A sharp corner in the plane: facets a -> v and v -> b, the outside on the right.
 struct Tip {
@@ -37,34 +31,25 @@ std::optional<Tip> tip_at(const SurfaceView<2>& facets, const Ridge& ridge) {
     return tip.sine > cosine_rounding ? std::optional(tip) : std::nullopt;
 }
 
-/// gamma (a - v)/|a - v| L of a corner of a bevel is this part of a - v.
-double part_of_edge(double sine) { return std::min(narrowest, 0.5 * widest / sine); }
-
 void append_tip(const SurfaceView<2>& facets, const Tip& tip, Bevels<2>& bevels) {
     const std::int32_t a = facets.vertices_of(tip.in)[0], v_in = facets.vertices_of(tip.in)[1];
     const std::int32_t v_out = facets.vertices_of(tip.out)[0], b = facets.vertices_of(tip.out)[1];
     const double length = std::min(facets.area[tip.in], facets.area[tip.out]), gamma = part_of_edge(tip.sine);
     const double of_a = gamma * length / facets.area[tip.in], of_b = gamma * length / facets.area[tip.out];
-    const std::int32_t first = bevels.n_nodes();
-    for (const double side : {1.0, -1.0}) {
-        const auto append = [&](std::int32_t node, double weight) {
-            bevels.node.push_back(node);
-            bevels.weight.push_back(weight);
-        };
-        append(a, side * of_a);
-        append(b, -side * of_b);
-        if (v_in == v_out) {
-            append(v_in, 1.0 - side * of_a + side * of_b);
-        } else {
-            append(v_in, 0.5 - side * of_a);
-            append(v_out, 0.5 + side * of_b);
-        }
-        bevels.offsets.push_back(static_cast<std::int32_t>(bevels.node.size()));
-    }
-    bevels.corners.push_back({first, first + 1});
+    const auto corner = [&](double side) {
+        Combination y;
+        y.add(a, side * of_a);
+        y.add(b, -side * of_b);
+        y.add(v_in, 0.5 - side * of_a);
+        y.add(v_out, 0.5 + side * of_b);
+        return y.append_to(bevels);
+    };
+    const std::int32_t first = corner(1.0), second = corner(-1.0);
+    bevels.corners.push_back({first, second});
     bevels.beside.push_back({std::min(tip.in, tip.out), std::max(tip.in, tip.out)});
     const double width = 4.0 * tip.sine * gamma * length;
-    bevels.stiffening.push_back(std::max(1.0, stiffness_length * length / width));
+    bevels.stiffening.push_back(stiffening(length, width));
+    bevels.facing.push_back(bevel_facing(tip.sine));
     bevels.tips.push_back(facets.vertices[v_in]);
     bevels.width = std::max(bevels.width, 0.5 * width);
 }
@@ -77,11 +62,6 @@ Bevels<2> bevels_of(const SurfaceView<2>& facets) {
     for (const Ridge& ridge : ridges(facets))
         if (const auto tip = tip_at(facets, ridge)) append_tip(facets, *tip, bevels);
     return bevels;
-}
-
-template <>
-Bevels<3> bevels_of(const SurfaceView<3>&) {
-    return {};
 }
 
 template <int Dim>
@@ -106,9 +86,12 @@ bool BevelledSurface<Dim>::may_meet(std::int32_t facet_1, std::int32_t facet_2) 
 template <int Dim>
 geometry::PairLaw<Dim> BevelledSurface<Dim>::law_with_bevel(std::int32_t facet_1, std::int32_t facet_2,
                                                             geometry::PairLaw<Dim> law) const {
-    for (const std::int32_t facet : {facet_1, facet_2})
-        if (is_bevel(facet)) law.stiffness *= bevels_.stiffening[facet - host_.facets().size()];
-    law.facing = bevel_facing;
+    for (const std::int32_t facet : {facet_1, facet_2}) {
+        if (!is_bevel(facet)) continue;
+        const std::size_t bevel = facet - host_.facets().size();
+        law.stiffness *= bevels_.stiffening[bevel];
+        if (bevels_.facing[bevel].none < law.facing.none) law.facing = bevels_.facing[bevel];
+    }
     return law;
 }
 

@@ -25,8 +25,9 @@ struct Bevels {
     std::vector<std::array<std::int32_t, Dim>> corners;  ///< counted from 0 among the above
     std::vector<std::array<std::int32_t, 2>> beside;     ///< facets of the host that meet there, the lower one first
     std::vector<double> stiffening;  ///< F >= 1 [-]: a narrow strip gives way less, for its pressure, than a wide face
+    std::vector<geometry::FacingFade> facing;  ///< weight of its pairs; of two bevels, that of the blunter one
 
-    std::vector<Vector<Dim>> tips;  ///< corners of the body at rest that have a bevel [m]
+    std::vector<Vector<Dim>> tips;  ///< sharp corners of the body at rest that have a bevel, of their own or of an edge [m]
     double width = 0.0;             ///< largest distance of a corner of a bevel from that of its body [m]
 
     [[nodiscard]] std::int32_t n_nodes() const { return static_cast<std::int32_t>(offsets.size()) - 1; }
@@ -35,7 +36,9 @@ struct Bevels {
     [[nodiscard]] bool is_at(const Vector<Dim>& position) const { return std::ranges::find(tips, position) != tips.end(); }
 };
 
-/// The bevels of all convex corners below 60 degrees, in 2D; none in 3D. Their order is fixed; takes n log n.
+/// In 2D the bevels of all convex corners below 60 degrees. In 3D those of convex edges below 60 degrees, of edges below 95 degrees
+/// that cross an edge of another body unseen where their flanks face each other too little, and of corners which are sharper
+/// than the edges there tell. Their order is fixed; takes n log n.
 template <int Dim>
 [[nodiscard]] Bevels<Dim> bevels_of(const SurfaceView<Dim>& facets);
 

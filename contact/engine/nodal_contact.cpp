@@ -5,6 +5,7 @@
 
 #include "abut/base/error.hpp"
 #include "abut/base/messages.hpp"
+#include "abut/contact/bevel_shape.hpp"
 #include "abut/contact/bevels.hpp"
 #include "abut/contact/engine/engine.hpp"
 #include "abut/contact/host_checks.hpp"
@@ -164,7 +165,11 @@ std::vector<BlindCorner<Dim>> NodalContact<Dim>::blind_corners() const {
 
 template <int Dim>
 std::optional<EdgePair<Dim>> NodalContact<Dim>::unseen_edges() const {
-    return contact::unseen_edges<Dim>(surface().facets().view(), quarter_weight_cosine(implementation_->facing));
+    const auto edges = contact::unseen_edges<Dim>(surface().facets().view(), quarter_weight_cosine(implementation_->facing));
+    const auto has_bevel = [&](const SharpestEdge<Dim>& edge) {
+        return has_bevel_across(edge.half_angle_sine, edges->facing());
+    };
+    return edges && has_bevel(edges->edge_1) && has_bevel(edges->edge_2) ? std::nullopt : edges;
 }
 
 template <int Dim>

@@ -89,7 +89,7 @@ void run_edges(const Options& options, const Sink& sink) {
     for (const int cells : options.quick ? std::vector{8} : std::vector{20, 40})
         for (const double speed : {0.02, 0.005, 0.001})
             if (!options.quick || speed == 0.005) land(cells, speed, options, sink);
-    for (const double degrees : {60.0, 70.0, 80.0, 88.0, 90.0, 100.0})
+    for (const double degrees : {20.0, 30.0, 45.0, 60.0, 70.0, 80.0, 88.0, 90.0, 100.0})
         if (!options.quick || degrees == 100.0) cross_beams(degrees, {}, options, sink);
     for (const double degrees : {45.0, 60.0, 70.0, 90.0})
         if (!options.quick) cross_beams(degrees, {.full = -0.25, .none = -0.05}, options, sink);
