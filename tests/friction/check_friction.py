@@ -13,6 +13,7 @@ import sys
 import tempfile
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent.parent / "support"))
+import abut_meshes  # noqa: E402
 import abut_runs  # noqa: E402
 from abut_runs import main, near, require  # noqa: E402
 
@@ -213,15 +214,9 @@ def a_pair_without_friction_is_bitwise_identical(programs):
 def block_of_halves(folder):
     """A mesh file of the block of block.toml, 8 x 4 cells; the sole has the groups "left" and "right", and "sole", all of it."""
     nodes = [(0.1 * i, 0.1 * j) for j in range(5) for i in range(9)]
-    edges = [(group, i + 1, i + 2) for i in range(8) for group in (1 if i < 4 else 2, 3)]
-    cells = [(9 * j + i + 1, 9 * j + i + 2, 9 * j + i + 11, 9 * j + i + 10) for j in range(4) for i in range(8)]
-    elements = [f"1 2 {group} {group} {a} {b}" for group, a, b in edges] + [f"3 2 4 4 {' '.join(map(str, cell))}" for cell in cells]
-    path = pathlib.Path(folder) / "halves.msh"
-    path.write_text("\n".join(
-        ["$MeshFormat", "2.2 0 8", "$EndMeshFormat", "$PhysicalNames", "4", '1 1 "left"', '1 2 "right"', '1 3 "sole"', '2 4 "block"',
-         "$EndPhysicalNames", "$Nodes", str(len(nodes)), *(f"{i + 1} {x!r} {y!r} 0" for i, (x, y) in enumerate(nodes)), "$EndNodes",
-         "$Elements", str(len(elements)), *(f"{i + 1} {text}" for i, text in enumerate(elements)), "$EndElements", ""]))
-    return path
+    elements = [(1, group, (i, i + 1)) for i in range(8) for group in ("left" if i < 4 else "right", "sole")]
+    elements += [(2, "block", (9 * j + i, 9 * j + i + 1, 9 * j + i + 10, 9 * j + i + 9)) for j in range(4) for i in range(8)]
+    return abut_meshes.write_msh(pathlib.Path(folder) / "halves.msh", nodes, elements)
 
 
 def halves(folder, *pairs):

@@ -1,0 +1,51 @@
+"""Mesh files for tests whose meshes no shape of a scene has."""
+import math
+import pathlib
+
+KINDS = {(1, 2): 1, (2, 3): 2, (2, 4): 3, (3, 4): 4, (3, 8): 5, (3, 6): 6}  # of Gmsh, by dimension and number of corners
+
+
+def write_msh(path, nodes, elements):
+    """Gmsh 2.2. `nodes`: places of two or three coordinates [m]; `elements`: (dimension, name of the group, corners counted from 0)."""
+    groups = sorted({(dim, name) for dim, name, _ in elements})
+    tags = {group: i + 1 for i, group in enumerate(groups)}
+    lines = ["$MeshFormat", "2.2 0 8", "$EndMeshFormat", "$PhysicalNames", len(groups)]
+    lines += [f'{dim} {tags[dim, name]} "{name}"' for dim, name in groups]
+    lines += ["$EndPhysicalNames", "$Nodes", len(nodes)]
+    lines += [f"{i} {' '.join(repr(float(x)) for x in (*node, 0)[:3])}" for i, node in enumerate(nodes, 1)]
+    lines += ["$EndNodes", "$Elements", len(elements)]
+    lines += [f"{i} {KINDS[dim, len(corners)]} 2 {tags[dim, name]} {tags[dim, name]} {' '.join(str(c + 1) for c in corners)}"
+              for i, (dim, name, corners) in enumerate(elements, 1)]
+    path = pathlib.Path(path)
+    path.write_text("\n".join(map(str, [*lines, "$EndElements", ""])))
+    return path
+
+
+def block_of_rows(path, name, lower, upper, counts, uneven=0.0, held=()):
+    """A rectangle of quadrangles. Inner nodes are up to `uneven` of a row higher or lower. `held`: sides in the group "held", of
+    "left", "right", "below" and "above"."""
+    nx, ny = counts
+    at = lambda i, j: (nx + 1) * j + i
+    height = (upper[1] - lower[1]) / ny
+    inner = lambda i, j: uneven * height * math.sin(5 * i + 3 * j) if 0 < i < nx and 0 < j < ny else 0
+    nodes = [(lower[0] + (upper[0] - lower[0]) * i / nx, lower[1] + height * j + inner(i, j)) for j in range(ny + 1) for i in range(nx + 1)]
+    sides = {"left": [(at(0, j), at(0, j + 1)) for j in range(ny)], "right": [(at(nx, j), at(nx, j + 1)) for j in range(ny)],
+             "below": [(at(i, 0), at(i + 1, 0)) for i in range(nx)], "above": [(at(i, ny), at(i + 1, ny)) for i in range(nx)]}
+    cells = [(at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)) for j in range(ny) for i in range(nx)]
+    return write_msh(path, nodes, [(1, "held", edge) for side in held for edge in sides[side]] + [(2, name, cell) for cell in cells])
+
+
+def cylinder_of_rings(path, name, radius, length, rings, sectors, layers):
+    """A cylinder that stands on z = 0: prisms about its axis and rings of hexahedra around them."""
+    at = lambda k, i, j: k * (1 + rings * sectors) + (1 + (i - 1) * sectors + j % sectors if i else 0)
+    nodes, cells = [], []
+    for k in range(layers + 1):
+        nodes.append((0, 0, length * k / layers))
+        nodes += [(radius * i / rings * math.cos(a), radius * i / rings * math.sin(a), length * k / layers)
+                  for i in range(1, rings + 1) for a in (2 * math.pi * j / sectors for j in range(sectors))]
+    for k in range(layers):
+        for j in range(sectors):
+            for i in range(rings):
+                base = [(i, j), (i + 1, j), (i + 1, j + 1), *([(i, j + 1)] if i else [])]
+                cells.append((3, name, [at(h, *corner) for h in (k, k + 1) for corner in base]))
+    return write_msh(path, nodes, cells)
