@@ -14,9 +14,10 @@ namespace abut::run {
 /// where the whole run has slid well.
 class SlidingWindows {
 public:
-    static constexpr std::int64_t records_per_window =
-        50;  ///< a fortieth of a run with as many records as there are by default
-    /// Part of the limit of the window with most of it from which on a window counts [-]: faces that stick slip a little now and then.
+    /// An eightieth of a run with as many records as there are by default: one of them lies within any bad fortieth.
+    static constexpr std::int64_t records_per_window = 25;
+    /// Part of the limit of the window with most of it that a part of the run has at least [-]: windows with less are joined with those after
+    /// them, as faces that stick slip a little now and then.
     static constexpr double least_part = 0.1;
 
     /// A record of a run: what happened until then.
@@ -32,12 +33,17 @@ public:
         last_limit_ = report.sliding_limit;
     }
 
-    /// The least of a window [-]; infinity where nothing has slid.
+    /// The least of a part of the run [-]; infinity where nothing has slid.
     [[nodiscard]] double least_share() const {
-        double most = 0.0, least = std::numeric_limits<double>::infinity();
-        for (const double limit : limit_) most = std::max(most, limit);
-        for (std::size_t i = 0; i < limit_.size(); ++i)
-            if (limit_[i] > 0.0 && limit_[i] >= least_part * most) least = std::min(least, force_[i] / limit_[i]);
+        double most = 0.0, least = std::numeric_limits<double>::infinity(), force = 0.0, limit = 0.0;
+        for (const double one : limit_) most = std::max(most, one);
+        for (std::size_t i = 0; i < limit_.size(); ++i) {
+            force += force_[i];
+            limit += limit_[i];
+            if (limit < least_part * most) continue;
+            if (limit > 0.0) least = std::min(least, force / limit);
+            force = limit = 0.0;
+        }
         return least;
     }
 

@@ -167,6 +167,18 @@ def a_slip_that_alternates_is_said(programs):
 
 
 @claim
+def a_slip_that_alternates_in_a_part_of_a_run_is_said(programs):
+    """At half the step the shaken block is lost after half of its time: the mean over the whole run hides it."""
+    table = keys(bodies__block__velocity="[0, 0]", obstacles__floor__path='["0.5/(4*pi)*(1 - cos(4*pi*t))", "0"]',
+                 run__time=22)
+    done = run(programs, "block.toml", *table, "--cfl", "0.45", "--filter", "neutral", "--restart", "0").require_end()
+    friction = done.summary["friction"]
+    require(friction["sliding_share"] > 0.6, f"the whole run has {friction['sliding_share']:.2g}: this scene shows nothing of parts")
+    require(friction["least_sliding_share"] < 0.1, f"the least of a part is {friction['least_sliding_share']:.2g}")
+    require(done.warns_of("alternates from step to step"), f"nothing is said:\n{done.said}")
+
+
+@claim
 def belt_and_floor(programs):
     """A block that is put on a belt at 1 m/s ends with its velocity: D = m V^2/2, W = m V^2 on the belt."""
     done = run(programs, "block.toml", *keys(bodies__block__velocity="[0, 0]", obstacles__floor__velocity="[1, 0]")).require_end()

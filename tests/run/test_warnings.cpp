@@ -105,6 +105,30 @@ TEST_CASE("jumps that yield where cells hardly flow are told of, and stand in th
                Catch::Contains("\"dissipated_in_jumps\": 0.5"));
 }
 
+TEST_CASE("a slip that alternates in a fortieth of the records is told of wherever it is, though the whole run slides well",
+          "[run][warnings]") {
+    const auto result_with = [](std::int64_t begin, std::int64_t end) {
+        run::RunResult<2> result;
+        for (std::int64_t i = 0; i < 2000; ++i) {
+            const double limit = i < 900 ? 1.0 : i < 950 ? 0.0 : 1e-3;  // it slides, sticks, and slips a little now and then
+            result.contact.sliding_limit += limit;
+            result.contact.sliding_force += limit * (begin <= i && i < end ? 0.05 : 0.95);
+            result.sliding.record(result.contact);
+        }
+        return result;
+    };
+    CHECK(run::warnings_after(result_with(0, 0)).empty());
+    CHECK(run::warnings_after(result_with(1000, 1050)).empty());  // hardly anything slides
+    for (const std::int64_t begin : {0, 13, 25, 387, 840}) {
+        const run::RunResult<2> result = result_with(begin, begin + 50);
+        CHECK(result.contact.sliding_force > 0.85 * result.contact.sliding_limit);
+        const auto warnings = run::warnings_after(result);
+        REQUIRE(kinds(warnings) == std::vector{WarningKind::alternating_slip});
+        CHECK(warnings.front().value < 0.06);
+        CHECK(warnings.front().threshold == run::least_sliding_share);
+    }
+}
+
 TEST_CASE("a body that turns is told of from 0.1 rad on, with what it has grown by", "[run][warnings]") {
     for (const double angle : {0.09, 0.2}) {
         run::RunResult<2> result;
