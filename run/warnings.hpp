@@ -31,8 +31,8 @@ inline constexpr double large_face_loss = 0.1;
 inline constexpr double large_jump_loss = 0.1;
 
 /// Force of sliding faces over the limit at which they slide, in a part of a run (SlidingWindows): far below it their slip
-/// alternates from step to step [-]. Sound runs have 0.72 and more, of blocks that come to a stop, and lost ones 0.05 and less
-/// (docs/friction.md).
+/// alternates from step to step [-]. Sound runs have 0.64 and more, the least where a block comes to a stop, and lost ones
+/// 0.05 and less (docs/friction.md).
 inline constexpr double least_sliding_share = 0.4;
 /// (H - H~) over the energy in play above which the motion swings from step to step by more than belongs to it [-].
 inline constexpr double large_energy_excess = 0.02;
