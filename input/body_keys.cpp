@@ -1,8 +1,10 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "abut/input/keys.hpp"
 #include "abut/run/option_table.hpp"
@@ -70,6 +72,23 @@ std::vector<Word<solid::MaterialLaw>> material_laws() {
     return {solid::material_law_words.begin(), solid::material_law_words.end()};
 }
 
+std::optional<std::vector<solid::HardeningPoint>> read_hardening(Reader& reader, const Node& node, const std::string& key) {
+    const auto is_row = [](const Node& row) { return row.type == Node::Type::array && row.items.size() == 2; };
+    if (node.type != Node::Type::array || node.items.empty() || !std::ranges::all_of(node.items, is_row)) {
+        reader.wrong_type(node, key, "a list of rows [plastic strain, stress in Pa]");
+        return std::nullopt;
+    }
+    std::vector<solid::HardeningPoint> table;
+    for (std::size_t i = 0; i < node.items.size(); ++i) {
+        const std::string row = key + ", row " + std::to_string(i + 1);
+        const auto strain = reader.number(node.items[i].items[0], row, {.above = 0.0, .zero = true});
+        const auto stress = reader.number(node.items[i].items[1], row, {.unit = "Pa", .above = 0.0});
+        if (!strain || !stress) return std::nullopt;
+        table.push_back({*strain, *stress});
+    }
+    return table;
+}
+
 /// Of a material by itself, and of a body that has one of its own.
 template <class Section>
 Keys<Section> material_values() {
@@ -86,6 +105,14 @@ Keys<Section> material_values() {
                     "law", [](Section& section) -> solid::MaterialLaw& { return section.material.law; }, material_laws(),
                     "what it does beyond small strains: st_venant_kirchhoff up to 0.1, in finite bodies neo_hookean and "
                     "mooney_rivlin (rubber) beyond, j2: metal that yields"));
+    const auto behind_hardening = std::ranges::find(keys, std::string("power_exponent"), &Key<Section>::name) + 1;
+    keys.insert(behind_hardening,
+                key_of<Section>(
+                    "hardening_table", "list of [plastic strain, stress]",
+                    "of j2, in the place of yield_stress and of what rises: where it flows after a plastic strain, from 0 "
+                    "on, straight between rows and constant behind the last [Pa]",
+                    [](Section& section) -> std::vector<solid::HardeningPoint>& { return section.material.hardening_table; },
+                    read_hardening));
     return keys;
 }
 
@@ -112,9 +139,10 @@ const Keys<RefinementSettings>& refinement_keys() {
 const Keys<Body>& body_keys() {
     static const Keys<Body> keys = [] {
         Keys<Body> all = {
-            Of::text("material", &Body::material_name, "text",
-                     "[materials.NAME] that it is made of, or one that is known by its name (abut materials): of the values of "
-                     "a material it gives those that the body does not"),
+            Of::text(
+                "material", &Body::material_name, "text",
+                "[materials.NAME] that it is made of, or one that is known by its name (abut materials): of the values of "
+                "a material it gives those that the body does not"),
             Of::word("kinematics", &Body::kinematics, body_kinematics(),
                      "how it may move: without turns, in a frame that turns, bending, or rigid"),
             Of::vector("place", &Body::place, "m", "0",

@@ -89,9 +89,13 @@ void take_material(BodySettings& body, const Node& name, const std::string& path
                                    path, name.text, hint_of_name(name.text, names)));
 }
 
-/// That of a material known by its name, where the law needs one and the scene gives none.
+/// That of the table, or of a material known by its name, where the law needs one and the scene gives none.
 void take_yield_stress(BodySettings& body, const std::vector<MaterialSettings>& materials) {
     if (body.material.law != solid::MaterialLaw::j2 || body.material.yield_stress > 0.0) return;
+    if (const auto& table = body.material.hardening_table; !table.empty()) {
+        body.material.yield_stress = table.front().stress;
+        return;
+    }
     if (std::ranges::find(materials, body.material_name, &MaterialSettings::name) != materials.end()) return;
     if (const KnownMaterial* known = known_material(body.material_name)) body.material.yield_stress = known->yield_stress;
 }

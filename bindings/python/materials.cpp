@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "abut/base/error.hpp"
 #include "abut/input/materials.hpp"
@@ -43,6 +45,21 @@ double material_value(const solid::MaterialNumber& number, const py::handle& val
     }
 }
 
+/// Rows [plastic strain, stress], stresses also as texts with units.
+std::vector<solid::HardeningPoint> hardening_table(const py::handle& rows) {
+    std::vector<solid::HardeningPoint> table;
+    try {
+        for (const py::handle& row : rows) {
+            const auto [strain, stress] = py::cast<std::pair<double, py::object>>(row);
+            table.push_back({strain, number_in("Pa", stress)});
+        }
+    } catch (const py::cast_error&) {
+        throw py::type_error("hardening_table cannot be " + std::string(py::str(py::repr(rows))) +
+                             "; it is a list of rows [plastic strain, stress]");
+    }
+    return table;
+}
+
 solid::Material material_of(const std::optional<std::string>& name, const py::kwargs& values) {
     const input::KnownMaterial* known = name ? &known_by(*name) : nullptr;
     solid::Material material = known ? known->material : solid::Material{};
@@ -51,12 +68,17 @@ solid::Material material_of(const std::optional<std::string>& name, const py::kw
         const auto number = std::ranges::find(solid::material_numbers, word, &solid::MaterialNumber::name);
         if (word == "law")
             material.law = material_law(py::cast<std::string>(value));
+        else if (word == "hardening_table")
+            material.hardening_table = hardening_table(value);
         else if (number != solid::material_numbers.end())
             material.*(number->member) = material_value(*number, value);
         else
             throw py::type_error("Material has no value '" + word + "'");
     }
-    if (known && material.law == solid::MaterialLaw::j2 && !values.contains("yield_stress"))
+    if (values.contains("yield_stress")) return material;
+    if (!material.hardening_table.empty())
+        material.yield_stress = material.hardening_table.front().stress;
+    else if (known && material.law == solid::MaterialLaw::j2)
         material.yield_stress = known->yield_stress;
     return material;
 }
@@ -94,6 +116,20 @@ void add_materials(py::module_& module) {
         [](solid::Material& material, const std::string& law) { material.law = material_law(law); },
         "beyond small strains: 'st_venant_kirchhoff', of finite bodies 'neo_hookean' or 'mooney_rivlin', or 'j2', which "
         "yields");
+    of_material.def_property(
+        "hardening_table",
+        [](const solid::Material& material) {
+            std::vector<std::pair<double, double>> rows;
+            for (const auto& [strain, stress] : material.hardening_table) rows.emplace_back(strain, stress);
+            return rows;
+        },
+        [](solid::Material& material, const py::object& rows) {
+            material.hardening_table = hardening_table(rows);
+            if (!material.hardening_table.empty()) material.yield_stress = material.hardening_table.front().stress;
+        },
+        "of j2, in the place of yield_stress and of what rises: rows [plastic strain, stress at which it flows there [Pa]], "
+        "from "
+        "the strain 0 on; straight between rows, constant behind the last");
     module.def("known_materials", &all_known,
                "Materials that scenes and Material know by their names: values [Pa, kg/m^3], yield_stress 0 where there is "
                "none, and "

@@ -110,13 +110,15 @@ Markup bodies_part(const Figures& figures, const Scene<Dim>& scene, const RunRes
                                    rows));
 }
 
-/// Figures of a material, and its law where large strains are known.
+/// Figures of a material, and its law where the body has it.
 std::vector<std::string> said_of(const solid::Material& material, bool is_finite) {
-    std::string law = is_finite ? word_of(solid::material_law_words, material.law) : "";
+    const bool yields = material.law == solid::MaterialLaw::j2;
+    std::string law = is_finite || yields ? word_of(solid::material_law_words, material.law) : "";
     if (is_finite && material.law == solid::MaterialLaw::mooney_rivlin)
         law += fmt::format(", share {:g}", material.second_share);
-    if (is_finite && material.law == solid::MaterialLaw::j2)
-        law += fmt::format(", yields at {:g} Pa", material.yield_stress);
+    if (yields)
+        law += fmt::format(", yields at {:g} Pa{}", material.yield_stress,
+                           material.knows_rates() ? ", faster flow at more" : "");
     const auto add = [&law](double value, const char* format) {
         if (value > 0.0) law += fmt::format(fmt::runtime(law.empty() ? format + 2 : format), value);
     };

@@ -12,10 +12,10 @@ namespace abut::solid {
 
 template <int Dim, class Real>
 void CcgSweeps<Dim, Real>::load_change(const StepEnds<Dim>& ends) {
+    dt_ = ends.dt;
     has_change_ = finite_.any() && !finite_.takes_ends() && !ends.start.empty();
     steps_ = (viscous_ || plastic_) && !ends.start.empty();
     if (!has_change_ && !steps_) return;
-    dt_ = ends.dt;
     load_change_.clear();
     if (steps_ && ends.start_load && ends.end_load)
         for (std::size_t b = 0; b < ends.end_load->displacement.size(); ++b)
@@ -67,7 +67,7 @@ void CcgSweeps<Dim, Real>::add_linear_stress(std::int32_t c) {
     if (is_damped) add_stress(c, viscous_->stress(c, Matrix<Dim>::Zero(), change, dt_));
     if (!flows) return;
     const Matrix<Dim> mean = unload(present_gradient(c));
-    add_stress(c, steps_ ? Matrix<Dim>(-plastic_->advance(c, mean - 0.5 * change, mean + 0.5 * change))
+    add_stress(c, steps_ ? Matrix<Dim>(-plastic_->advance(c, mean - 0.5 * change, mean + 0.5 * change, dt_))
                          : Matrix<Dim>(-plastic_->stress(c)));
     if (capped_ && capped_->contains(c)) add_lasting_jumps(c);
 }
@@ -119,7 +119,7 @@ void CcgSweeps<Dim, Real>::advance(std::int32_t c, std::int32_t inelastic, const
     const std::span<double> after = end.of(inelastic);
     const auto advance_to = [&](const Matrix<Dim>& reached) {
         std::ranges::copy(before, after.begin());
-        flows_[static_cast<std::size_t>(inelastic)] = law.advance(reached, after).dissipates ? 1 : 0;
+        flows_[static_cast<std::size_t>(inelastic)] = law.advance(reached, dt_, after).dissipates ? 1 : 0;
     };
     const std::int32_t position = finite_.free_position(c);
     if (position < 0) return advance_to(g);
@@ -128,7 +128,7 @@ void CcgSweeps<Dim, Real>::advance(std::int32_t c, std::int32_t inelastic, const
     end.shape(inelastic) = shape;
     advance_to(LeastEnergy<Dim>(free, start.law(inelastic), g, shape).gradient());
     if (std::ranges::equal(before, after)) return;
-    const LeastEnergy<Dim> least(free, SteppedLaw<Dim>(law, before, after), g, shape);
+    const LeastEnergy<Dim> least(free, SteppedLaw<Dim>(law, dt_, before, after), g, shape);
     end.shape(inelastic) = least.shape();
     advance_to(least.gradient());
 }

@@ -7,13 +7,16 @@
 #include <numbers>
 #include <utility>
 
+#include "abut/solid/material/rising_root.hpp"
+
 namespace abut::solid {
 namespace {
 
 constexpr double free_direction = 1e-10;  // an eigenvalue of B^T C B over the largest, below which it counts as none
 constexpr double no_answer = 1e-12;       // the same of dev C_e dev, over 2 mu
-constexpr int most_root_steps = 60;
+constexpr int most_doublings = 60;
 constexpr double two_thirds = 2.0 / 3.0;
+const double slope_of_alpha = std::sqrt(two_thirds);  // in |p|
 
 /// The sides of the shear components, in their order.
 template <int Dim>
@@ -133,38 +136,28 @@ Matrix<Dim> PlasticCells<Dim>::stress(std::ptrdiff_t cell) const {
 /// How far a cell flows (|change of p|) from the trial state xi = dev C_e : (eps - p) - 2/3 H p, and `normal`, its direction at the end:
 /// the root of sum of y^2/(rho + g b)^2 = 1 over the axes, with y = xi along one, b its answer and rho the radius at the end.
 template <int Dim>
-double PlasticCells<Dim>::flow(const Cell& cell, const Strain& trial, Strain& normal) const {
-    const Material& material = *cell.material;
-    const double alpha = cell.memory.equivalent, slope = std::sqrt(two_thirds);
-    const auto radius = [&](double g) { return slope * material.flow_stress(alpha + slope * g); };
-    if (trial.norm() <= radius(0.0)) return 0.0;
+double PlasticCells<Dim>::flow(const Cell& cell, const FlowStress& stress, const Strain& trial, Strain& normal) const {
+    if (trial.norm() <= slope_of_alpha * stress.at_start()) return 0.0;
     const Response& of = response(cell);
     const Strain y = of.axes.transpose() * trial;
-    const Strain b = of.values + two_thirds * material.kinematic_hardening * Strain::Ones();
+    const Strain b = of.values + two_thirds * cell.material->kinematic_hardening * Strain::Ones();
     // Of the sum S the root of S^-1/2 = 1, which is nearly a line in g.
     const auto excess = [&](double g) {
-        const double rho = radius(g), rise = two_thirds * material.hardening_modulus(alpha + slope * g);
+        const auto [at, slope] = stress.at(slope_of_alpha * g);
+        const double rho = slope_of_alpha * at, rise = two_thirds * slope;
         double sum = 0.0, change = 0.0;
         for (int k = 0; k < n_strains; ++k) {
-            const double at = y[k] / (rho + g * b[k]);
-            sum += at * at;
-            change -= 2.0 * at * at * (rise + b[k]) / (rho + g * b[k]);
+            const double over = y[k] / (rho + g * b[k]);
+            sum += over * over;
+            change -= 2.0 * over * over * (rise + b[k]) / (rho + g * b[k]);
         }
         return std::pair{1.0 / std::sqrt(sum) - 1.0, -0.5 * change / (sum * std::sqrt(sum))};
     };
-    double low = 0.0, high = trial.norm() / (2.0 * material.mu());
+    double high = trial.norm() / (2.0 * cell.material->mu());
     for (int i = 0; excess(high).first < 0.0; high *= 2.0)
-        if (++i == most_root_steps) return 0.0;  // what a load on a face fixes does not answer to flow
-    double g = 0.0;
-    for (int i = 0; i < most_root_steps; ++i) {
-        const auto [value, change] = excess(g);
-        (value < 0.0 ? low : high) = g;
-        double next = g - value / change;
-        if (!(next >= low && next <= high)) next = 0.5 * (low + high);
-        if (std::abs(next - g) <= 1e-16 * high || next == g) break;
-        g = next;
-    }
-    const double rho = radius(g);
+        if (++i == most_doublings) return 0.0;  // what a load on a face fixes does not answer to flow
+    const double g = rising_root(excess, 0.0, high);
+    const double rho = slope_of_alpha * stress.at(slope_of_alpha * g).stress;
     Strain end;
     for (int k = 0; k < n_strains; ++k) end[k] = y[k] / (rho + g * b[k]);
     normal = of.axes * end;
@@ -172,7 +165,7 @@ double PlasticCells<Dim>::flow(const Cell& cell, const Strain& trial, Strain& no
 }
 
 template <int Dim>
-Matrix<Dim> PlasticCells<Dim>::advance(std::ptrdiff_t cell, const Matrix<Dim>& g_0, const Matrix<Dim>& g_1) {
+Matrix<Dim> PlasticCells<Dim>::advance(std::ptrdiff_t cell, const Matrix<Dim>& g_0, const Matrix<Dim>& g_1, double dt) {
     Cell& of = at(cell);
     const Stiffness &stiffness = response(of).stiffness, &whole = response_inside(of).stiffness;
     const double back = two_thirds * of.material->kinematic_hardening;
@@ -182,11 +175,15 @@ Matrix<Dim> PlasticCells<Dim>::advance(std::ptrdiff_t cell, const Matrix<Dim>& g
     of.next = of.memory;
     of.loss = 0.0;
     Strain normal;
-    if (const double g = flow(of, driving(g_1), normal); g > 0.0) {
-        of.next.plastic += g * normal;
-        of.next.equivalent += std::sqrt(two_thirds) * g;
-        const double radius = std::sqrt(two_thirds) * of.material->flow_stress(of.next.equivalent);
-        of.loss = 0.5 * of.measure * g * (normal.dot(driving(g_0)) + radius);
+    const FlowStress stress(*of.material, of.memory.equivalent, dt);
+    if (const double g = flow(of, stress, driving(g_1), normal); g > 0.0) {
+        const double radius = slope_of_alpha * stress.at(slope_of_alpha * g).stress;
+        const double loss = 0.5 * of.measure * g * (normal.dot(driving(g_0)) + radius);
+        if (loss >= 0.0 || !of.material->knows_rates()) {  // else it waits: a stress beyond the surface is one of a rate
+            of.next.plastic += g * normal;
+            of.next.equivalent += slope_of_alpha * g;
+            of.loss = loss;
+        }
     }
     return unpacked(stiffness * (0.5 * (of.memory.plastic + of.next.plastic)));
 }

@@ -8,6 +8,7 @@
 #include "abut/solid/boundary_conditions.hpp"
 #include "abut/solid/ccg/ccg.hpp"
 #include "abut/solid/kinematics/kinematics.hpp"
+#include "abut/solid/material/flow_stress.hpp"
 #include "abut/solid/material/material.hpp"
 
 namespace abut::solid {
@@ -35,8 +36,8 @@ public:
     [[nodiscard]] bool contains(std::ptrdiff_t cell) const { return any() && index_[static_cast<std::size_t>(cell)] >= 0; }
     /// C_e : p, which stress is less by [Pa].
     [[nodiscard]] Matrix<Dim> stress(std::ptrdiff_t cell) const;
-    /// Flows in a step from the displacement gradient g_0 to g_1; returns the mean of `stress` at both ends [Pa].
-    [[nodiscard]] Matrix<Dim> advance(std::ptrdiff_t cell, const Matrix<Dim>& g_0, const Matrix<Dim>& g_1);
+    /// Flows in a step of length `dt` from the displacement gradient g_0 to g_1; returns the mean of `stress` at both ends [Pa].
+    [[nodiscard]] Matrix<Dim> advance(std::ptrdiff_t cell, const Matrix<Dim>& g_0, const Matrix<Dim>& g_1, double dt);
     /// The terms of the energy that p is in [J/m^3].
     [[nodiscard]] double energy(std::ptrdiff_t cell, const Matrix<Dim>& g) const;
     /// In the plane: the stress out of it [Pa].
@@ -84,7 +85,7 @@ private:
         Memory memory, next;
         double loss;
     };
-    [[nodiscard]] double flow(const Cell& cell, const Strain& trial, Strain& normal) const;
+    [[nodiscard]] double flow(const Cell& cell, const FlowStress& stress, const Strain& trial, Strain& normal) const;
     [[nodiscard]] Cell& at(std::ptrdiff_t cell) {
         return cells_[static_cast<std::size_t>(index_[static_cast<std::size_t>(cell)])];
     }

@@ -35,8 +35,8 @@ public:
     [[nodiscard]] virtual std::vector<double> initial_memory() const = 0;
     /// W and dW/dF while z stays as it is, by the rules of StoredEnergy::at.
     [[nodiscard]] virtual Response<Dim> at(const Matrix<Dim>& g, std::span<const double> memory) const = 0;
-    /// Changes z by a step that ends at G. Afterwards `at` has the stress that is returned, up to rounding.
-    [[nodiscard]] virtual Advance<Dim> advance(const Matrix<Dim>& g, std::span<double> memory) const = 0;
+    /// Changes z by a step of length `dt` [s] that ends at G. Afterwards `at` has the stress that is returned, up to rounding.
+    [[nodiscard]] virtual Advance<Dim> advance(const Matrix<Dim>& g, double dt, std::span<double> memory) const = 0;
     /// Sets `results` to the changes of the stress of `at` for changes of F at G. False: there is no closed form, and differences are
     /// taken. Free faces of cells ask for it.
     [[nodiscard]] virtual bool stress_changes(const Matrix<Dim>& g, std::span<const double> memory,
@@ -45,9 +45,9 @@ public:
         return false;
     }
     /// Like `stress_changes`, for the stress at the end of a step that begins with this memory.
-    [[nodiscard]] virtual bool advanced_changes(const Matrix<Dim>& g, std::span<const double> memory,
+    [[nodiscard]] virtual bool advanced_changes(const Matrix<Dim>& g, double dt, std::span<const double> memory,
                                                 std::span<const Matrix<Dim>> changes, std::span<Matrix<Dim>> results) const {
-        (void)g, (void)memory, (void)changes, (void)results;
+        (void)g, (void)dt, (void)memory, (void)changes, (void)results;
         return false;
     }
     /// In the plane: Cauchy's stress out of it [Pa].
@@ -97,21 +97,22 @@ template <int Dim>
 class SteppedLaw final : public StoredEnergy<Dim> {
 public:
     /// All must outlive it. `changed` is what the memory becomes in the state that was asked for last, of the same size.
-    SteppedLaw(const InelasticLaw<Dim>& law, std::span<const double> memory, std::span<double> changed)
-        : law_(law), memory_(memory), changed_(changed) {}
+    SteppedLaw(const InelasticLaw<Dim>& law, double dt, std::span<const double> memory, std::span<double> changed)
+        : law_(law), dt_(dt), memory_(memory), changed_(changed) {}
 
     [[nodiscard]] Response<Dim> at(const Matrix<Dim>& g) const override {
         std::ranges::copy(memory_, changed_.begin());
-        return law_.advance(g, changed_).response;
+        return law_.advance(g, dt_, changed_).response;
     }
     void stress_changes(const Matrix<Dim>& g, std::span<const Matrix<Dim>> changes,
                         std::span<Matrix<Dim>> results) const override {
-        if (law_.advanced_changes(g, memory_, changes, results)) return;
+        if (law_.advanced_changes(g, dt_, memory_, changes, results)) return;
         StoredEnergy<Dim>::stress_changes(g, changes, results);
     }
 
 private:
     const InelasticLaw<Dim>& law_;
+    double dt_;
     std::span<const double> memory_;
     std::span<double> changed_;
 };

@@ -2,14 +2,15 @@
 
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "abut/base/decompositions.hpp"
+#include "abut/solid/material/rising_root.hpp"
 
 namespace abut::solid {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr int most_steps = 60;
 constexpr double same_stretch = 1e-9;  // of two axes: the slope of what is between them is taken
 const double alpha_per_flow = std::sqrt(2.0 / 3.0);
 
@@ -85,30 +86,26 @@ Response<Dim> J2Plasticity<Dim>::at(const Matrix<Dim>& g, std::span<const double
     return response(g, elastic_part(g, memory));
 }
 
-/// Delta gamma of a trial deviator of this size [Pa]: the excess over the yield surface is convex and falls, so that Newton's
-/// method comes from one side.
+/// Delta gamma of a trial deviator of this size [Pa].
 template <int Dim>
-double J2Plasticity<Dim>::flow(double size, double alpha) const {
+double J2Plasticity<Dim>::flow(double size, const FlowStress& stress) const {
     const double mu = material_.mu();
-    double flow = 0.0;
-    for (int step = 0; step < most_steps; ++step) {
-        const double at = alpha + alpha_per_flow * flow;
-        const double excess = size - 2.0 * mu * flow - alpha_per_flow * material_.flow_stress(at);
-        const double change = excess / (2.0 * mu + 2.0 / 3.0 * material_.hardening_modulus(at));
-        flow += change;
-        if (!(change > std::numeric_limits<double>::epsilon() * flow)) break;
-    }
-    return flow;
+    const auto excess = [&](double flow) {
+        const auto [at, slope] = stress.at(alpha_per_flow * flow);
+        return std::pair{2.0 * mu * flow + alpha_per_flow * at - size, 2.0 * mu + 2.0 / 3.0 * slope};
+    };
+    return rising_root(excess, 0.0, size / (2.0 * mu));
 }
 
 template <int Dim>
-Advance<Dim> J2Plasticity<Dim>::advance(const Matrix<Dim>& g, std::span<double> memory) const {
+Advance<Dim> J2Plasticity<Dim>::advance(const Matrix<Dim>& g, double dt, std::span<double> memory) const {
     Elastic elastic = elastic_part(g, memory);
     const Eigen::Vector3d deviator = elastic.strain.array() - elastic.strain.mean();
-    const double mu = material_.mu(), size = 2.0 * mu * deviator.norm(), alpha = memory.back();
-    if (!elastic.is_sound || !(size > alpha_per_flow * material_.flow_stress(alpha))) return {response(g, elastic), false};
+    const double mu = material_.mu(), size = 2.0 * mu * deviator.norm();
+    const FlowStress stress(material_, memory.back(), dt);
+    if (!elastic.is_sound || !(size > alpha_per_flow * stress.at_start())) return {response(g, elastic), false};
 
-    const double flowed = flow(size, alpha), next = alpha + alpha_per_flow * flowed;
+    const double flowed = flow(size, stress);
     elastic.strain -= flowed / deviator.norm() * deviator;
     Matrix<Dim> left = Matrix<Dim>::Zero();  // b_e - I
     for (int k = 0; k < Dim; ++k)
@@ -116,9 +113,9 @@ Advance<Dim> J2Plasticity<Dim>::advance(const Matrix<Dim>& g, std::span<double> 
     const Matrix<Dim> inverse = (Matrix<Dim>::Identity() + g).inverse();
     set_plastic_part<Dim>(inverse * (left - stretched<Dim>(g)) * inverse.transpose(), memory);
     if constexpr (Dim == 2) memory[n_plastic<2>] = std::expm1(2.0 * elastic.strain[2]);
-    memory.back() = next;
+    memory.back() += alpha_per_flow * flowed;
     Advance<Dim> advance{response(g, elastic), true};
-    advance.response.energy += material_.flow_work(next) - material_.flow_work(alpha);
+    advance.response.energy += stress.work(alpha_per_flow * flowed);
     return advance;
 }
 
@@ -138,16 +135,17 @@ bool J2Plasticity<Dim>::stress_changes(const Matrix<Dim>& g, std::span<const dou
 
 /// The tangent that is consistent with the radial return.
 template <int Dim>
-bool J2Plasticity<Dim>::advanced_changes(const Matrix<Dim>& g, std::span<const double> memory,
+bool J2Plasticity<Dim>::advanced_changes(const Matrix<Dim>& g, double dt, std::span<const double> memory,
                                          std::span<const Matrix<Dim>> changes, std::span<Matrix<Dim>> results) const {
     const Elastic elastic = elastic_part(g, memory);
     const Eigen::Vector3d deviator = elastic.strain.array() - elastic.strain.mean();
-    const double mu = material_.mu(), size = 2.0 * mu * deviator.norm(), alpha = memory.back();
+    const double mu = material_.mu(), size = 2.0 * mu * deviator.norm();
+    const FlowStress stress(material_, memory.back(), dt);
     Eigen::Vector3d strain = elastic.strain;
     Matrix<3> moduli = elastic_moduli();
-    if (size > alpha_per_flow * material_.flow_stress(alpha)) {
-        const double flowed = flow(size, alpha);
-        const double hardening = 2.0 / 3.0 * material_.hardening_modulus(alpha + alpha_per_flow * flowed);
+    if (size > alpha_per_flow * stress.at_start()) {
+        const double flowed = flow(size, stress);
+        const double hardening = 2.0 / 3.0 * stress.at(alpha_per_flow * flowed).slope;
         const Eigen::Vector3d along = deviator.normalized();
         const Matrix<3> onto = along * along.transpose();
         const Matrix<3> deviatoric = Matrix<3>::Identity() - Matrix<3>::Constant(1.0 / 3.0);

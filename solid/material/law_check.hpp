@@ -44,7 +44,7 @@ public:
         require(FrozenLaw<Dim>(law, initial));
         const auto advance = [&](const Matrix<Dim>& g, std::vector<double>& memory) {
             memory = initial;
-            return law.advance(g, memory).response;
+            return law.advance(g, step_length, memory).response;
         };
         std::vector<double> memory;
         require_slope([&](const Matrix<Dim>& g) { return advance(g, memory); },
@@ -58,6 +58,7 @@ public:
 
 private:
     static constexpr double step = 1e-5, allowed = 1e-6;  // of F; over mu
+    static constexpr double step_length = 1.0;            // [s]: a law that knows no rates has the same answer for any
 
     void require(double off, const char* what) const {
         if (!(off / material_.mu() <= allowed))

@@ -1,8 +1,10 @@
 #include "abut/solid/material/material.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "abut/base/error.hpp"
 #include "abut/base/messages.hpp"
@@ -20,23 +22,71 @@ namespace {
 
 void check(const MaterialNumber& of, const Material& material, int body) {
     const double value = material.*of.member;
+    if (of.law && *of.law != material.law && value != 0.0)
+        refuse(body, of.name, value, "it must be 0, as its law is not " + word_of(material_law_words, *of.law) + ".");
     if (!of.limits.allow(value)) {
         const std::string remedy = of.limits.remedy;
         refuse(body, of.name, value, "it must be " + text_of(of.limits) + "." + (remedy.empty() ? "" : " " + remedy));
     }
-    if (of.law && *of.law != material.law && value != 0.0)
-        refuse(body, of.name, value, "it must be 0, as its law is not " + word_of(material_law_words, *of.law) + ".");
+}
+
+struct NamedNumber {
+    const char* name;
+    double Material::*member;
+};
+/// Of which one means nothing without the other.
+constexpr std::array<std::pair<NamedNumber, NamedNumber>, 4> numbers_in_pairs{
+    {{{"saturation_rate", &Material::saturation_rate}, {"saturation", &Material::saturation}},
+     {{"power_exponent", &Material::power_exponent}, {"power_hardening", &Material::power_hardening}},
+     {{"cowper_symonds_exponent", &Material::cowper_symonds_exponent},
+      {"cowper_symonds_rate", &Material::cowper_symonds_rate}},
+     {{"johnson_cook_factor", &Material::johnson_cook_factor}, {"johnson_cook_rate", &Material::johnson_cook_rate}}}};
+/// What a table stands in the place of.
+constexpr std::array<NamedNumber, 3> other_hardening{{{"hardening", &Material::hardening},
+                                                      {"saturation", &Material::saturation},
+                                                      {"power_hardening", &Material::power_hardening}}};
+
+void check_table(const Material& material, int body) {
+    const auto& table = material.hardening_table;
+    if (table.empty()) return;
+    const auto refuse_row = [&](std::size_t row, const std::string& limit) {
+        throw BadInput("material of body " + std::to_string(body) + ": row " + std::to_string(row + 1) +
+                           " of hardening_table is [" + number(table[row].plastic_strain) + ", " +
+                           number(table[row].stress) + "]; " + limit,
+                       {.value = table[row].stress});
+    };
+    if (material.law != MaterialLaw::j2) refuse_row(0, "there may be none, as its law is not j2.");
+    for (std::size_t i = 0; i < table.size(); ++i) {
+        if (!std::isfinite(table[i].plastic_strain) || !std::isfinite(table[i].stress))
+            refuse_row(i, "it takes a plastic strain and a stress in Pa.");
+        if (i == 0 && table[i].plastic_strain != 0.0) refuse_row(i, "it must begin at the plastic strain 0.");
+        if (i == 0 && table[i].stress != material.yield_stress)
+            refuse_row(i, "its stress is where flow begins, but yield_stress is " + number(material.yield_stress) +
+                              " Pa. Give one of them, or both alike.");
+        if (i > 0 && !(table[i].plastic_strain > table[i - 1].plastic_strain))
+            refuse_row(i, "plastic strains must grow from row to row.");
+        if (i > 0 && !(table[i].stress >= table[i - 1].stress))
+            refuse_row(i, "stresses must not fall from row to row: metal that softens is not made.");
+    }
+    for (const NamedNumber& other : other_hardening)
+        if (material.*other.member > 0.0)
+            refuse(body, other.name, material.*other.member, "it must be 0 beside hardening_table, which says all of it.");
 }
 
 }  // namespace
 
 void check(const Material& material, int body) {
     for (const MaterialNumber& of : material_numbers) check(of, material, body);
+    check_table(material, body);
     if (material.law == MaterialLaw::j2 && material.yield_stress == 0.0)
         refuse(body, "yield_stress", 0.0, "j2 needs it to be above 0 Pa. Mild steel has 2.35e8 Pa.");
-    if ((material.saturation > 0.0) != (material.saturation_rate > 0.0))
-        refuse(body, "saturation_rate", material.saturation_rate,
-               "it must be above 0 where saturation is, and 0 elsewhere.");
+    for (const auto& [value, with] : numbers_in_pairs)
+        if ((material.*value.member > 0.0) != (material.*with.member > 0.0))
+            refuse(body, value.name, material.*value.member,
+                   std::string("it must be above 0 where ") + with.name + " is, and 0 elsewhere.");
+    if (material.cowper_symonds_rate > 0.0 && material.johnson_cook_rate > 0.0)
+        refuse(body, "johnson_cook_rate", material.johnson_cook_rate,
+               "it must be 0, as the rate counts by cowper_symonds_rate already. Take one law of rates.");
     if (material.law != MaterialLaw::neo_hookean && material.law != MaterialLaw::mooney_rivlin) return;
     if (material.poisson < 0.0)
         refuse(body, "poisson", material.poisson,
@@ -62,20 +112,6 @@ template <int Dim>
 std::shared_ptr<const InelasticLaw<Dim>> inelastic_law(const Material& material) {
     if (material.law != MaterialLaw::j2) return nullptr;
     return std::make_shared<J2Plasticity<Dim>>(material);
-}
-
-double Material::flow_stress(double plastic_strain) const {
-    return yield_stress + hardening * plastic_strain - saturation * std::expm1(-saturation_rate * plastic_strain);
-}
-
-double Material::hardening_modulus(double plastic_strain) const {
-    return hardening + saturation * saturation_rate * std::exp(-saturation_rate * plastic_strain);
-}
-
-double Material::flow_work(double plastic_strain) const {
-    const double linear = (yield_stress + saturation + 0.5 * hardening * plastic_strain) * plastic_strain;
-    if (saturation == 0.0) return linear;
-    return linear + saturation / saturation_rate * std::expm1(-saturation_rate * plastic_strain);
 }
 
 template std::shared_ptr<const StoredEnergy<2>> stored_energy(const Material&);

@@ -1,5 +1,6 @@
 #pragma once
 #include <memory>
+#include <vector>
 
 #include "abut/solid/material/inelastic.hpp"
 #include "abut/solid/material/stored_energy.hpp"
@@ -15,6 +16,12 @@ enum class MaterialLaw {
     j2,  ///< metal: it yields by von Mises's rule at `yield_stress`, hardens, and remembers; of all bodies that deform
 };
 
+/// A row of Material::hardening_table.
+struct HardeningPoint {
+    double plastic_strain;  ///< alpha [-]
+    double stress;          ///< at which metal flows there [Pa]
+};
+
 /// Isotropic elasticity, and plasticity where the law has it; plane strain in 2D. One for each body.
 struct Material {
     double young = 1.0;                                  ///< E [Pa], > 0
@@ -25,12 +32,23 @@ struct Material {
     double second_share =
         0.0;  ///< of MaterialLaw::mooney_rivlin: mu of the second invariant over mu [-], 0 to min(1, lambda/(2 mu))
 
-    // Of MaterialLaw::j2: it yields at yield_stress + hardening alpha + saturation (1 - exp(-saturation_rate alpha)), alpha being the
-    // equivalent plastic strain.
+    // Of MaterialLaw::j2: it yields at sigma(alpha) = yield_stress + hardening alpha + saturation (1 - exp(-saturation_rate alpha))
+    // + power_hardening alpha^power_exponent, or as hardening_table says, alpha being the equivalent plastic strain; and where the rate r of
+    // alpha counts at sigma(alpha) (1 + (r/cowper_symonds_rate)^(1/cowper_symonds_exponent)), or at
+    // sigma(alpha) (1 + johnson_cook_factor ln(r/johnson_cook_rate)), sigma(alpha) for smaller r.
     double yield_stress = 0.0;     ///< [Pa], > 0
     double hardening = 0.0;        ///< [Pa], >= 0: per plastic strain
     double saturation = 0.0;       ///< Voce's rise of the yield stress in the end [Pa], >= 0
     double saturation_rate = 0.0;  ///< per plastic strain [-]; > 0 with `saturation`
+    double power_hardening = 0.0;  ///< Ludwik's, and Johnson and Cook's B [Pa], >= 0
+    double power_exponent = 0.0;   ///< their n [-], in (0, 1] with `power_hardening`
+    /// In the place of all of these: from alpha = 0, where it is `yield_stress`, with growing alpha and stresses that do not fall. Straight
+    /// between two rows, constant behind the last.
+    std::vector<HardeningPoint> hardening_table;
+    double cowper_symonds_rate = 0.0;      ///< D [1/s], >= 0; 0: the rate does not count
+    double cowper_symonds_exponent = 0.0;  ///< q [-], >= 1 with `cowper_symonds_rate`
+    double johnson_cook_rate = 0.0;        ///< r at which the stress is sigma(alpha) [1/s], >= 0; 0: the rate does not count
+    double johnson_cook_factor = 0.0;      ///< C [-], > 0 with `johnson_cook_rate`
     double kinematic_hardening =
         0.0;  ///< Prager's: by how much yielding shifts the stresses at which it does [Pa], >= 0; not of finite bodies
     /// Largest traction of the stabilisation of jumps between cells over `yield_stress` [-], >= 0; 0: 0.1 where both cells are
@@ -61,12 +79,15 @@ struct Material {
     [[nodiscard]] double shear_ratio() const { return mu() / wave_modulus(); }
     /// `eta`, or E where none is given [Pa].
     [[nodiscard]] double stabilisation() const { return eta > 0.0 ? eta : young; }
-    /// sigma(alpha) of MaterialLaw::j2 [Pa].
+    /// sigma(alpha) of MaterialLaw::j2 [Pa], for slow flow.
     [[nodiscard]] double flow_stress(double plastic_strain) const;
     /// Its slope [Pa].
     [[nodiscard]] double hardening_modulus(double plastic_strain) const;
-    /// Its integral from 0: the work of flow per volume [J/m^3].
+    /// Its integral from 0: the work of slow flow per volume [J/m^3].
     [[nodiscard]] double flow_work(double plastic_strain) const;
+    /// What a rate of the plastic strain [1/s] multiplies it by [-], 1 or more.
+    [[nodiscard]] double rate_factor(double rate) const;
+    [[nodiscard]] bool knows_rates() const { return cowper_symonds_rate > 0.0 || johnson_cook_rate > 0.0; }
 };
 
 /// Throws BadInput naming the body, the value, the limit and the remedy.

@@ -353,6 +353,11 @@ class Runs(unittest.TestCase):
         self.assertEqual((steel.young, steel.poisson, steel.density, steel.yield_stress), (210e9, 0.3, 7850.0, 0.0))
         self.assertEqual(solid.Material("steel S235", law="j2").yield_stress, 235e6)
         self.assertEqual(solid.Material("steel S235", law="j2", yield_stress="300 MPa").yield_stress, 300e6)
+        tabled = solid.Material("steel S235", law="j2", hardening_table=[[0, "300 MPa"], (0.1, 4e8)])
+        self.assertEqual(tabled.yield_stress, 300e6)
+        self.assertEqual(tabled.hardening_table, [(0.0, 300e6), (0.1, 400e6)])
+        with self.assertRaisesRegex(TypeError, "rows"):
+            solid.Material(law="j2", hardening_table=[1, 2])
         self.assertEqual(solid.Material("steel S235", density="8 g/cm^3").density, 8000.0)
         rubber = solid.Material(young="1 MPa", density=1000, stiffness_damping="0.2 ms")
         self.assertEqual((rubber.young, rubber.density, rubber.stiffness_damping), (1e6, 1000.0, 0.0002))

@@ -54,6 +54,28 @@ TEST_CASE("a known material gives its yield stress to the law that needs one, un
     CHECK(glass.faults.front().text.find("yield_stress") != std::string::npos);
 }
 
+TEST_CASE("a body takes a table of hardening, with units, and its yield stress from the first row", "[input][materials]") {
+    const solid::Material steel = of_block(
+        "material = \"steel S235\"\nlaw = \"j2\"\nhardening_table = [[0, \"300 MPa\"], [\"2*0.05\", 4e8]]\n"
+        "cowper_symonds_rate = 40.4\ncowper_symonds_exponent = 5");
+    CHECK(steel.yield_stress == 300e6);
+    REQUIRE(steel.hardening_table.size() == 2);
+    CHECK(steel.hardening_table[1].plastic_strain == 0.1);
+    CHECK(steel.hardening_table[1].stress == 4e8);
+    CHECK(steel.cowper_symonds_rate == 40.4);
+    const WrittenScene written(two_blocks());
+    const auto fault_of = [&](const std::string& table) {
+        const auto checked =
+            input::check_scene(written.path(), {.set = {"bodies.left.law=j2", "bodies.left.hardening_table=" + table}});
+        REQUIRE_FALSE(checked.faults.empty());
+        return input::text_of(checked.faults);
+    };
+    CHECK(fault_of("[0, 1]").find("a list of rows [plastic strain, stress in Pa]") != std::string::npos);
+    CHECK(fault_of("[[0, 1, 2]]").find("a list of rows") != std::string::npos);
+    CHECK(fault_of("[[0, '1 m']]").find("hardening_table, row 1") != std::string::npos);
+    CHECK(fault_of("[[0, 2], [0.1, 1]]").find("must not fall") != std::string::npos);
+}
+
 TEST_CASE("a material of the scene goes before the known one of its name", "[input][materials]") {
     const std::string table = "[materials.\"steel S235\"]\nyoung = 1e9\ndensity = 1000\n";
     const solid::Material own = of_block("material = \"steel S235\"", table);

@@ -25,6 +25,8 @@ const Material metal{.young = 1.0,
                      .saturation = 2e-3,
                      .saturation_rate = 8.0};
 
+constexpr double any_dt = 1.0;  // of materials whose stress does not depend on rates
+
 /// A law that counts the steps of a cell that have ended; elastic as St. Venant and Kirchhoff's material.
 template <int Dim>
 class Counting : public solid::InelasticLaw<Dim> {
@@ -35,7 +37,8 @@ public:
         (void)memory;
         return linear_in_green_strain<Dim>(material_, g);
     }
-    [[nodiscard]] solid::Advance<Dim> advance(const Matrix<Dim>& g, std::span<double> memory) const override {
+    [[nodiscard]] solid::Advance<Dim> advance(const Matrix<Dim>& g, double dt, std::span<double> memory) const override {
+        (void)dt;
         memory[0] += 1.0;
         return {at(g, memory), false};
     }
@@ -71,10 +74,10 @@ TEMPLATE_TEST_CASE_SIG(
             if ((Matrix<Dim>::Identity() + first).determinant() < 0.2 ||
                 (Matrix<Dim>::Identity() + last).determinant() < 0.2)
                 continue;
-            (void)law->advance(first, memory);
+            (void)law->advance(first, any_dt, memory);
             const double before = law->plastic_strain(memory);
             auto turned_memory = memory;
-            const auto step = law->advance(last, memory);
+            const auto step = law->advance(last, any_dt, memory);
             if (!step.dissipates) continue;
             CHECK(law->plastic_strain(memory) > before);
             const double yield = std::sqrt(2.0 / 3.0) * metal.flow_stress(law->plastic_strain(memory));
@@ -88,7 +91,7 @@ TEMPLATE_TEST_CASE_SIG(
             CHECK((law->at(last, memory).stress - step.response.stress).norm() <= 1e-13);
             // The same in turned axes of space
             const Matrix<Dim> turn = turned_by<Dim>(0.8), unit = Matrix<Dim>::Identity();
-            const auto turned = law->advance(turn * (unit + last) - unit, turned_memory);
+            const auto turned = law->advance(turn * (unit + last) - unit, any_dt, turned_memory);
             CHECK((turned.response.stress - turn * step.response.stress).norm() <= 1e-13);
             for (std::size_t i = 0; i < memory.size(); ++i) CHECK(std::abs(turned_memory[i] - memory[i]) <= 1e-13);
         }
@@ -100,15 +103,15 @@ TEMPLATE_TEST_CASE_SIG("the stress at the end of a plastic step is the slope of 
     constexpr double h = 1e-6;
     for (const unsigned seed : {1u, 2u, 3u}) {
         std::vector<double> memory = law->initial_memory();
-        (void)law->advance(some_gradient<Dim>(seed, 0.05), memory);
+        (void)law->advance(some_gradient<Dim>(seed, 0.05), any_dt, memory);
         const Matrix<Dim> g = some_gradient<Dim>(seed + 10, 0.1), d = some_gradient<Dim>(seed + 20, 1.0);
         const auto energy = [&](const Matrix<Dim>& at) {
             auto changed = memory;
-            return law->advance(at, changed).response.energy;
+            return law->advance(at, any_dt, changed).response.energy;
         };
         auto changed = memory;
         const double slope = (energy(g + h * d) - energy(g - h * d)) / (2.0 * h);
-        CHECK(std::abs(law->advance(g, changed).response.stress.cwiseProduct(d).sum() - slope) <= 1e-8);
+        CHECK(std::abs(law->advance(g, any_dt, changed).response.stress.cwiseProduct(d).sum() - slope) <= 1e-8);
     }
 }
 
@@ -119,15 +122,15 @@ TEMPLATE_TEST_CASE_SIG("changes of the stress of metal are its slopes, in a stat
     for (const unsigned seed : {1u, 2u, 3u})
         for (const double size : {1e-4, 0.1}) {  // before it yields, and beyond
             std::vector<double> memory = law->initial_memory();
-            (void)law->advance(some_gradient<Dim>(seed, size), memory);
+            (void)law->advance(some_gradient<Dim>(seed, size), any_dt, memory);
             const Matrix<Dim> g = some_gradient<Dim>(seed + 10, size);
             const std::array changes{some_gradient<Dim>(seed + 20, 1.0), some_gradient<Dim>(seed + 30, 1.0)};
             std::array<Matrix<Dim>, 2> of_state, of_step;
             REQUIRE(law->stress_changes(g, memory, changes, of_state));
-            REQUIRE(law->advanced_changes(g, memory, changes, of_step));
+            REQUIRE(law->advanced_changes(g, any_dt, memory, changes, of_step));
             const auto advanced = [&](const Matrix<Dim>& at) {
                 auto changed = memory;
-                return law->advance(at, changed).response.stress;
+                return law->advance(at, any_dt, changed).response.stress;
             };
             for (std::size_t i = 0; i < 2; ++i) {
                 const Matrix<Dim> d = h * changes[i];
@@ -149,7 +152,7 @@ TEST_CASE("pure shear in the plane hardens as the closed form says, for small an
         Matrix<2> g = Matrix<2>::Zero();
         g(0, 0) = std::expm1(log);
         g(1, 1) = std::expm1(-log);
-        const auto step = law->advance(g, memory);
+        const auto step = law->advance(g, any_dt, memory);
         const double root = std::sqrt(3.0);
         const double flowed =
             std::max(0.0, (2.0 * mu * log - linear.yield_stress / root) / (2.0 * mu + 2.0 / 3.0 * linear.hardening));
@@ -310,7 +313,8 @@ TEST_CASE("a law whose step contradicts itself is refused: no energy of a run wo
             response.stress *= 1.0 + memory[0];
             return response;
         }
-        [[nodiscard]] solid::Advance<2> advance(const Matrix<2>& g, std::span<double> memory) const override {
+        [[nodiscard]] solid::Advance<2> advance(const Matrix<2>& g, double dt, std::span<double> memory) const override {
+            (void)dt;
             const solid::Response<2> before = at(g, memory);
             memory[0] += 1.0;
             return {before, false};
@@ -319,8 +323,8 @@ TEST_CASE("a law whose step contradicts itself is refused: no energy of a run wo
     class Unbalanced final : public Counting<2> {
     public:
         Unbalanced() : Counting(metal) {}
-        [[nodiscard]] solid::Advance<2> advance(const Matrix<2>& g, std::span<double> memory) const override {
-            solid::Advance<2> step = Counting::advance(g, memory);
+        [[nodiscard]] solid::Advance<2> advance(const Matrix<2>& g, double dt, std::span<double> memory) const override {
+            solid::Advance<2> step = Counting::advance(g, dt, memory);
             step.response.energy *= 1.01;
             return step;
         }

@@ -1,5 +1,5 @@
 import os
-from typing import Any, Callable, Mapping, Optional, Sequence, Union, overload
+from typing import Any, Callable, Iterable, Mapping, Optional, Sequence, Union, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -11,7 +11,7 @@ _Integers = NDArray[np.int32]
 _Field = Optional[Callable[[_Doubles], ArrayLike]]
 
 class Material:
-    def __init__(self, material: Optional[str] = ..., **kwargs: Union[float, str]) -> None: ...
+    def __init__(self, material: Optional[str] = ..., **kwargs: Any) -> None: ...
     young: float
     poisson: float
     density: float
@@ -22,6 +22,16 @@ class Material:
     hardening: float
     saturation: float
     saturation_rate: float
+    power_hardening: float
+    power_exponent: float
+    cowper_symonds_rate: float
+    cowper_symonds_exponent: float
+    johnson_cook_rate: float
+    johnson_cook_factor: float
+    @property
+    def hardening_table(self) -> list[tuple[float, float]]: ...
+    @hardening_table.setter
+    def hardening_table(self, rows: Iterable[Sequence[Union[float, str]]]) -> None: ...
     kinematic_hardening: float
     jump_cap: float
     mass_damping: float

@@ -1,0 +1,167 @@
+#include "abut/solid/material/flow_stress.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace abut::solid {
+namespace {
+
+/// One way to harden: what it adds to the yield stress, as a function of the equivalent plastic strain alpha.
+struct HardeningLaw {
+    bool (*is_given)(const Material&);
+    double (*rise)(const Material&, double alpha);   ///< [Pa], 0 at alpha = 0
+    double (*slope)(const Material&, double alpha);  ///< [Pa]
+    double (*work)(const Material&, double alpha);   ///< integral of `rise` from 0 [J/m^3]
+};
+
+/// The part of a table that begins at or before alpha, and the integral of the rise up to it.
+struct Place {
+    const HardeningPoint* point;
+    const HardeningPoint* next;  // null behind the last
+    double work;
+
+    [[nodiscard]] double slope() const {
+        return next ? (next->stress - point->stress) / (next->plastic_strain - point->plastic_strain) : 0.0;
+    }
+};
+
+Place place_in(const std::vector<HardeningPoint>& table, double alpha) {
+    Place place{table.data(), nullptr, 0.0};
+    const double first = table.front().stress;
+    for (std::size_t i = 1; i < table.size(); ++i) {
+        place.next = &table[i];
+        if (table[i].plastic_strain > alpha) return place;
+        place.work += (0.5 * (table[i - 1].stress + table[i].stress) - first) *
+                      (table[i].plastic_strain - table[i - 1].plastic_strain);
+        place.point = place.next;
+    }
+    place.next = nullptr;
+    return place;
+}
+
+/// All of them; they add up. docs/method.md, Metal that yields.
+constexpr std::array hardening_laws{
+    // Linear
+    HardeningLaw{[](const Material& of) { return of.hardening > 0.0; },
+                 [](const Material& of, double alpha) { return of.hardening * alpha; },
+                 [](const Material& of, double) { return of.hardening; },
+                 [](const Material& of, double alpha) { return 0.5 * of.hardening * alpha * alpha; }},
+    // Voce
+    HardeningLaw{[](const Material& of) { return of.saturation > 0.0; },
+                 [](const Material& of, double alpha) { return -of.saturation * std::expm1(-of.saturation_rate * alpha); },
+                 [](const Material& of, double alpha) {
+                     return of.saturation * of.saturation_rate * std::exp(-of.saturation_rate * alpha);
+                 },
+                 [](const Material& of, double alpha) {
+                     return of.saturation * (alpha + std::expm1(-of.saturation_rate * alpha) / of.saturation_rate);
+                 }},
+    // Ludwik, and Johnson and Cook
+    HardeningLaw{[](const Material& of) { return of.power_hardening > 0.0; },
+                 [](const Material& of, double alpha) { return of.power_hardening * std::pow(alpha, of.power_exponent); },
+                 [](const Material& of, double alpha) {
+                     return of.power_hardening * of.power_exponent * std::pow(alpha, of.power_exponent - 1.0);
+                 },
+                 [](const Material& of, double alpha) {
+                     return of.power_hardening * std::pow(alpha, of.power_exponent + 1.0) / (of.power_exponent + 1.0);
+                 }},
+    // A table
+    HardeningLaw{[](const Material& of) { return !of.hardening_table.empty(); },
+                 [](const Material& of, double alpha) {
+                     const Place place = place_in(of.hardening_table, alpha);
+                     return place.point->stress - of.hardening_table.front().stress +
+                            place.slope() * (alpha - place.point->plastic_strain);
+                 },
+                 [](const Material& of, double alpha) { return place_in(of.hardening_table, alpha).slope(); },
+                 [](const Material& of, double alpha) {
+                     const Place place = place_in(of.hardening_table, alpha);
+                     const double beyond = alpha - place.point->plastic_strain;
+                     return place.work +
+                            (place.point->stress - of.hardening_table.front().stress + 0.5 * place.slope() * beyond) *
+                                beyond;
+                 }}};
+
+double sum(const Material& material, double alpha, double (*HardeningLaw::*part)(const Material&, double)) {
+    double sum = 0.0;
+    for (const HardeningLaw& law : hardening_laws)
+        if (law.is_given(material)) sum += (law.*part)(material, alpha);
+    return sum;
+}
+
+/// By how much a rate of plastic strain r [1/s] raises the stress of a material, over that stress.
+struct RateLaw {
+    bool (*is_given)(const Material&);
+    double (*rise)(const Material&, double rate);      ///< factor - 1 [-], 0 at rate 0
+    double (*slope)(const Material&, double rate);     ///< [s]
+    double (*integral)(const Material&, double rate);  ///< of `rise` from 0 [1/s]
+};
+
+double over_reference(const Material& of, double rate) { return rate / of.johnson_cook_rate; }
+
+/// All of them; a material has at most one.
+constexpr std::array rate_laws{
+    // Cowper and Symonds: (r/D)^(1/q)
+    RateLaw{[](const Material& of) { return of.cowper_symonds_rate > 0.0; },
+            [](const Material& of, double rate) {
+                return std::pow(rate / of.cowper_symonds_rate, 1.0 / of.cowper_symonds_exponent);
+            },
+            [](const Material& of, double rate) {
+                const double exponent = 1.0 / of.cowper_symonds_exponent;
+                return exponent / of.cowper_symonds_rate * std::pow(rate / of.cowper_symonds_rate, exponent - 1.0);
+            },
+            [](const Material& of, double rate) {
+                const double exponent = 1.0 / of.cowper_symonds_exponent;
+                return rate * std::pow(rate / of.cowper_symonds_rate, exponent) / (exponent + 1.0);
+            }},
+    // Johnson and Cook: C ln(r/r_0), 0 below r_0
+    RateLaw{
+        [](const Material& of) { return of.johnson_cook_rate > 0.0; },
+        [](const Material& of, double rate) {
+            return of.johnson_cook_factor * std::log(std::max(1.0, over_reference(of, rate)));
+        },
+        [](const Material& of, double rate) { return over_reference(of, rate) > 1.0 ? of.johnson_cook_factor / rate : 0.0; },
+        [](const Material& of, double rate) {
+            const double over = std::max(1.0, over_reference(of, rate));
+            return of.johnson_cook_factor * of.johnson_cook_rate * (over * std::log(over) - over + 1.0);
+        }}};
+
+const RateLaw* rate_law(const Material& material) {
+    for (const RateLaw& law : rate_laws)
+        if (law.is_given(material)) return &law;
+    return nullptr;
+}
+
+}  // namespace
+
+double Material::flow_stress(double plastic_strain) const {
+    return yield_stress + sum(*this, plastic_strain, &HardeningLaw::rise);
+}
+
+double Material::hardening_modulus(double plastic_strain) const { return sum(*this, plastic_strain, &HardeningLaw::slope); }
+
+double Material::flow_work(double plastic_strain) const {
+    return yield_stress * plastic_strain + sum(*this, plastic_strain, &HardeningLaw::work);
+}
+
+double Material::rate_factor(double rate) const {
+    const RateLaw* law = rate_law(*this);
+    return law ? 1.0 + law->rise(*this, rate) : 1.0;
+}
+
+auto FlowStress::at(double flowed) const -> Value {
+    const double reached = plastic_strain_ + flowed;
+    Value value{material_.flow_stress(reached), material_.hardening_modulus(reached)};
+    if (const RateLaw* law = rate_law(material_)) {
+        value.stress += at_start_ * law->rise(material_, flowed / dt_);
+        value.slope += at_start_ * law->slope(material_, flowed / dt_) / dt_;
+    }
+    return value;
+}
+
+double FlowStress::work(double flowed) const {
+    double work = material_.flow_work(plastic_strain_ + flowed) - material_.flow_work(plastic_strain_);
+    if (const RateLaw* law = rate_law(material_)) work += at_start_ * dt_ * law->integral(material_, flowed / dt_);
+    return work;
+}
+
+}  // namespace abut::solid

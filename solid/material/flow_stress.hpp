@@ -1,0 +1,34 @@
+#pragma once
+// Private to the sources of this layer.
+#include "abut/solid/material/material.hpp"
+
+namespace abut::solid {
+
+/// The stress at which a material of MaterialLaw::j2 flows in one step, as a function of the plastic strain d that the step adds:
+///
+///     sigma(d) = sigma(alpha + d) + sigma(alpha) (factor(d/dt) - 1)
+///
+/// alpha being the equivalent plastic strain at its start, sigma(alpha) Material::flow_stress, and `factor` that of the rate. It does not
+/// fall as d grows, and is the slope of `work`: rates that multiply the stress at the start, and not that at the end, make it so.
+class FlowStress {
+public:
+    /// `dt` > 0 [s]: of the step. The material must outlive it.
+    FlowStress(const Material& material, double plastic_strain, double dt)
+        : material_(material), plastic_strain_(plastic_strain), dt_(dt), at_start_(material.flow_stress(plastic_strain)) {}
+
+    /// At d = 0 [Pa]: below it nothing flows.
+    [[nodiscard]] double at_start() const { return at_start_; }
+    struct Value {
+        double stress;  ///< [Pa]
+        double slope;   ///< per d [Pa]; infinite at d = 0 for some laws
+    };
+    [[nodiscard]] Value at(double flowed) const;
+    /// The integral of the stress from 0 to d [J/m^3].
+    [[nodiscard]] double work(double flowed) const;
+
+private:
+    const Material& material_;
+    double plastic_strain_, dt_, at_start_;
+};
+
+}  // namespace abut::solid
