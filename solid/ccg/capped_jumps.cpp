@@ -10,6 +10,8 @@ namespace {
 
 // Material::jump_cap where none is given. Gradients of bricks are central differences, so that jumps have more to hold.
 constexpr double cap_of_simplices = 0.1, cap_of_others = 0.3;
+constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
+constexpr double rounding = 1e-9;      // more than what sums of very many steps make of a jump, over the cap
 constexpr double same_normal = 1e-10;  // 1 - |cos| of two normals that count as one
 
 template <int Dim>
@@ -66,28 +68,43 @@ CappedJumps<Dim>::CappedJumps(const mesh::Mesh<Dim>& mesh, std::span<const Mater
     for (std::int32_t c = 0; c < mesh.n_cells(); ++c) capped_.push_back(yields(body_of(c)) ? 1 : 0);
     const std::vector<char> held = held_by_jumps(mesh, kinematics, conditions, free_faces);
     const auto is_held = [&](std::int32_t cell) { return held[static_cast<std::size_t>(cell)] != 0; };
-    largest_.assign(arrays.face_cells.size(), std::numeric_limits<double>::infinity());
-    for (std::size_t f = 0; f < largest_.size(); ++f) {
+    largest_.assign(arrays.half_faces.size(), std::numeric_limits<double>::infinity());
+    for (std::size_t i = 0; i < largest_.size(); ++i) {
+        const auto f = static_cast<std::size_t>(arrays.half_faces[i].face);
+        if (arrays.boundary_index[f] != no_face) continue;
         const auto [a, b] = arrays.face_cells[f];
         const double stiffness = arrays.faces[f].jump_stiffness;
         if (!contains(a) || stiffness == 0.0 || is_held(a) || is_held(b)) continue;
         const Material& material = materials[body_of(a)];
         const double by_default = is_simplex(mesh, a) && is_simplex(mesh, b) ? cap_of_simplices : cap_of_others;
         const double traction = (material.jump_cap > 0.0 ? material.jump_cap : by_default) * material.yield_stress;
-        largest_[f] = mesh.face_measure[f] * traction / stiffness;
+        largest_[i] = mesh.face_measure[f] * traction / stiffness;
     }
     memory_.assign(arrays.half_faces.size(), Vector<Dim>::Zero());
     next_ = memory_;
+    elastic_.assign(memory_.size(), Vector<Dim>::Constant(not_known));
+    next_elastic_ = elastic_;
     start_.resize(memory_.size());
     end_.resize(memory_.size());
     loss_.assign(capped_.size(), 0.0);
 }
 
 template <int Dim>
-Vector<Dim> CappedJumps<Dim>::excess(std::int32_t face, const Vector<Dim>& trial) const {
-    const double size = trial.norm(), largest = largest_[static_cast<std::size_t>(face)];
+Vector<Dim> CappedJumps<Dim>::excess(std::ptrdiff_t half_face, const Vector<Dim>& trial) const {
+    const double size = trial.norm(), largest = largest_[static_cast<std::size_t>(half_face)];
     if (!(size > largest)) return Vector<Dim>::Zero();
     return (1.0 - largest / size) * trial;
+}
+
+/// The jump at the end is twice that in the middle less that at the start.
+template <int Dim>
+bool CappedJumps<Dim>::stays_elastic(std::ptrdiff_t half_face, const Vector<Dim>& mean) {
+    const auto i = static_cast<std::size_t>(half_face);
+    next_elastic_[i] = 2.0 * (mean - memory_[i]) - elastic_[i];
+    const double largest = (1.0 - rounding) * largest_[i];
+    if (!(next_elastic_[i].squaredNorm() <= largest * largest)) return false;  // or not a number
+    next_[i] = memory_[i];
+    return true;
 }
 
 /// With J_b and [u]_b the means of both ends D = k ([u]_b - J_b) . Delta J, which is exact; half of it is of this cell.
@@ -97,8 +114,10 @@ Vector<Dim> CappedJumps<Dim>::advance(std::ptrdiff_t cell, std::ptrdiff_t half_f
     const auto i = static_cast<std::size_t>(half_face);
     const std::int32_t face = arrays_.half_faces[i].face;
     const Vector<Dim>& before = memory_[i];
-    const Vector<Dim> yielded = excess(face, mean + 0.5 * change - before);
+    const Vector<Dim> trial = mean + 0.5 * change - before;
+    const Vector<Dim> yielded = excess(half_face, trial);
     next_[i] = before + yielded;
+    next_elastic_[i] = trial - yielded;
     const Vector<Dim> lasting = 0.5 * (before + next_[i]);
     loss_[static_cast<std::size_t>(cell)] +=
         0.5 * arrays_.faces[face].jump_stiffness * (mean - lasting).dot(next_[i] - before);
@@ -131,7 +150,7 @@ auto CappedJumps<Dim>::advance(std::ptrdiff_t cell, std::ptrdiff_t half_face, co
     const Elastic& start = start_[i];
     Elastic& end = end_[i] = at(half_face, jump, gradient);
     next_[i] = memory_[i];
-    const Vector<Dim> yielded = excess(face, end.jump);
+    const Vector<Dim> yielded = excess(half_face, end.jump);
     if (yielded.isZero(0.0)) return end;
     const Matrix<Dim> deformed = Matrix<Dim>::Identity() + gradient;
     next_[i] = memory_[i] + deformed.inverse() * yielded;
@@ -150,6 +169,7 @@ auto CappedJumps<Dim>::advance(std::ptrdiff_t cell, std::ptrdiff_t half_face, co
 template <int Dim>
 void CappedJumps<Dim>::end_step() {
     std::swap(memory_, next_);
+    std::swap(elastic_, next_elastic_);
     std::swap(start_, end_);
 }
 
@@ -169,7 +189,8 @@ void CappedJumps<Dim>::put_memory(std::ptrdiff_t cell, std::vector<double>& valu
 template <int Dim>
 void CappedJumps<Dim>::set_memory(std::ptrdiff_t cell, std::span<const double> values) {
     for (std::int32_t i = arrays_.half_face_offsets[cell]; i < arrays_.half_face_offsets[cell + 1]; ++i) {
-        memory_[i] = Eigen::Map<const Vector<Dim>>(values.data());
+        memory_[i] = next_[i] = Eigen::Map<const Vector<Dim>>(values.data());
+        elastic_[i].setConstant(not_known);
         values = values.subspan(Dim);
     }
 }

@@ -1,6 +1,7 @@
 #pragma once
 // Private to the sources of this layer.
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -39,6 +40,13 @@ public:
 
     /// Nothing is dissipated in this step so far.
     void begin(std::ptrdiff_t cell) { loss_[static_cast<std::size_t>(cell)] = 0.0; }
+    /// Whether a half-face can yield at all.
+    [[nodiscard]] bool has_cap(std::ptrdiff_t half_face) const {
+        return largest_[static_cast<std::size_t>(half_face)] < std::numeric_limits<double>::infinity();
+    }
+    /// Whether a half-face that has a cap, of a body whose strains are linear, surely stays below it in a step that begins where the last one
+    /// ended, and in whose middle its jump is `mean`: then the step is made. Else `advance` must say.
+    [[nodiscard]] bool stays_elastic(std::ptrdiff_t half_face, const Vector<Dim>& mean);
     /// Lets a half-face of a body whose strains are linear yield in a step in which [u] changes by `change` about `mean`. Returns the
     /// mean of J [m].
     [[nodiscard]] Vector<Dim> advance(std::ptrdiff_t cell, std::ptrdiff_t half_face, const Vector<Dim>& mean,
@@ -75,15 +83,17 @@ public:
 private:
     [[nodiscard]] static Elastic of(const Vector<Dim>& lasting, const Vector<Dim>& jump, const Matrix<Dim>& gradient);
     /// What J changes by, in space, so that `trial` comes back to the cap [m].
-    [[nodiscard]] Vector<Dim> excess(std::int32_t face, const Vector<Dim>& trial) const;
+    [[nodiscard]] Vector<Dim> excess(std::ptrdiff_t half_face, const Vector<Dim>& trial) const;
 
     const CcgArrays<Dim>& arrays_;
     bool any_ = false;                        // known from materials alone: this rank may have no cell of them
     std::vector<char> capped_;                // of each cell; empty, as all below, where no body has them
-    std::vector<double> largest_;             // |[u] - J| at the cap, by face [m]
+    std::vector<double> largest_;             // |[u] - J| at the cap, by half-face [m]
     std::vector<Vector<Dim>> memory_, next_;  // J by half-face
-    std::vector<Elastic> start_, end_;        // by half-face, of finite bodies
-    std::vector<double> loss_;                // by cell
+    // [u] - J at the start and at the end of the step, by half-face; of bodies whose strains are linear
+    std::vector<Vector<Dim>> elastic_, next_elastic_;
+    std::vector<Elastic> start_, end_;  // by half-face, of finite bodies
+    std::vector<double> loss_;          // by cell
 };
 
 }  // namespace abut::solid

@@ -1,3 +1,5 @@
+#include <optional>
+
 #include "abut/solid/ccg/sweeps.hpp"
 
 // What the sweeps do with jumps between cells whose stabilisation yields. docs/method.md, Metal that yields.
@@ -15,27 +17,16 @@ Lanes<Dim, Real> CcgSweeps<Dim, Real>::jump(std::int32_t c, std::int32_t half_fa
 
 // Bodies whose strains are linear --------------------------------------------------------------------------------------
 
-/// For its own stress, and for the jumps of its neighbours.
+/// Of [u] in the step, where the gradient of the cell changes by `of_cell`.
 template <int Dim, class Real>
-void CcgSweeps<Dim, Real>::keep_linear_change(std::int32_t c) {
-    if (capped_->contains(c)) store_tensor(load_packed<Dim>(linear_change(c)), g_change_, c);
-}
-
-template <int Dim, class Real>
-Matrix<Dim> CcgSweeps<Dim, Real>::known_change(std::int32_t c) const {
-    return capped_ && capped_->contains(c) ? unload(load_tensor<Dim>(g_change_, c)) : linear_change(c);
-}
-
-/// Of [u] in the step.
-template <int Dim, class Real>
-Vector<Dim> CcgSweeps<Dim, Real>::jump_change(std::int32_t c, std::int32_t half_face) const {
+Vector<Dim> CcgSweeps<Dim, Real>::jump_change(std::int32_t c, std::int32_t half_face, const Matrix<Dim>& of_cell) const {
     const HalfFace& half = arrays_.half_faces[half_face];
     const auto [first, second] = arrays_.face_cells[half.face];
-    const auto of_trace = [&](std::int32_t cell, std::int32_t of_cell) {
-        return load_tensor<Dim>(g_change_, cell).times(coefficients_.lever_arms[of_cell]);
+    const auto of_trace = [&](const Matrix<Dim>& change, std::int32_t half_of_cell) {
+        return load_packed<Dim>(change).times(coefficients_.lever_arms[half_of_cell]);
     };
     const std::int32_t other = c == first ? second : first;
-    return unload(of_trace(c, half_face) - of_trace(other, half.twin) +
+    return unload(of_trace(of_cell, half_face) - of_trace(linear_change(other), half.twin) +
                   (load_packed<Dim>(u_change_, c) - load_packed<Dim>(u_change_, other)));
 }
 
@@ -45,12 +36,18 @@ void CcgSweeps<Dim, Real>::add_lasting_jumps(std::int32_t c) {
     if (steps_) capped_->begin(c);
     LaneTensor<Dim, Real> sum{};
     Vectors direct = load_packed<Dim>(direct_, c);
+    std::optional<Matrix<Dim>> change;  // of the gradient, once it is asked for
+    const auto mean_of_step = [&](std::int32_t i) -> Vector<Dim> {
+        const Vector<Dim> mean = unload(jump(c, i));
+        if (follows_ && capped_->stays_elastic(i, mean)) return capped_->lasting(i);
+        if (!change) change = linear_change(c);
+        return capped_->advance(c, i, mean, jump_change(c, i, *change));
+    };
     for (std::int32_t i = arrays_.half_face_offsets[c]; i < arrays_.half_face_offsets[c + 1]; ++i) {
-        const std::int32_t face = arrays_.half_faces[i].face;
-        if (arrays_.boundary_index[face] != no_face) continue;
-        const Vector<Dim> lasting =
-            steps_ ? capped_->advance(c, i, unload(jump(c, i)), jump_change(c, i)) : capped_->lasting(i);
-        const Vectors gradient = coefficients_.faces[face].jump_stiffness * load_packed<Dim>(lasting);
+        if (!capped_->has_cap(i)) continue;
+        const Vector<Dim> lasting = steps_ ? mean_of_step(i) : capped_->lasting(i);
+        if (lasting.isZero(0.0)) continue;
+        const Vectors gradient = coefficients_.faces[arrays_.half_faces[i].face].jump_stiffness * load_packed<Dim>(lasting);
         direct -= gradient;
         sum.add_outer(gradient, coefficients_.lever_arms[i]);
     }
@@ -110,8 +107,6 @@ Lanes<Dim, Real> CcgSweeps<Dim, Real>::elastic_jump(std::int32_t c, std::int32_t
 }
 
 #define ABUT_INSTANTIATE(Dim)                                                         \
-    template void CcgSweeps<Dim>::keep_linear_change(std::int32_t);                   \
-    template Matrix<Dim> CcgSweeps<Dim>::known_change(std::int32_t) const;            \
     template void CcgSweeps<Dim>::add_lasting_jumps(std::int32_t);                    \
     template LaneTensor<Dim> CcgSweeps<Dim>::sum_capped_jumps(std::int32_t, double&); \
     template Lanes<Dim> CcgSweeps<Dim>::elastic_jump(std::int32_t, std::int32_t) const;

@@ -323,7 +323,8 @@ Vector<Dim> Ccg<Dim>::drag(std::int32_t cell, double mass, const Vector<Dim>& mo
 
 template <int Dim>
 dynamics::Losses Ccg<Dim>::step_loss(std::int32_t cell) const {
-    dynamics::Losses loss = impl_->viscous.loss(cell);
+    dynamics::Losses loss;
+    if (impl_->viscous.any()) loss = impl_->viscous.loss(cell);
     loss.in_cells = impl_->plastic.loss(cell);
     if (impl_->finite.any_inelastic()) loss += impl_->sweeps.step_loss(cell);
     loss.in_jumps = impl_->capped.loss(cell);

@@ -121,8 +121,6 @@ void CcgSweeps<Dim, Real>::displacement_gradients_of_chunk(std::int32_t k) {
     } else if constexpr (takes_finite) {
         for_runs(cells, [&](std::int32_t c) { set_finite_displacement_gradient(c); });
     }
-    if constexpr (takes_finite)
-        if (steps_ && capped_ && !chunks_[k].has_finite) for_runs(cells, [&](std::int32_t c) { keep_linear_change(c); });
 }
 
 template <int Dim, class Real>

@@ -9,6 +9,12 @@
 // What the sweeps do with the cells of bodies of Kinematics::finite. docs/method.md, Bodies that bend.
 
 namespace abut::solid {
+namespace {
+
+/// What a step does to a cell that remembers. `as_it_was`: it remembers the same as before, and what it answers is evaluated.
+constexpr char flow = 1, as_it_was = 2;
+
+}  // namespace
 
 template <int Dim, class Real>
 void CcgSweeps<Dim, Real>::load_change(const StepEnds<Dim>& ends) {
@@ -20,9 +26,25 @@ void CcgSweeps<Dim, Real>::load_change(const StepEnds<Dim>& ends) {
     if (steps_ && ends.start_load && ends.end_load)
         for (std::size_t b = 0; b < ends.end_load->displacement.size(); ++b)
             load_change_.push_back(ends.end_load->displacement[b] - ends.start_load->displacement[b]);
+    if (std::ranges::all_of(load_change_, [](const Vector<Dim>& change) { return change.isZero(0.0); }))
+        load_change_.clear();
     parallel_each(arrays_.n_cells(), [&](std::ptrdiff_t c) {
         store(load_packed<Dim>(ends.end[c]) - load_packed<Dim>(ends.start[c]), u_change_, c);
     });
+    follows_ = plastic_ && follows_last(ends) && load_change_.empty();
+}
+
+template <int Dim, class Real>
+bool CcgSweeps<Dim, Real>::follows_last(const StepEnds<Dim>& ends) {
+    static const BoundaryLoad<Dim> none;
+    std::atomic<bool> same = last_ended_ && load_end_ == (ends.start_load ? *ends.start_load : none).displacement;
+    last_ended_ = false;
+    load_end_ = (ends.end_load ? *ends.end_load : none).displacement;
+    parallel_each(arrays_.n_cells(), [&](std::ptrdiff_t c) {
+        if (unload(load_packed<Dim>(u_end_, c)) != ends.start[c]) same.store(false, std::memory_order_relaxed);
+        store(load_packed<Dim>(ends.end[c]), u_end_, c);
+    });
+    return same;
 }
 
 /// Of û_f - u_c; prescribed displacements do not change.
@@ -58,17 +80,38 @@ void CcgSweeps<Dim, Real>::add_stress(std::int32_t c, const Matrix<Dim>& added) 
     store_tensor(sum, s_, c);
 }
 
+/// C : eps of a cell whose strains are linear, before its stress has anything beside. As below, while `stresses` of its chunk run: what its
+/// faces had is not overwritten yet.
+template <int Dim, class Real>
+Matrix<Dim> CcgSweeps<Dim, Real>::elastic_stress_of_stage(std::int32_t c) const {
+    if (arrays_.simplices.contains(c)) return unload(load_tensor<Dim>(s_, c));
+    return unload(elastic_stress(coefficients_.cells[c], load_tensor<Dim>(g_, c)));
+}
+
+template <int Dim, class Real>
+Matrix<Dim> CcgSweeps<Dim, Real>::gradient_of_stage(std::int32_t c) const {
+    if (!arrays_.simplices.contains(c)) return unload(load_tensor<Dim>(g_, c));
+    return unload(element_.gradient_of(u_.data(), c, [&](std::int32_t f) { return load_packed<Dim>(of_face_, f); }));
+}
+
+/// What flow takes of the stress of a cell, in a step the mean of both ends. `elastic`: C : eps.
+template <int Dim, class Real>
+Matrix<Dim> CcgSweeps<Dim, Real>::stress_of_flow(std::int32_t c, const Matrix<Dim>& elastic) {
+    if (!steps_ || (follows_ && plastic_->stays_elastic(c, elastic))) return plastic_->stress(c);
+    const Matrix<Dim> mean = gradient_of_stage(c), half = 0.5 * linear_change(c);
+    return plastic_->advance(c, mean - half, mean + half, dt_);
+}
+
 /// Adds the stresses of flow and damping to that of a cell whose strains are linear.
 template <int Dim, class Real>
 void CcgSweeps<Dim, Real>::add_linear_stress(std::int32_t c) {
-    const bool flows = plastic_ && plastic_->contains(c), is_damped = steps_ && viscous_ && viscous_->contains(c);
-    if (!flows && !is_damped) return;
-    const Matrix<Dim> change = steps_ ? known_change(c) : Matrix<Dim>(Matrix<Dim>::Zero());
-    if (is_damped) add_stress(c, viscous_->stress(c, Matrix<Dim>::Zero(), change, dt_));
+    const bool flows = plastic_ && plastic_->contains(c);
+    const Matrix<Dim> elastic = flows ? elastic_stress_of_stage(c) : Matrix<Dim>(Matrix<Dim>::Zero());
+    if (steps_ && viscous_ && viscous_->contains(c))
+        add_stress(c, viscous_->stress(c, Matrix<Dim>::Zero(), linear_change(c), dt_));
     if (!flows) return;
-    const Matrix<Dim> mean = unload(present_gradient(c));
-    add_stress(c, steps_ ? Matrix<Dim>(-plastic_->advance(c, mean - 0.5 * change, mean + 0.5 * change, dt_))
-                         : Matrix<Dim>(-plastic_->stress(c)));
+    const Matrix<Dim> taken = stress_of_flow(c, elastic);
+    if (!taken.isZero(0.0)) add_stress(c, -taken);
     if (capped_ && capped_->contains(c)) add_lasting_jumps(c);
 }
 
@@ -99,10 +142,12 @@ void CcgSweeps<Dim, Real>::set_finite_displacement_gradient(std::int32_t c) {
     FreeEnd<Dim>& state = free_[position];
     if (const StoredEnergy<Dim>* law = this->law(c)) {
         state.has_law = true;
-        const Matrix<Dim> shape = inelastic < 0
-                                      ? LeastEnergy<Dim>::linear_shape(free, contraction(cell.lambda, cell.mu), unload(g))
-                                      : Matrix<Dim>(here().memory->shape(inelastic));
-        state.least = LeastEnergy<Dim>(free, *law, unload(g), shape);
+        if (inelastic < 0) {
+            const Matrix<Dim> shape = LeastEnergy<Dim>::linear_shape(free, contraction(cell.lambda, cell.mu), unload(g));
+            state.least = LeastEnergy<Dim>(free, *law, unload(g), shape);
+        } else if (!advances_ || flows_[static_cast<std::size_t>(inelastic)] != as_it_was) {
+            state.least = LeastEnergy<Dim>(free, *law, unload(g), here().memory->shape(inelastic));
+        }
     } else if (free.has_one_normal()) {
         state.condensed = CondensedStep<Dim>(free, contraction(cell.lambda, cell.mu), unload(g), unload(change));
     }
@@ -110,24 +155,41 @@ void CcgSweeps<Dim, Real>::set_finite_displacement_gradient(std::int32_t c) {
 }
 
 /// Sets what an inelastic cell remembers at the end of the step, `g` of affine faces. Its free faces are where the step costs least: where
-/// they would be if the cell remembered what it did before, unless that makes it remember something else.
+/// they would be if the cell remembered what it did before, unless that makes it remember something else. Where it does not, what has been
+/// evaluated on the way is also the state at the end.
 template <int Dim, class Real>
 void CcgSweeps<Dim, Real>::advance(std::int32_t c, std::int32_t inelastic, const Matrix<Dim>& g) {
     const InelasticLaw<Dim>& law = *finite_.inelastic_cell(inelastic).law;
     CellMemory<Dim>&start = *kept_.start.memory, &end = *kept_.end.memory;
     const std::span<const double> before = start.of(inelastic);
     const std::span<double> after = end.of(inelastic);
+    char& fate = flows_[static_cast<std::size_t>(inelastic)];
+    Response<Dim> reached_response;
     const auto advance_to = [&](const Matrix<Dim>& reached) {
         std::ranges::copy(before, after.begin());
-        flows_[static_cast<std::size_t>(inelastic)] = law.advance(reached, dt_, after).dissipates ? 1 : 0;
+        const Advance<Dim> advance = law.advance(reached, dt_, after);
+        reached_response = advance.response;
+        fate = advance.dissipates ? flow : 0;
     };
     const std::int32_t position = finite_.free_position(c);
-    if (position < 0) return advance_to(g);
+    if (position < 0) {
+        advance_to(g);
+        if (fate != 0 || !keeps_ || !std::ranges::equal(before, after)) return;
+        fate = as_it_was;
+        kept_.end.energy[c] = reached_response.energy;
+        return store_tensor(load_packed<Dim>(reached_response.stress), kept_.end.stress, c);
+    }
     const FreeCell<Dim>& free = finite_.free()[position];
     const auto shape = start.shape(inelastic);
     end.shape(inelastic) = shape;
-    advance_to(LeastEnergy<Dim>(free, start.law(inelastic), g, shape).gradient());
-    if (std::ranges::equal(before, after)) return;
+    std::ranges::copy(before, after.begin());
+    const LeastEnergy<Dim> at_first(free, end.law(inelastic), g, shape);
+    advance_to(at_first.gradient());
+    if (std::ranges::equal(before, after)) {
+        if (fate == 0) fate = as_it_was;
+        free_[position].least = at_first;
+        return;
+    }
     const LeastEnergy<Dim> least(free, SteppedLaw<Dim>(law, dt_, before, after), g, shape);
     end.shape(inelastic) = least.shape();
     advance_to(least.gradient());
@@ -147,7 +209,11 @@ void CcgSweeps<Dim, Real>::set_finite_stress(std::int32_t c) {
     const LaneTensor<Dim, Real> g = load_tensor<Dim>(g_, c);
     Response<Dim> of_law;
     if (law(c)) {
-        of_law = law_response(c, unload(g));
+        const std::int32_t inelastic = finite_.inelastic(c);
+        const bool is_kept = keeps_ == &kept_.end && finite_.free_position(c) < 0 && inelastic >= 0 &&
+                             flows_[static_cast<std::size_t>(inelastic)] == as_it_was;
+        of_law = is_kept ? Response<Dim>{keeps_->energy[c], unload(load_tensor<Dim>(keeps_->stress, c))}
+                         : law_response(c, unload(g));
         for (int j = 0; j < Dim; ++j) sum.col[j] += load_packed<Dim>(Vector<Dim>(of_law.stress.col(j)));
     } else {
         const LaneTensor<Dim, Real> stress = finite_stress(c, mean_green_strain(g, load_tensor<Dim>(g_change_, c)));
@@ -202,6 +268,7 @@ void CcgSweeps<Dim, Real>::begin_step(std::span<const Vector<Dim>> u, const Boun
 template <int Dim, class Real>
 void CcgSweeps<Dim, Real>::end_step() {
     has_ended_ = looks_at_end_ = finite_.any_inelastic();
+    last_ended_ = plastic_ != nullptr;
 }
 
 template <int Dim, class Real>
@@ -272,7 +339,7 @@ void CcgSweeps<Dim, Real>::keep_end(std::int32_t c, const Response<Dim>& of_law,
     }
     if (end_.empty()) return;
     const std::int32_t inelastic = finite_.inelastic(c);
-    kept_.set_defect(c, inelastic >= 0 && flows_[static_cast<std::size_t>(inelastic)] != 0, of_jumps);
+    kept_.set_defect(c, inelastic >= 0 && flows_[static_cast<std::size_t>(inelastic)] == flow, of_jumps);
     const LaneTensor<Dim, Real> start = load_tensor<Dim>(kept_.start.s, c);
     for (int j = 0; j < Dim; ++j) sum.col[j] = 0.5 * (start.col[j] + sum.col[j]);
     store(0.5 * (load_packed<Dim>(kept_.start.direct, c) + direct), direct_, c);

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <utility>
 
+#include "abut/base/parallel.hpp"
 #include "abut/solid/material/rising_root.hpp"
 
 namespace abut::solid {
@@ -15,6 +16,7 @@ namespace {
 constexpr double free_direction = 1e-10;  // an eigenvalue of B^T C B over the largest, below which it counts as none
 constexpr double no_answer = 1e-12;       // the same of dev C_e dev, over 2 mu
 constexpr int most_doublings = 60;
+constexpr double rounding = 1e-9;  // more than what sums of very many steps make of a driving force, over the yield radius
 constexpr double two_thirds = 2.0 / 3.0;
 const double slope_of_alpha = std::sqrt(two_thirds);  // in |p|
 
@@ -123,22 +125,55 @@ PlasticCells<Dim>::PlasticCells(const mesh::Mesh<Dim>& mesh, std::span<const Mat
             responses_.push_back(response_of(materials_[body], of_cell));
         }
         index_[static_cast<std::size_t>(c)] = static_cast<std::int32_t>(cells_.size());
-        cells_.push_back({&materials_[body], number, mesh.cell_measure[c], {}, {}, 0.0});
+        cells_.push_back({.material = &materials_[body], .response = number, .measure = mesh.cell_measure[c]});
+        cells_.back().memory = memory_of(cells_.back(), Strain::Zero(), 0.0);
     }
 }
 
 template <int Dim>
-Matrix<Dim> PlasticCells<Dim>::stress(std::ptrdiff_t cell) const {
-    const Cell& of = at(cell);
-    return unpacked(response(of).stiffness * of.memory.plastic);
+auto PlasticCells<Dim>::memory_of(const Cell& cell, const Strain& plastic, double equivalent) const -> Memory {
+    const Strain stress = response(cell).stiffness * plastic;
+    return {plastic, equivalent, unpacked(stress),
+            Strain(deviator_of(stress) + two_thirds * cell.material->kinematic_hardening * plastic),
+            slope_of_alpha * cell.material->flow_stress(equivalent)};
+}
+
+/// The driving force at the end is twice that in the middle less that at the start.
+template <int Dim>
+bool PlasticCells<Dim>::stays_elastic(std::ptrdiff_t cell, const Matrix<Dim>& mean) {
+    Cell& of = at(cell);
+    Strain stress = packed(mean);
+    if constexpr (Dim == 2) stress[2] = of.material->poisson * mean.trace();
+    of.next_driving = 2.0 * (deviator_of(stress) - of.memory.shift) - of.driving;
+    const double largest = (1.0 - rounding) * of.memory.radius;
+    if (!(of.next_driving.squaredNorm() <= largest * largest)) return false;  // or not a number
+    of.flows = false;
+    of.loss = 0.0;
+    return true;
+}
+
+/// How far a cell without free faces flows: its direction is that of the trial state.
+template <int Dim>
+double PlasticCells<Dim>::flow_inside(const Cell& cell, const FlowStress& stress, double trial) const {
+    const double answer = 2.0 * cell.material->mu() + two_thirds * cell.material->kinematic_hardening;
+    const auto excess = [&](double g) {
+        const auto [at, slope] = stress.at(slope_of_alpha * g);
+        return std::pair{slope_of_alpha * at + g * answer - trial, two_thirds * slope + answer};
+    };
+    return rising_root(excess, 0.0, trial / answer);
 }
 
 /// How far a cell flows (|change of p|) from the trial state xi = dev C_e : (eps - p) - 2/3 H p, and `normal`, its direction at the end:
 /// the root of sum of y^2/(rho + g b)^2 = 1 over the axes, with y = xi along one, b its answer and rho the radius at the end.
 template <int Dim>
 double PlasticCells<Dim>::flow(const Cell& cell, const FlowStress& stress, const Strain& trial, Strain& normal) const {
-    if (trial.norm() <= slope_of_alpha * stress.at_start()) return 0.0;
+    const double size = trial.norm();
+    if (size <= cell.memory.radius) return 0.0;
     const Response& of = response(cell);
+    if (&of == &response_inside(cell)) {
+        normal = trial / size;
+        return flow_inside(cell, stress, size);
+    }
     const Strain y = of.axes.transpose() * trial;
     const Strain b = of.values + two_thirds * cell.material->kinematic_hardening * Strain::Ones();
     // Of the sum S the root of S^-1/2 = 1, which is nearly a line in g.
@@ -153,7 +188,7 @@ double PlasticCells<Dim>::flow(const Cell& cell, const FlowStress& stress, const
         }
         return std::pair{1.0 / std::sqrt(sum) - 1.0, -0.5 * change / (sum * std::sqrt(sum))};
     };
-    double high = trial.norm() / (2.0 * cell.material->mu());
+    double high = size / (2.0 * cell.material->mu());
     for (int i = 0; excess(high).first < 0.0; high *= 2.0)
         if (++i == most_doublings) return 0.0;  // what a load on a face fixes does not answer to flow
     const double g = rising_root(excess, 0.0, high);
@@ -167,25 +202,25 @@ double PlasticCells<Dim>::flow(const Cell& cell, const FlowStress& stress, const
 template <int Dim>
 Matrix<Dim> PlasticCells<Dim>::advance(std::ptrdiff_t cell, const Matrix<Dim>& g_0, const Matrix<Dim>& g_1, double dt) {
     Cell& of = at(cell);
-    const Stiffness &stiffness = response(of).stiffness, &whole = response_inside(of).stiffness;
-    const double back = two_thirds * of.material->kinematic_hardening;
-    const auto driving = [&](const Matrix<Dim>& g) {
-        return Strain(deviator_of(Strain(whole * packed(g) - stiffness * of.memory.plastic)) - back * of.memory.plastic);
-    };
-    of.next = of.memory;
+    const double mu = of.material->mu();
+    const auto elastic = [&](const Matrix<Dim>& g) { return Strain(2.0 * mu * deviator_of(packed(g))); };
+    of.flows = false;
     of.loss = 0.0;
+    const Strain at_end = elastic(g_1);
+    of.next_driving = at_end - of.memory.shift;
     Strain normal;
     const FlowStress stress(*of.material, of.memory.equivalent, dt);
-    if (const double g = flow(of, stress, driving(g_1), normal); g > 0.0) {
-        const double radius = slope_of_alpha * stress.at(slope_of_alpha * g).stress;
-        const double loss = 0.5 * of.measure * g * (normal.dot(driving(g_0)) + radius);
-        if (loss >= 0.0 || !of.material->knows_rates()) {  // else it waits: a stress beyond the surface is one of a rate
-            of.next.plastic += g * normal;
-            of.next.equivalent += slope_of_alpha * g;
-            of.loss = loss;
-        }
-    }
-    return unpacked(stiffness * (0.5 * (of.memory.plastic + of.next.plastic)));
+    const double g = flow(of, stress, of.next_driving, normal);
+    if (!(g > 0.0)) return of.memory.stress;
+    const double radius = slope_of_alpha * stress.at(slope_of_alpha * g).stress;
+    const double loss = 0.5 * of.measure * g * (normal.dot(elastic(g_0) - of.memory.shift) + radius);
+    // Else it waits: a stress beyond the surface is one of a rate.
+    of.flows = loss >= 0.0 || !of.material->knows_rates();
+    if (!of.flows) return of.memory.stress;
+    of.loss = loss;
+    of.next = memory_of(of, of.memory.plastic + g * normal, of.memory.equivalent + slope_of_alpha * g);
+    of.next_driving = at_end - of.next.shift;
+    return 0.5 * (of.memory.stress + of.next.stress);
 }
 
 template <int Dim>
@@ -204,7 +239,12 @@ double PlasticCells<Dim>::out_of_plane_stress(std::ptrdiff_t cell, const Matrix<
 
 template <int Dim>
 void PlasticCells<Dim>::end_step() {
-    for (Cell& cell : cells_) cell.memory = cell.next;
+    parallel_each(static_cast<std::ptrdiff_t>(cells_.size()), [&](std::ptrdiff_t i) {
+        Cell& cell = cells_[static_cast<std::size_t>(i)];
+        if (cell.flows) cell.memory = cell.next;
+        cell.flows = false;
+        cell.driving = cell.next_driving;
+    });
 }
 
 template <int Dim>
@@ -217,10 +257,10 @@ void PlasticCells<Dim>::put_memory(std::ptrdiff_t cell, std::vector<double>& val
 
 template <int Dim>
 void PlasticCells<Dim>::set_memory(std::ptrdiff_t cell, std::span<const double> values) {
-    Memory& memory = at(cell).memory;
-    memory.plastic = Eigen::Map<const Strain>(values.data());
-    memory.equivalent = values[n_strains];
-    at(cell).next = memory;
+    Cell& of = at(cell);
+    of.memory = memory_of(of, Eigen::Map<const Strain>(values.data()), values[n_strains]);
+    of.flows = false;
+    of.driving = unknown();
 }
 
 template class PlasticCells<2>;

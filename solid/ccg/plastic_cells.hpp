@@ -1,6 +1,7 @@
 #pragma once
 // Private to the sources of this layer.
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -34,8 +35,12 @@ public:
     /// Whether a body is of them, on any rank.
     [[nodiscard]] bool any() const { return any_; }
     [[nodiscard]] bool contains(std::ptrdiff_t cell) const { return any() && index_[static_cast<std::size_t>(cell)] >= 0; }
-    /// C_e : p, which stress is less by [Pa].
-    [[nodiscard]] Matrix<Dim> stress(std::ptrdiff_t cell) const;
+    /// C_e : p, which stress is less by [Pa]; 0 before it has flowed.
+    [[nodiscard]] const Matrix<Dim>& stress(std::ptrdiff_t cell) const { return at(cell).memory.stress; }
+    [[nodiscard]] bool has_flowed(std::ptrdiff_t cell) const { return at(cell).memory.equivalent > 0.0; }
+    /// Whether the cell surely does not flow in a step that begins where the last one ended, and in whose middle C : eps is `mean` [Pa]:
+    /// then the step is made. Else, by rounding or since nobody knows where the last one ended, `advance` must say.
+    [[nodiscard]] bool stays_elastic(std::ptrdiff_t cell, const Matrix<Dim>& mean);
     /// Flows in a step of length `dt` from the displacement gradient g_0 to g_1; returns the mean of `stress` at both ends [Pa].
     [[nodiscard]] Matrix<Dim> advance(std::ptrdiff_t cell, const Matrix<Dim>& g_0, const Matrix<Dim>& g_1, double dt);
     /// The terms of the energy that p is in [J/m^3].
@@ -47,7 +52,7 @@ public:
         return contains(cell) ? at(cell).memory.equivalent : 0.0;
     }
     /// The same at the end of the step, which may not have ended yet.
-    [[nodiscard]] double end_plastic_strain(std::ptrdiff_t cell) const { return at(cell).next.equivalent; }
+    [[nodiscard]] double end_plastic_strain(std::ptrdiff_t cell) const { return at(cell).end().equivalent; }
     /// Energy that a cell has dissipated in the step [J].
     [[nodiscard]] double loss(std::ptrdiff_t cell) const { return contains(cell) ? at(cell).loss : 0.0; }
     /// The next step begins where this one ends.
@@ -77,15 +82,26 @@ private:
     struct Memory {
         Strain plastic = Strain::Zero();
         double equivalent = 0.0;
+        // What follows from them
+        Matrix<Dim> stress = Matrix<Dim>::Zero();
+        Strain shift = Strain::Zero();  // dev C_e : p + 2/3 H p
+        double radius = 0.0;            // sqrt(2/3) sigma(alpha)
     };
     struct Cell {
         const Material* material;
         std::int32_t response;
         double measure;
-        Memory memory, next;
-        double loss;
+        Memory memory{}, next{};
+        bool flows = false;  // in the step: it ends with `next`
+        double loss = 0.0;
+        Strain driving = unknown(), next_driving = unknown();  // xi at the start and at the end of the step
+
+        [[nodiscard]] const Memory& end() const { return flows ? next : memory; }
     };
+    [[nodiscard]] static Strain unknown() { return Strain::Constant(std::numeric_limits<double>::quiet_NaN()); }
+    [[nodiscard]] Memory memory_of(const Cell& cell, const Strain& plastic, double equivalent) const;
     [[nodiscard]] double flow(const Cell& cell, const FlowStress& stress, const Strain& trial, Strain& normal) const;
+    [[nodiscard]] double flow_inside(const Cell& cell, const FlowStress& stress, double trial) const;
     [[nodiscard]] Cell& at(std::ptrdiff_t cell) {
         return cells_[static_cast<std::size_t>(index_[static_cast<std::size_t>(cell)])];
     }

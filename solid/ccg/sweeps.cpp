@@ -47,10 +47,11 @@ CcgSweeps<Dim, Real>::CcgSweeps(const CcgArrays<Dim>& arrays, const CcgCoefficie
     correction_.resize(width * arrays.boundary_faces.size());
     pair_gradient_.resize(width * arrays.boundary_faces.size());
     free_.resize(finite.free().size());
-    if (finite.any() || capped_) g_change_.resize(s_.size());
+    if (finite.any()) g_change_.resize(s_.size());
     flows_.resize(finite.n_inelastic());
     const bool has_gradients = finite.any() && !finite.takes_ends();
     if (has_gradients || viscous_ || plastic_) u_change_.resize(u_.size());
+    if (plastic_) u_end_.resize(u_.size());
     if (has_gradients) relative_change_.resize(of_face_.size());
     element_ = {tables_of(arrays, coefficients), coefficients.units};
     SweepTables<Dim, Real>& tables = element_.tables;
@@ -101,6 +102,7 @@ void CcgSweeps<Dim, Real>::gradient_of_packed(LargeArray<double>& u, const Bound
     std::swap(u_, u);
     element_.tables.u = Table<double>(u_);
     if constexpr (takes_finite) take_ends(ends);
+    follows_ = false;  // frames of bodies that turn lie between
     run_sweeps([](std::ptrdiff_t) {}, load, corrections, result);
 }
 
@@ -129,7 +131,7 @@ void CcgSweeps<Dim, Real>::run_sweeps(const LoadCell& load_cell, const BoundaryL
                 return cell_gradients_of_chunk(chunk, result);
         }
     });
-    has_change_ = steps_ = false;
+    has_change_ = steps_ = follows_ = false;
     keeps_ = nullptr;
     end_ = {};
     advances_ = false;

@@ -148,6 +148,11 @@ private:
     void load_change(const StepEnds<Dim>& ends);
     [[nodiscard]] Matrix<Dim> linear_change(std::int32_t c) const;
     void add_stress(std::int32_t c, const Matrix<Dim>& added);
+    /// Whether a step begins where the last one ended, so that what its cells remember of that end holds.
+    [[nodiscard]] bool follows_last(const StepEnds<Dim>& ends);
+    [[nodiscard]] Matrix<Dim> elastic_stress_of_stage(std::int32_t c) const;
+    [[nodiscard]] Matrix<Dim> gradient_of_stage(std::int32_t c) const;
+    [[nodiscard]] Matrix<Dim> stress_of_flow(std::int32_t c, const Matrix<Dim>& elastic);
     void add_linear_stress(std::int32_t c);
     void take_ends(const StepEnds<Dim>& ends);
     [[nodiscard]] bool is_kept(const KeptEnd<Dim>& kept, std::span<const Vector<Dim>> u,
@@ -163,9 +168,7 @@ private:
     // One jump that yields: capped_sweeps.cpp
     [[nodiscard]] Vectors jump(std::int32_t c, std::int32_t half_face) const;
     [[nodiscard]] Vectors elastic_jump(std::int32_t c, std::int32_t half_face) const;
-    void keep_linear_change(std::int32_t c);
-    [[nodiscard]] Matrix<Dim> known_change(std::int32_t c) const;
-    [[nodiscard]] Vector<Dim> jump_change(std::int32_t c, std::int32_t half_face) const;
+    [[nodiscard]] Vector<Dim> jump_change(std::int32_t c, std::int32_t half_face, const Matrix<Dim>& of_cell) const;
     void add_lasting_jumps(std::int32_t c);
     [[nodiscard]] Matrix<Dim> trace_gradient(std::int32_t c) const;
     [[nodiscard]] Matrix<Dim> gradient_at_face(std::int32_t face) const;
@@ -223,6 +226,10 @@ private:
     PlasticCells<Dim>* plastic_;
     CappedJumps<Dim>* capped_;
     bool steps_ = false;                    // while the sweeps make a step of theirs
+    bool follows_ = false;                  // that step begins where the last one ended
+    bool last_ended_ = false;               // u_end_ is where a step has ended
+    LargeArray<double> u_end_;              // of the last step; empty without `plastic_`
+    std::vector<Vector<Dim>> load_end_;     // BoundaryLoad::displacement there
     double dt_ = 0.0;                       // of that
     std::vector<Vector<Dim>> load_change_;  // of BoundaryLoad::displacement in it; empty: none
     std::vector<Chunk> chunks_;             // one more at the end
