@@ -155,6 +155,32 @@ TEST_CASE(
     }
 }
 
+TEST_CASE("a bar that is held as it flies has the plateau of the exact bilinear bar to 0.5 % and its plastic front to 1 %",
+          "[solid][material]") {
+    // E_t = E/10: an elastic front at c, a plastic one at sqrt(E_t/rho), behind it sigma_y + rho sqrt(E_t/rho) (v_0 - sigma_y/(rho c)).
+    constexpr int n = 200;
+    constexpr double yield = 1e-4, speed = 5.0 * yield, modulus = 0.1, time = 0.8;
+    const double plastic_speed = std::sqrt(modulus), plateau = yield + plastic_speed * (speed - yield);
+    Material bar{.young = 1.0, .poisson = 0.3, .density = 1.0, .law = MaterialLaw::j2, .yield_stress = yield};
+    bar.hardening = modulus / (1.0 - modulus);
+    const auto mesh = mesh::structured_box<3>({0.0, 0.0, 0.0}, {1.0, 2.0 / n, 2.0 / n}, {n, 2, 2}, CellShape::hexahedron);
+    auto options = alone<3>(bar);
+    options.boundary.dirichlet = {{.group = "xmin", .constraint = solid::Constraint::normal}};
+    TurningScene<3> scene(mesh, options, {moving<3>(-speed * Vector<3>::Unit(0))}, 0.5, Kinematics::small);
+    while (scene.memm.time() < time) scene.run(1, 100);
+    CHECK(scene.drifts().pseudo_energy <= 1e-13);
+    (void)scene.solid.potential(scene.memm.q());
+    double sum = 0.0, front = 0.0;
+    int count = 0;
+    for (std::int32_t c = 0; c < mesh.n_cells(); ++c) {
+        const double x = mesh.cell_centroid[static_cast<std::size_t>(c)][0], pressure = -scene.solid.stress(c)(0, 0);
+        if (x > 0.05 && x < 0.2) sum += pressure, ++count;
+        if (pressure > 0.5 * (plateau + yield)) front = std::max(front, x);
+    }
+    CHECK(std::abs(sum / count / plateau - 1.0) <= 0.005);
+    CHECK(std::abs(front / (plastic_speed * scene.memm.time()) - 1.0) <= 0.01);
+}
+
 TEMPLATE_TEST_CASE_SIG("metal bodies that collide under the pair potential flow, and keep H~ + D and momentum",
                        "[solid][material]", ((int Dim), Dim), 2, 3) {
     for (const Kinematics kinematics : {Kinematics::small, Kinematics::floating}) {
