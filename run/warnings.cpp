@@ -356,10 +356,11 @@ std::vector<Warning> warnings_after(const RunResult<Dim>& result) {
                         *most, far_rotation));
     if (result.finite.strain > large_strain)
         add(WarningKind::finite_strain, result.finite.strain, large_strain,
-            fmt::format("a cell of a finite body was strained by {:.2g}, {:g} is safe, and the least det F was {:.2g}: St. "
-                        "Venant and Kirchhoff's material is one of small strains, and weak in compression. Look at H - H~: "
-                        "if noise grows, take {}",
-                        result.finite.strain, large_strain, result.finite.determinant, calming_choices(result.options)));
+            fmt::format(
+                "a cell of a finite body was strained by {:.2g}, {:g} is safe, and the least det F was {:.2g}: St. "
+                "Venant and Kirchhoff's material is one of small strains, and weak in compression. Look at H - H~: "
+                "if noise grows, take {}; behind a shock linear_viscosity = 0.25 with quadratic_viscosity = 2 damps it",
+                result.finite.strain, large_strain, result.finite.determinant, calming_choices(result.options)));
     const dynamics::Losses& loss = result.dissipated;
     if (const double share = std::abs(loss.on_faces) / loss.in_cells; share > large_face_loss)
         add(WarningKind::face_loss, share, large_face_loss,

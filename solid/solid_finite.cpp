@@ -103,7 +103,8 @@ void Solid<Dim>::require_no_collapse() {
                        "', of Kinematics::finite, has collapsed: det F is " + number(determinant) + ", more than " +
                        number(least_determinant) +
                        " is needed (0: a free face is stretched too far). Load it less, refine its mesh, or take a shorter "
-                       "time step if it is noise that grows.",
+                       "time step if it is noise that grows, and linear_viscosity = 0.25 with quadratic_viscosity = 2 if it "
+                       "is a shock.",
                    {.cell = cell, .value = determinant, .allowed = least_determinant});
 }
 

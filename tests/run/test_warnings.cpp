@@ -71,6 +71,7 @@ TEST_CASE("a finite body that is strained too far is told of, with how near a ce
     CHECK(warnings.front().value == 0.31);
     CHECK(warnings.front().threshold == run::large_strain);
     CHECK(warnings.front().text.find("0.43") != std::string::npos);
+    CHECK(warnings.front().text.find("quadratic_viscosity") != std::string::npos);  // what a shock needs
 }
 
 TEST_CASE("free faces that take much of what plastic flow dissipates are told of, whatever the sign", "[run][warnings]") {
