@@ -11,6 +11,7 @@
 #include "abut/base/strided_points.hpp"
 #include "abut/contact/blind_corners.hpp"
 #include "abut/contact/friction.hpp"
+#include "abut/contact/interference.hpp"
 #include "abut/contact/nodal_step.hpp"
 #include "abut/contact/nodal_surface.hpp"
 #include "abut/contact/options.hpp"
@@ -30,6 +31,7 @@ struct NodalOptions {
     double compression_warning = 0.3;  ///< |g|/D above which a step is counted as strongly compressed
     double compression_limit = 2.0;    ///< |g|/D above which the step is refused with an error
     FrictionOptions friction;          ///< needs `NodalFaces::shear_stiffness`
+    InterferenceOptions interference;
     /// Which pairs of faces of the host may touch, beside the bodies they belong to; empty: all
     std::function<bool(Face, Face)> wanted;
 };
@@ -96,6 +98,9 @@ public:
     const NodalStep<Dim>& step_listed(double dt, PointsView<Dim> x_0, PointsView<Dim> x_1,
                                       TakenForce take = TakenForce::mean);
     const NodalStep<Dim>& evaluate_listed(PointsView<Dim> x);
+
+    /// Deepest overlap of each of `NodalOptions::interference` where the run began [m]; empty before.
+    [[nodiscard]] std::span<const double> interference() const;
 
     /// The result of the last of these calls.
     [[nodiscard]] const NodalStep<Dim>& last() const;

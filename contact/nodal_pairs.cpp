@@ -77,6 +77,10 @@ NodalPair<Dim> NodalPairs<Dim>::make_pair(const BevelledSurface<Dim>& surface, c
     if (friction_.any())
         pair.friction =
             friction_.law_between(surface.acting().face_of(of_facets.facet_1), surface.acting().face_of(of_facets.facet_2));
+    if (interference_.any())
+        pair.interference =
+            interference_.between(surface.acting().face_of(of_facets.facet_1), surface.acting().face_of(of_facets.facet_2));
+    if (pair.interference >= 0) pair.offset_before = pair.law.offset = offsets_[static_cast<std::size_t>(pair.interference)];
     pair.has_bevel = surface.has_bevel(facet_1, facet_2);
     if (pair.has_bevel) pair.law = surface.law_with_bevel(facet_1, facet_2, pair.law);
     return pair;
@@ -156,6 +160,17 @@ void NodalPairs<Dim>::prune(PointsView<Dim> x_0, PointsView<Dim> x_1, std::span<
     }
     pruned_at_.clear();
     for (const std::int32_t node : nodes_) pruned_at_.push_back(x_0[node]);
+}
+
+template <int Dim>
+void NodalPairs<Dim>::set_offsets(std::span<const double> start, std::span<const double> end) {
+    offsets_.assign(end.begin(), end.end());
+    for (std::vector<NodalPair<Dim>>* pairs : {&pairs_, &in_reach_})
+        for (NodalPair<Dim>& pair : *pairs)
+            if (pair.interference >= 0) {
+                pair.offset_before = start[static_cast<std::size_t>(pair.interference)];
+                pair.law.offset = end[static_cast<std::size_t>(pair.interference)];
+            }
 }
 
 template <int Dim>

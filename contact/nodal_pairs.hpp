@@ -14,6 +14,7 @@
 #include "abut/contact/admission.hpp"
 #include "abut/contact/bevels.hpp"
 #include "abut/contact/friction.hpp"
+#include "abut/contact/interference.hpp"
 #include "abut/contact/nodal_surface.hpp"
 #include "abut/contact/pair_store.hpp"
 #include "abut/contact/shared_work.hpp"
@@ -38,6 +39,8 @@ struct NodalPair {
     double admission_depth;                ///< D = d_1 + d_2 [m]
     bool has_bevel = false;                ///< one of its facets is a bevel
     std::int32_t friction = -1;            ///< index of its law of friction; -1: none
+    std::int32_t interference = -1;        ///< index of its time in InterferenceOptions; -1: none
+    double offset_before = 0.0;            ///< `law.offset` where the step begins [m]
     geometry::PairOutlook<Dim> outlook{};  ///< while the list holds
 
     [[nodiscard]] geometry::PairCorners<Dim> at(PointsView<Dim> x) const {
@@ -57,8 +60,13 @@ struct BodyPair {
 template <int Dim>
 class NodalPairs {
 public:
-    explicit NodalPairs(const geometry::FacingFade& facing, FrictionOptions friction = {}, Sharing* sharing = nullptr)
-        : facing_(facing), friction_(std::move(friction)), shared_(sharing) {}
+    explicit NodalPairs(const geometry::FacingFade& facing, FrictionOptions friction = {},
+                        InterferenceOptions interference = {}, Sharing* sharing = nullptr)
+        : facing_(facing),
+          friction_(std::move(friction)),
+          interference_(std::move(interference)),
+          offsets_(interference_.times.size(), 0.0),
+          shared_(sharing) {}
 
     /// For a step from x_0 to x_1, and for all positions in which no node is farther than `reach` from x_0 [m]. Leaves out
     /// of `facets` what cannot act there with |g| up to `compression` D, except those `in_contact` (increasing): boxes know
@@ -80,6 +88,9 @@ public:
     /// Those that can act in one state, and others.
     [[nodiscard]] std::span<const NodalPair<Dim>> in_reach(PointsView<Dim> x) const;
 
+    /// PairLaw::offset by InterferenceOptions::times at both ends of a step, of these pairs and those to come [m].
+    void set_offsets(std::span<const double> start, std::span<const double> end);
+
     [[nodiscard]] const std::vector<std::int32_t>& nodes() const { return nodes_; }        ///< increasing
     [[nodiscard]] const std::vector<std::int32_t>& bodies() const { return bodies_; }      ///< increasing
     [[nodiscard]] const std::vector<BodyPair>& body_pairs() const { return body_pairs_; }  ///< increasing
@@ -94,6 +105,8 @@ private:
 
     geometry::FacingFade facing_;
     FrictionOptions friction_;
+    InterferenceOptions interference_;
+    std::vector<double> offsets_;  // of each of its times, at the end of the step [m]
     SharedWork shared_;
     std::vector<NodalPair<Dim>> pairs_;
     double compression_ = 0.0;  // |g|/D up to which pairs can act

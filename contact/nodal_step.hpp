@@ -44,10 +44,13 @@ struct NodalStep {
     std::vector<PairStep<Dim>> pairs;
     std::vector<BodyStep<Dim>> bodies;          ///< those with a face in the candidate list, increasing
     std::vector<BodyPairStep<Dim>> body_pairs;  ///< the same, by (body_1, body_2), body_1 < body_2
-    double energy_0 = 0.0;                      ///< W at the start of the step [J]
+    double energy_0 = 0.0;                      ///< W at the start of the step [J], where interference has grown
     double energy = 0.0;                        ///< W at its end [J]
     double work = 0.0;                          ///< what rigid bodies on their paths did on the rest [J]
-    std::vector<FaceFriction> friction;         ///< of each facet with friction in the last step, by face
+    /// By how much W grows with the interference in the step, from outside (NodalOptions::interference); with `TakenForce::end`
+    /// the mean of that at its start and at its end [J]
+    double interference_work = 0.0;
+    std::vector<FaceFriction> friction;  ///< of each facet with friction in the last step, by face
     StepReport report;
     std::int32_t least_force_size = 0;  ///< how many nodes a force must have: up to the last one of a deformable face
 

@@ -48,6 +48,7 @@ struct CompressionLimits {
 /// - `is_pressed_in`, `decide_first`: of a pair of the list, by its index;
 /// - `sees_from_outside`: whether a pair that was no contact, since it lay inside of its body, has come out at the end of a
 ///   step: the list does not have it; `seen_from_outside`, `set_seen_from_outside`: all that have come out; `lies_inside`;
+/// - `end_step`: the last step has happened; `saved_interference`, `set_interference`: what it remembers of overlaps at the start;
 /// - `stored_energy`: what the memory of facets holds [J];
 /// - `forget_step`: no later call depends on the last step, which is refused;
 /// - `clear`: a result without a step; `step`: admission and forces of a step, gives the number of pairs that are pressed in
@@ -133,6 +134,7 @@ public:
         if (step_.report.compression > limits_.limit) refuse_depth();
         count_friction(report_, step_.report.friction, dt);
         facets_.end_step();
+        law_.end_step(dt);
         if (law_.sees_from_outside(path)) list_is_valid_ = false;
         return step_;
     }
@@ -178,12 +180,13 @@ public:
 
     [[nodiscard]] std::vector<std::byte> state() const {
         return saved(state_key(), {has_searched_, candidates_.next_skin(), report_, pairs_, facets_, new_facets_,
-                                   law_.seen_from_outside()});
+                                   law_.seen_from_outside(), law_.saved_interference()});
     }
 
     void restore(std::span<const std::byte> bytes) {
         SavedContact from = read_saved(state_key(), bytes);
         law_.set_seen_from_outside(from.seen);
+        law_.set_interference(from.interference);
         candidates_.restore_skin(from.next_skin);
         pairs_ = std::move(from.pairs);
         facets_ = std::move(from.facets);
@@ -209,6 +212,7 @@ public:
         seen.follow(law_.seen_from_outside(), [](std::size_t) { return PairMemory{}; });
         law.set_seen_from_outside(
             seen.carried_over(old_of_new, [&](FacetPair pair) { return law.lies_inside(pair); }).pairs());
+        law.set_interference(law_.saved_interference());
         // The views of the new search are of arrays that stay where they are when the law is moved.
         law_ = std::move(law);
         candidates_ = std::move(candidates);

@@ -18,6 +18,7 @@ namespace {
 NodalOptions checked(NodalOptions options, bool has_shear_stiffness) {
     check_options(options);
     check_friction(options.friction, has_shear_stiffness);
+    check(options.interference);
     const geometry::FacingFade& facing = options.facing;
     if (!(facing.full >= -1.0 && facing.full < facing.none && facing.none <= 0.0))
         throw BadInput("nodal contact: pairs fade out from n_1 . n_2 = " + number(facing.full) + " to " +
@@ -143,6 +144,11 @@ const NodalStep<Dim>& NodalContact<Dim>::step_listed(double dt, PointsView<Dim> 
 template <int Dim>
 const NodalStep<Dim>& NodalContact<Dim>::evaluate_listed(PointsView<Dim> x) {
     return implementation_->engine.evaluate(implementation_->listed_start(x));
+}
+
+template <int Dim>
+std::span<const double> NodalContact<Dim>::interference() const {
+    return implementation_->engine.law().interference();
 }
 
 template <int Dim>

@@ -12,7 +12,7 @@
 namespace abut::contact {
 namespace {
 
-constexpr std::uint32_t state_version = 7;
+constexpr std::uint32_t state_version = 8;
 
 /// A new counter needs its line in `for_each_counter`, or it is lost where a state is saved; then a new version, too.
 static_assert(sizeof(ContactReport) == 24 * sizeof(double));
@@ -34,6 +34,8 @@ std::vector<std::byte> saved(const StateKey& key, const SavedContact& contact) {
         state.put(number_of(pair.facet_1));
         state.put(number_of(pair.facet_2));
     }
+    state.put(static_cast<std::uint64_t>(contact.interference.size()));
+    for (const double value : contact.interference) state.put(value);
     return std::move(state).finish();
 }
 
@@ -63,6 +65,8 @@ SavedContact read_saved(const StateKey& key, std::span<const std::byte> bytes) {
                            std::to_string(number_of(facet_2)) + " of " + std::to_string(key.n_facets) +
                            " are no pair. It is damaged.");
     }
+    const auto n_interference = state.get<std::uint64_t>();
+    for (std::uint64_t i = 0; i < n_interference; ++i) contact.interference.push_back(state.get<double>());
     state.finish();
     return contact;
 }

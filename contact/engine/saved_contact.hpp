@@ -27,8 +27,9 @@ struct SavedContact {
     ContactReport report;
     PairStore pairs;
     FacetStore facets;
-    std::vector<Facet> new_facets;  ///< that no search has seen yet, increasing
-    std::vector<FacetPair> seen;    ///< that lay inside of their body at rest and have come out, increasing
+    std::vector<Facet> new_facets;     ///< that no search has seen yet, increasing
+    std::vector<FacetPair> seen;       ///< that lay inside of their body at rest and have come out, increasing
+    std::vector<double> interference;  ///< InterferenceRamps::saved
 };
 
 [[nodiscard]] std::vector<std::byte> saved(const StateKey& key, const SavedContact& contact);

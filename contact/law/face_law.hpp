@@ -60,6 +60,9 @@ public:
     [[nodiscard]] bool lies_inside(FacetPair) const { return false; }
     void set_seen_from_outside(std::span<const FacetPair>) {}
     [[nodiscard]] bool sees_from_outside(const Path&) { return false; }
+    [[nodiscard]] std::vector<double> saved_interference() const { return {}; }
+    void set_interference(std::span<const double>) {}
+    void end_step(double) {}
 
     void clear(ContactStep<Dim>& step) const;
     std::int64_t step(double dt, const Path& path, std::span<PairMemory> memory, FacetStore& facets, ContactStep<Dim>& step);

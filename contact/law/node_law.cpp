@@ -5,6 +5,7 @@
 
 #include "abut/base/error.hpp"
 #include "abut/base/ids.hpp"
+#include "abut/base/messages.hpp"
 #include "abut/base/parallel.hpp"
 #include "abut/contact/messages.hpp"
 #include "abut/contact/pair.hpp"
@@ -37,7 +38,8 @@ NodeLaw<Dim>::NodeLaw(BevelledSurface<Dim> surface, const NodalOptions& options,
       sharing_(sharing),
       sides_(acting().facets().view()),
       inside_(acting().facets().view(), touches_itself(acting(), options_.search)),
-      pairs_(options_.facing, options_.friction, sharing),
+      pairs_(options_.facing, options_.friction, options_.interference, sharing),
+      ramps_(options_.interference),
       law_(options_.events, options_.friction, sharing) {
     const Surface<Dim>& facets = surface_.host().facets();
     for (std::int32_t facet = 0; facet < facets.size(); ++facet)
@@ -138,6 +140,48 @@ void NodeLaw<Dim>::list(std::vector<FacetPair>& pairs, std::span<const FacetPair
     watched_.clear();
     if (!inside_.empty()) set_inside_pairs_apart(pairs, x_0);
     pairs_.assign(surface_, pairs, in_contact, watched_, x_0, x_1, reach, options_.compression_limit);
+    if (ramps_.any() && !ramps_.has_begun()) begin_interference(x_0);
+}
+
+/// Facets that look at each other overlap by less than D, else they could be far sides of their bodies.
+template <int Dim>
+void NodeLaw<Dim>::begin_interference(State x_0) {
+    std::vector<double> overlaps(options_.interference.times.size(), 0.0);
+    for (const NodalPair<Dim>& pair : pairs_.pairs()) {
+        if (pair.interference < 0) continue;
+        const auto state = geometry::pair_state<Dim>(pair.at(x_0), pair.law);
+        if (state.energy <= 0.0) continue;
+        if (-state.gap < pair.admission_depth) {
+            double& overlap = overlaps[static_cast<std::size_t>(pair.interference)];
+            overlap = std::max(overlap, -state.gap);
+        } else if (-state.gap < 2.0 * pair.admission_depth) {
+            const Face face_1 = acting().face_of(Facet{pair.facet_1}), face_2 = acting().face_of(Facet{pair.facet_2});
+            throw BadInput("interference: " + face_name(face_1) + " and " + face_name(face_2) + " overlap by " +
+                               number(-state.gap) + " m at the start; less than " + number(pair.admission_depth) +
+                               " m, half the depth of the cells behind both, can be resolved. Take deeper cells there, or a "
+                               "smaller overlap.",
+                           {.face_1 = number_of(face_1),
+                            .face_2 = number_of(face_2),
+                            .value = -state.gap,
+                            .allowed = pair.admission_depth});
+        }
+    }
+    ramps_.begin(std::move(overlaps));
+    set_offsets(0.0);
+}
+
+/// Of all pairs, at both ends of a step that takes `dt`.
+template <int Dim>
+void NodeLaw<Dim>::set_offsets(double dt) {
+    if (!ramps_.has_begun()) return;
+    ramps_.look_ahead(dt);
+    pairs_.set_offsets(ramps_.start(), ramps_.end());
+}
+
+template <int Dim>
+void NodeLaw<Dim>::set_interference(std::span<const double> saved) {
+    ramps_.restore(saved);
+    set_offsets(0.0);
 }
 
 /// Takes the pairs that lie inside out of `pairs`, which has those alone that may come out while the list is valid: they are
@@ -204,6 +248,7 @@ template <int Dim>
 std::int64_t NodeLaw<Dim>::step(double dt, const Path& path, std::span<PairMemory> memory, FacetStore& facets,
                                 NodalStep<Dim>& step) {
     unfold(step);
+    set_offsets(dt);
     const std::int64_t inadmissible =
         law_.apply(acting(), sides_, pairs_, memory, facets, dt, path.x_0, path.x_1, path.take, step);
     fold(step);
@@ -213,6 +258,7 @@ std::int64_t NodeLaw<Dim>::step(double dt, const Path& path, std::span<PairMemor
 template <int Dim>
 void NodeLaw<Dim>::evaluate(State x, std::span<const PairMemory> memory, const FacetStore& facets, NodalStep<Dim>& step) {
     unfold(step);
+    set_offsets(0.0);
     law_.evaluate(acting(), pairs_, memory, facets, x, step);
     fold(step);
 }

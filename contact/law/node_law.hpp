@@ -12,6 +12,7 @@
 #include "abut/contact/bevels.hpp"
 #include "abut/contact/facet_store.hpp"
 #include "abut/contact/inside_pairs.hpp"
+#include "abut/contact/interference_ramps.hpp"
 #include "abut/contact/law/pair_potential.hpp"
 #include "abut/contact/nodal_contact.hpp"
 #include "abut/contact/nodal_pairs.hpp"
@@ -67,6 +68,10 @@ public:
     [[nodiscard]] bool lies_inside(FacetPair pair) const { return inside_.has(pair); }
     void set_seen_from_outside(std::span<const FacetPair> pairs) { inside_.restore(pairs); }
     [[nodiscard]] bool sees_from_outside(const Path& path);
+    [[nodiscard]] std::span<const double> interference() const { return ramps_.overlaps(); }
+    [[nodiscard]] std::vector<double> saved_interference() const { return ramps_.saved(); }
+    void set_interference(std::span<const double> saved);
+    void end_step(double dt) { ramps_.advance(dt); }
 
     void clear(NodalStep<Dim>& step) const;
     std::int64_t step(double dt, const Path& path, std::span<PairMemory> memory, FacetStore& facets, NodalStep<Dim>& step);
@@ -91,6 +96,8 @@ private:
     [[nodiscard]] bool may_come_together(FacetPair pair, double reach) const;
     [[nodiscard]] bool is_seen_from_outside(const NodalPair<Dim>& pair, State x) const;
     void set_inside_pairs_apart(std::vector<FacetPair>& pairs, State x_0);
+    void begin_interference(State x_0);
+    void set_offsets(double dt);
 
     BevelledSurface<Dim> surface_;
     NodalOptions options_;
@@ -101,6 +108,7 @@ private:
     std::vector<Vector<Dim>> middle_, normal_;  // of each facet where a search begins
     std::vector<double> radius_;                // and at rest
     NodalPairs<Dim> pairs_;
+    InterferenceRamps ramps_;
     PairPotential<Dim> law_;
     std::int32_t least_force_size_ = 0;  // nodes up to the last one of a deformable face
 };

@@ -64,7 +64,7 @@ void clear_step(const NodalPairs<Dim>& listed, NodalStep<Dim>& step) {
     step.body_pairs.clear();
     for (const auto& [body_1, body_2] : listed.body_pairs())
         step.body_pairs.push_back({body_1, body_2, 0, Vector<Dim>::Zero(), 0.0});
-    step.energy_0 = step.energy = step.work = 0.0;
+    step.energy_0 = step.energy = step.work = step.interference_work = 0.0;
     step.report = {};
 }
 
@@ -119,6 +119,20 @@ void PairPotential<Dim>::take_force(const NodalPair<Dim>& pair, const geometry::
     }
     const auto is_none = [](double energy) { return energy <= 0.0; };  // false for what is no number
     outcome.active = found.active_share > 0.0 || !is_none(found.energy_0) || !is_none(found.energy_1);
+    outcome.interference_work = pair.interference < 0 ? 0.0 : interference_work(pair, start, end, take);
+}
+
+/// The interference grows before the step, while nothing moves.
+template <int Dim>
+double PairPotential<Dim>::interference_work(const NodalPair<Dim>& pair, const geometry::PairCorners<Dim>& start,
+                                             const geometry::PairCorners<Dim>& end, TakenForce take) {
+    if (pair.offset_before == pair.law.offset) return 0.0;
+    geometry::PairLaw<Dim> before = pair.law;
+    before.offset = pair.offset_before;
+    const auto growth_at = [&](const geometry::PairCorners<Dim>& corners) {
+        return geometry::pair_state<Dim>(corners, pair.law).energy - geometry::pair_state<Dim>(corners, before).energy;
+    };
+    return take == TakenForce::mean ? growth_at(start) : 0.5 * (growth_at(start) + growth_at(end));
 }
 
 template <int Dim>
@@ -157,6 +171,7 @@ void PairPotential<Dim>::write(const Outcome& outcome, ShareWriter& out) {
     if (!outcome.active) return;
     out.put(outcome.normal);
     out.put(outcome.facing);
+    out.put(outcome.interference_work);
     for_each_value(outcome.found, [&](const auto& value) { out.put(value); });
 }
 
@@ -168,6 +183,7 @@ void PairPotential<Dim>::read(ShareReader& in, Outcome& outcome) {
     if (!outcome.active) return;
     outcome.normal = in.get<Vector<Dim>>();
     outcome.facing = in.get<double>();
+    outcome.interference_work = in.get<double>();
     for_each_value(outcome.found, [&](auto& value) { value = in.get<std::remove_reference_t<decltype(value)>>(); });
 }
 
@@ -233,6 +249,7 @@ void PairPotential<Dim>::add_up(const NodalSurface<Dim>& surface, const NodalPai
         for (std::size_t v = 0; v < pair.listed.size(); ++v) step.gradient[pair.listed[v]] += found.gradient[v];
         step.energy_0 += found.energy_0;
         step.energy += found.energy_1;
+        step.interference_work += outcomes_[p].interference_work;
         add_to_body(pair, 0, found.gradient, x_0, x_1, step.bodies[pair.body_1]);
         add_to_body(pair, Dim, found.gradient, x_0, x_1, step.bodies[pair.body_2]);
         add_pair(surface, pair, outcomes_[p], step);

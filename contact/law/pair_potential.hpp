@@ -43,6 +43,7 @@ private:
         geometry::PairMeanGradient<Dim> found;
         Vector<Dim> normal = Vector<Dim>::Zero();  ///< of both ends together, of any length
         double facing = 1.0;
+        double interference_work = 0.0;  ///< NodalStep::interference_work
         bool admitted = false;
         bool inadmissible = false;
         bool active = false;
@@ -60,6 +61,8 @@ private:
                 PointsView<Dim> x_1, TakenForce take, Outcome& outcome) const;
     void take_force(const NodalPair<Dim>& pair, const geometry::PairCorners<Dim>& start,
                     const geometry::PairCorners<Dim>& end, TakenForce take, Outcome& outcome) const;
+    static double interference_work(const NodalPair<Dim>& pair, const geometry::PairCorners<Dim>& start,
+                                    const geometry::PairCorners<Dim>& end, TakenForce take);
     /// Adds up what these of the listed pairs do, in their order.
     void add_up(const NodalSurface<Dim>& surface, const NodalPairs<Dim>& listed, std::span<const NodalPair<Dim>> pairs,
                 PointsView<Dim> x_0, PointsView<Dim> x_1, NodalStep<Dim>& step) const;

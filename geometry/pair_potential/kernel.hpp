@@ -65,7 +65,7 @@ struct PairNormals<3> {
     std::array<Vector<2>, 2> slope;    ///< of the height along n over the plane, gamma
 };
 
-/// Overlap and gap of two faces along n, whatever k: for states, not for forces.
+/// Overlap and gap of two faces along n, `offset` included (PairLaw), whatever k: for states, not for forces.
 struct PairView {
     double overlap = 0.0;  ///< |P|
     double gap = std::numeric_limits<double>::infinity();
@@ -75,6 +75,6 @@ template <int Dim>
 [[nodiscard]] PairEnergy<Dim> pair_energy(const PairNormals<Dim>& normals, const PairCorners<Dim>& z,
                                           const PairLaw<Dim>& law, bool with_gradient);
 template <int Dim>
-[[nodiscard]] PairView pair_view(const PairNormals<Dim>& normals, const PairCorners<Dim>& z);
+[[nodiscard]] PairView pair_view(const PairNormals<Dim>& normals, const PairCorners<Dim>& z, double offset);
 
 }  // namespace abut::geometry

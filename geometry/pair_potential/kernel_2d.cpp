@@ -88,7 +88,7 @@ PairEnergy<2> pair_energy(const PairNormals<2>& normals, const PairCorners<2>& z
     const Strip strip(normals, z);
     const double low = strip.low.xi, high = strip.high.xi;
     if (!(high > low)) return result;
-    const double gap_low = strip.gap(low), gap_high = strip.gap(high);
+    const double gap_low = strip.gap(low) + law.offset, gap_high = strip.gap(high) + law.offset;
     if (gap_low >= 0.0 && gap_high >= 0.0) return result;
 
     // used where the signs differ; rounding may take it past an end
@@ -122,11 +122,11 @@ PairEnergy<2> pair_energy(const PairNormals<2>& normals, const PairCorners<2>& z
 }
 
 template <>
-PairView pair_view(const PairNormals<2>& normals, const PairCorners<2>& z) {
+PairView pair_view(const PairNormals<2>& normals, const PairCorners<2>& z, double offset) {
     const Strip strip(normals, z);
     const double low = strip.low.xi, high = strip.high.xi;
-    if (!(high > low)) return {0.0, strip.gap(0.5 * (low + high))};
-    return {high - low, std::min(strip.gap(low), strip.gap(high))};
+    if (!(high > low)) return {0.0, strip.gap(0.5 * (low + high)) + offset};
+    return {high - low, std::min(strip.gap(low), strip.gap(high)) + offset};
 }
 
 }  // namespace abut::geometry

@@ -17,8 +17,8 @@ struct Seen {
             height[v] = normals.common.dot(z[v]);
         }
     }
-    [[nodiscard]] bool is_apart() const {
-        return std::min({height[3], height[4], height[5]}) >= std::max({height[0], height[1], height[2]});
+    [[nodiscard]] bool is_apart(double offset) const {
+        return std::min({height[3], height[4], height[5]}) + offset >= std::max({height[0], height[1], height[2]});
     }
     [[nodiscard]] double gap(const PairNormals<3>& normals, const Vector<2>& q) const {
         return height[3] - height[0] + normals.slope[1].dot(q - plane[3]) - normals.slope[0].dot(q - plane[0]);
@@ -169,9 +169,9 @@ PairEnergy<3> pair_energy(const PairNormals<3>& normals, const PairCorners<3>& z
     PairEnergy<3> result;
     if (normals.facing >= law.facing.none) return result;
     const Seen seen(normals, z);
-    if (seen.is_apart()) return result;
+    if (seen.is_apart(law.offset)) return result;
     PlanePolygon polygon = overlap_in_plane(seen.plane);
-    for (int i = 0; i < polygon.size; ++i) polygon.corner[i].gap = seen.gap(normals, polygon.corner[i].at);
+    for (int i = 0; i < polygon.size; ++i) polygon.corner[i].gap = seen.gap(normals, polygon.corner[i].at) + law.offset;
     keep_negative_gap(polygon);
     if (!has_area(polygon, seen.plane)) return result;
 
@@ -191,12 +191,12 @@ PairEnergy<3> pair_energy(const PairNormals<3>& normals, const PairCorners<3>& z
 }
 
 template <>
-PairView pair_view(const PairNormals<3>& normals, const PairCorners<3>& z) {
+PairView pair_view(const PairNormals<3>& normals, const PairCorners<3>& z, double offset) {
     const Seen seen(normals, z);
     const PlanePolygon polygon = overlap_in_plane(seen.plane);
-    if (!has_area(polygon, seen.plane)) return {0.0, seen.gap(normals, halfway_between(seen.plane))};
+    if (!has_area(polygon, seen.plane)) return {0.0, seen.gap(normals, halfway_between(seen.plane)) + offset};
     PairView view;
-    for (int i = 0; i < polygon.size; ++i) view.gap = std::min(view.gap, seen.gap(normals, polygon.corner[i].at));
+    for (int i = 0; i < polygon.size; ++i) view.gap = std::min(view.gap, seen.gap(normals, polygon.corner[i].at) + offset);
     for (int i = 1; i + 1 < polygon.size; ++i)
         view.overlap +=
             0.5 * cross(polygon.corner[i].at - polygon.corner[0].at, polygon.corner[i + 1].at - polygon.corner[0].at);

@@ -100,7 +100,7 @@ void cut_at_touch(const PairPath<3>& path, const PairLaw<3>& law, const PairMean
     const bool begins = ends.energy_0 == 0.0;
     const PairCorners<3> apart = begins ? path.z_0 : path.at(1.0);
     if (facing_cosine<3>(apart) >= law.facing.none) return;
-    const PairView view = pair_view<3>(PairNormals<3>(apart), apart);
+    const PairView view = pair_view<3>(PairNormals<3>(apart), apart, law.offset);
     if (view.overlap == 0.0) return;
     cut_at_root(begins ? view.gap : ends.gap_0, begins ? ends.gap_1 : view.gap, cuts);
 }

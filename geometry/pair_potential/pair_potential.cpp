@@ -105,7 +105,7 @@ PairOutlook<Dim> pair_outlook(const PairCorners<Dim>& corners, const PairLaw<Dim
     if (const double length = aside.norm(); length > 1e-6 * between.norm()) outlook.aside = aside / length;
     const double above = clearance<Dim>(corners, n);
     outlook.is_apart = above > 0.0;
-    outlook.may_act = above <= 2.0 * reach && clearance<Dim>(behind<Dim>(corners), n) <= depth + 2.0 * reach &&
+    outlook.may_act = above <= 2.0 * reach && clearance<Dim>(behind<Dim>(corners), n) <= depth + law.offset + 2.0 * reach &&
                       clearance<Dim>(corners, outlook.aside) <= 2.0 * reach + outlook.aside_allowance;
     return outlook;
 }
@@ -128,7 +128,7 @@ PairPlacement<Dim> pair_placement(const PairCorners<Dim>& corners, const PairLaw
     }
     found.normal.normalize();
     found.above = clearance<Dim>(corners, found.normal);
-    if (found.above >= 0.0) {
+    if (found.above + law.offset >= 0.0) {
         found.place = PairPlace::apart;
         return found;
     }
@@ -170,7 +170,7 @@ PairState<Dim> pair_state(const PairCorners<Dim>& corners, const PairLaw<Dim>& l
     const PairFrame<Dim> frame(corners, law);
     const PairNormals<Dim> normals(frame.z);
     const PairEnergy<Dim> energy = pair_energy<Dim>(normals, frame.z, law, false);
-    const PairView view = pair_view<Dim>(normals, frame.z);
+    const PairView view = pair_view<Dim>(normals, frame.z, law.offset);
     state.energy = energy.energy;
     state.area = energy.area;
     state.overlap = view.overlap;

@@ -28,13 +28,14 @@ struct FacingFade {
 ///
 ///     W = chi(n_1 . n_2) k/2 int_P min(g, 0)^2 dA,
 ///
-/// over the overlap P of the faces, seen along n = (n_1 - n_2)/|n_1 - n_2|; g is the height of face 2 over face 1 along n.
-/// W does not change when the pair moves or turns as a whole. docs/method.md, The potential of a pair.
+/// over the overlap P of the faces, seen along n = (n_1 - n_2)/|n_1 - n_2|; g is the height of face 2 over face 1 along n, and
+/// `offset` more. W does not change when the pair moves or turns as a whole. docs/method.md, The potential of a pair.
 template <int Dim>
 struct PairLaw {
     double stiffness;                    ///< k [Pa/m]
     std::array<double, 2> length{1, 1};  ///< of the two segments at rest [m]; they weigh the normals in n (2D alone)
     FacingFade facing{};
+    double offset = 0.0;  ///< [m] >= 0
 };
 
 /// State of a pair in one position.
