@@ -210,7 +210,7 @@ void set_in_motion(contact::RigidObstacle<Dim>& obstacle, const ObstacleSettings
 
 template <int Dim>
 void add_obstacle(run::Scene<Dim>& scene, const ObstacleSettings& settings, const Settings& all,
-                  std::vector<Fault>& faults) {
+                  mesh::IgnoredPairs may_overlap, std::vector<Fault>& faults) {
     Shell<Dim> shell =
         is_endless(settings) ? endless_plane<Dim>(settings, scene.mesh) : shell_of<Dim>(settings, all.file.parent_path());
     if (!is_endless(settings)) place<Dim>(shell.faces, settings);
@@ -221,7 +221,7 @@ void add_obstacle(run::Scene<Dim>& scene, const ObstacleSettings& settings, cons
     if (all.contact && !settings.is_symmetry)  // which says so itself
         check_outside<Dim>(scene.mesh, obstacle,
                            {.settings = settings, .closed = shell.closed, .endless = is_endless(settings), .number = number},
-                           scene.solid.ignored_pairs, faults);
+                           may_overlap, faults);
     scene.solid.obstacles.push_back(std::move(obstacle));
     scene.outputs.obstacles.push_back(settings.name);
 }
@@ -229,7 +229,8 @@ void add_obstacle(run::Scene<Dim>& scene, const ObstacleSettings& settings, cons
 }  // namespace
 
 template <int Dim>
-void add_obstacles(run::Scene<Dim>& scene, const Settings& settings, std::vector<Fault>& faults) {
+void add_obstacles(run::Scene<Dim>& scene, const Settings& settings, mesh::IgnoredPairs may_overlap,
+                   std::vector<Fault>& faults) {
     for (const ObstacleSettings& obstacle : settings.obstacles) {
         if (obstacle.shape == ObstacleShape::none) continue;
         if (obstacle.shape == ObstacleShape::box &&
@@ -239,14 +240,14 @@ void add_obstacles(run::Scene<Dim>& scene, const Settings& settings, std::vector
             continue;
         }
         try {
-            add_obstacle(scene, obstacle, settings, faults);
+            add_obstacle(scene, obstacle, settings, may_overlap, faults);
         } catch (const Error& error) {
             faults.push_back({obstacle.where, fmt::format("obstacles.{}: {}", obstacle.name, error.what())});
         }
     }
 }
 
-template void add_obstacles<2>(run::Scene<2>&, const Settings&, std::vector<Fault>&);
-template void add_obstacles<3>(run::Scene<3>&, const Settings&, std::vector<Fault>&);
+template void add_obstacles<2>(run::Scene<2>&, const Settings&, mesh::IgnoredPairs, std::vector<Fault>&);
+template void add_obstacles<3>(run::Scene<3>&, const Settings&, mesh::IgnoredPairs, std::vector<Fault>&);
 
 }  // namespace abut::input

@@ -18,6 +18,7 @@
 #include "abut/input/values.hpp"
 #include "abut/mesh/interpenetration.hpp"
 #include "abut/run/probes.hpp"
+#include "abut/solid/body_interference.hpp"
 
 namespace abut::input {
 namespace {
@@ -161,6 +162,27 @@ private:
     Names<Dim> names_;
 };
 
+void check_interference(const PairSettings& pair, std::vector<Fault>& faults) {
+    const bool resolves = pair.interference == Interference::resolve;
+    if (resolves && pair.interference_time == 0.0)
+        faults.push_back(
+            {pair.where,
+             "contact.pairs: interference = \"resolve\" needs interference_time, over which contact comes to act. "
+             "Some ten times that in which a wave crosses the bodies keeps them from swinging."});
+    if (!resolves && pair.interference_time > 0.0)
+        faults.push_back({pair.where,
+                          "contact.pairs: interference_time has no effect without interference = \"resolve\". Give both, or "
+                          "leave it out."});
+}
+
+/// Pairs of bodies and obstacles that may overlap at the start.
+template <int Dim>
+std::vector<std::array<std::int32_t, 2>> may_overlap(const run::Scene<Dim>& scene, const Settings& settings) {
+    auto pairs = solid::overlapping_bodies<Dim>(scene.mesh, scene.solid.interference, settings.obstacles.size());
+    pairs.insert(pairs.end(), scene.solid.ignored_pairs.begin(), scene.solid.ignored_pairs.end());
+    return pairs;
+}
+
 /// Pairs by their numbers (PairSides). Those that are not there because of a fault are left out.
 template <int Dim>
 void add_pairs(run::Scene<Dim>& scene, const Settings& settings, std::vector<Fault>& faults) {
@@ -172,6 +194,7 @@ void add_pairs(run::Scene<Dim>& scene, const Settings& settings, std::vector<Fau
         if (first && second) scene.solid.ignored_pairs.push_back({*first, *second});
     }
     for (const PairSettings& pair : settings.pairs) {
+        check_interference(pair, faults);
         std::vector<std::int32_t> numbers;
         std::vector<std::string> names = pair.bodies;
         names.insert(names.end(), pair.groups.begin(), pair.groups.end());
@@ -185,16 +208,20 @@ void add_pairs(run::Scene<Dim>& scene, const Settings& settings, std::vector<Fau
         const auto is_same_pair = [&](const solid::BodyFriction& other) {
             return other.bodies == both || other.bodies == Numbers{both[1], both[0]};
         };
-        if (std::ranges::any_of(scene.solid.body_friction, is_same_pair))
+        const bool resolves = pair.interference == Interference::resolve;
+        if (resolves) scene.solid.interference.push_back({both, pair.interference_time});
+        const bool has_friction = pair.has_friction || !resolves;
+        if (has_friction && std::ranges::any_of(scene.solid.body_friction, is_same_pair))
             faults.push_back({pair.where, fmt::format("contact.pairs: '{}' and '{}' have two laws of friction; give one.",
                                                       names[0], names[1])});
         else if (!sides.may_touch(both, scene.solid.ignored_pairs))
             faults.push_back(
-                {pair.where, fmt::format("contact.pairs: '{}' and '{}' have a law of friction and never touch: they "
+                {pair.where, fmt::format("contact.pairs: '{}' and '{}' have {} and never touch: they "
                                          "are of bodies in ignored_pairs, of one body without self = true, or "
-                                         "obstacles. Leave the law out, or let them touch.",
-                                         names[0], names[1])});
-        scene.solid.body_friction.push_back({both, pair.friction});
+                                         "obstacles. Leave {} out, or let them touch.",
+                                         names[0], names[1], has_friction ? "a law of friction" : "an interference",
+                                         has_friction ? "the law" : "it")});
+        if (has_friction) scene.solid.body_friction.push_back({both, pair.friction});
     }
 }
 
@@ -256,7 +283,7 @@ run::Scene<Dim> make_scene(const Settings& settings, std::vector<Fault>& faults)
     take_friction_from_mirrors(scene, settings);
     add_bonds(scene, settings, faults);
     add_loads(scene, settings, faults);
-    add_obstacles(scene, settings, faults);
+    add_obstacles<Dim>(scene, settings, may_overlap(scene, settings), faults);
     add_outputs(scene, settings, faults);
     scene.contact = settings.contact;
     if (!scene.contact) {
@@ -266,8 +293,9 @@ run::Scene<Dim> make_scene(const Settings& settings, std::vector<Fault>& faults)
         scene.solid.obstacles.clear();
         scene.solid.ignored_pairs.clear();
         scene.solid.body_friction.clear();
+        scene.solid.interference.clear();
     }
-    if (scene.contact) check_apart<Dim>(scene.mesh, settings, scene.solid.ignored_pairs, faults);
+    if (scene.contact) check_apart<Dim>(scene.mesh, settings, may_overlap(scene, settings), faults);
     if (settings.energy_scale > 0.0) scene.energy_scale = {"H0", settings.energy_scale};
     scene.title = settings.title;
     scene.comment = settings.comment;

@@ -25,6 +25,9 @@ constexpr std::array<Word<solid::Constraint>, 3> constraint_words{{{"full", soli
                                                                    {"normal", solid::Constraint::normal},
                                                                    {"components", solid::Constraint::components}}};
 
+constexpr std::array<Word<Interference>, 2> interference_words{
+    {{"refuse", Interference::refuse}, {"resolve", Interference::resolve}}};
+
 template <class Section>
 Key<Section> group() {
     return required(Make<Section>::text("group", &Section::group, "text",
@@ -77,9 +80,11 @@ Key<Settings> tables_of_two(const char* name, const char* help, const Keys<Secti
 }
 
 Key<Settings> pairs() {
-    return tables_of_two(
-        "pairs", "two bodies, obstacles or groups of faces with a law of friction of their own, [[contact.pairs]]",
-        pair_keys, &Settings::pairs, "bodies = [\"left\", \"floor\"], groups = [\"left.xmin\", \"right.xmax\"]");
+    return tables_of_two("pairs",
+                         "two bodies, obstacles or groups of faces with a law of friction of their own or an overlap at the "
+                         "start, [[contact.pairs]]",
+                         pair_keys, &Settings::pairs,
+                         "bodies = [\"left\", \"floor\"], groups = [\"left.xmin\", \"right.xmax\"]");
 }
 
 Key<Settings> bonds() {
@@ -132,9 +137,17 @@ const Keys<PairSettings>& pair_keys() {
                 "groups", "names",
                 "two groups of boundary faces, \"<body>.<group>\"; one of them beside one of `bodies`. A law "
                 "with more groups goes before one with fewer, then that which comes first",
-                &PairSettings::groups, names)};
-        const Keys<PairSettings> of_friction = keys_of_options<PairSettings>(
-            contact::friction_options(), "", [](PairSettings& pair) -> contact::Friction& { return pair.friction; });
+                &PairSettings::groups, names),
+            Make<PairSettings>::word("interference", &PairSettings::interference, interference_words,
+                                     "resolve: they overlap at the start on purpose, and contact comes to act over "
+                                     "interference_time"),
+            Make<PairSettings>::number("interference_time", &PairSettings::interference_time, {.unit = "s", .above = 0.0},
+                                       "from the start on; needed with interference = \"resolve\"")};
+        const Keys<PairSettings> of_friction =
+            keys_of_options<PairSettings>(contact::friction_options(), "", [](PairSettings& pair) -> contact::Friction& {
+                pair.has_friction = true;
+                return pair.friction;
+            });
         all.insert(all.end(), of_friction.begin(), of_friction.end());
         return all;
     }();

@@ -175,12 +175,18 @@ struct IgnoredPair {
     std::string where;  ///< Fault::where
 };
 
-/// A law of friction between two bodies, obstacles or groups of boundary faces: `bodies` and `groups` together name two.
+/// What overlaps at the start is an error, or is resolved over a time.
+enum class Interference { refuse, resolve };
+
+/// What acts between two bodies, obstacles or groups of boundary faces: `bodies` and `groups` together name two.
 struct PairSettings {
     std::vector<std::string> bodies;  // or obstacles
     std::vector<std::string> groups;
     std::string where;  ///< Fault::where
     contact::Friction friction;
+    bool has_friction = false;  ///< a law of its own is given
+    Interference interference = Interference::refuse;
+    double interference_time = 0.0;  ///< [s]; 0: not given
 };
 
 /// Two bodies or groups of boundary faces that are glued: `bodies` and `groups` together name two.

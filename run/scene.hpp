@@ -95,6 +95,7 @@ struct RunResult {
     int threads = 0;                        ///< allowed
     contact::ContactReport contact;
     std::int64_t inadmissible_overlaps_max = 0;            ///< largest number of `inadmissible_overlaps` at any record
+    std::vector<double> overlaps;                          ///< at the start, of each of SolidOptions::interference [m]
     std::vector<contact::BlindCorner<Dim>> blind_corners;  ///< too sharp for contact to see them
     std::optional<contact::EdgePair<Dim>> unseen_edges;    ///< that would cross without contact
     mesh::UnjoinedFaces unjoined;                          ///< within bodies, at the start; on several ranks known to rank 0

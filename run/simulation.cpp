@@ -15,6 +15,7 @@
 #include "abut/run/start.hpp"
 #include "abut/run/time_loop.hpp"
 #include "abut/run/user_words.hpp"
+#include "abut/solid/body_interference.hpp"
 
 namespace abut::run {
 namespace {
@@ -39,9 +40,11 @@ RunResult<Dim> simulated(const Scene<Dim>& scene, const RunOptions& given, Obser
             const Stopwatch watch(seconds.setup);
             check_for_ranks(share.ranks, scene, options);
             on_first(share.ranks, [&] {
-                if (scene.contact)
-                    mesh::check_apart(scene.mesh, scene.remedy_if_overlapping, options.contact.search.broad_phase,
-                                      scene.solid.ignored_pairs);
+                if (!scene.contact) return;
+                auto may_overlap =
+                    solid::overlapping_bodies<Dim>(scene.mesh, scene.solid.interference, scene.solid.obstacles.size());
+                may_overlap.insert(may_overlap.end(), scene.solid.ignored_pairs.begin(), scene.solid.ignored_pairs.end());
+                mesh::check_apart(scene.mesh, scene.remedy_if_overlapping, options.contact.search.broad_phase, may_overlap);
             });
             std::optional<PilotReport> pilot;
             if (options.kinematics == BodyKinematics::automatic) pilot = choose_kinematics(scene, options);

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "abut/run/body_names.hpp"
 #include "abut/run/json.hpp"
 #include "abut/run/option_table.hpp"
 #include "abut/run/scene.hpp"
@@ -224,6 +225,19 @@ Json bond_json(const RunResult<Dim>& result) {
     return {{"bonds", {{"dissipated", result.dissipated.in_bonds}}}};
 }
 
+/// Nothing where no bodies overlap on purpose.
+template <int Dim>
+Json interference_json(const Scene<Dim>& scene, const RunResult<Dim>& result) {
+    Json pairs = Json::array();
+    for (std::size_t i = 0; i < result.overlaps.size(); ++i) {
+        const solid::BodyInterference& one = scene.solid.interference[i];
+        pairs.push_back({{"bodies", {quoted_side(scene, one.bodies[0]), quoted_side(scene, one.bodies[1])}},
+                         {"overlap", result.overlaps[i]},
+                         {"time", one.time}});
+    }
+    return pairs.empty() ? Json::object() : Json{{"interference", pairs}};
+}
+
 Json encounter_json(const Encounter& met) {
     if (met.body_1.empty()) return {};
     return {{"body_1", met.body_1},
@@ -392,6 +406,7 @@ std::string summary_json(const std::string& program, const Scene<Dim>& scene, co
     json.update(friction_json(result));
     json.update(material_json(result));
     json.update(bond_json(result));
+    json.update(interference_json(scene, result));
     for (const Finding& finding : result.findings) json[finding.key] = to_json(finding.value);
     if (result.pilot) json["pilot"] = pilot_json(*result.pilot);
     if (result.settling) json["settling"] = settling_json(*result.settling);

@@ -16,6 +16,7 @@
 #include "abut/geometry/points.hpp"
 #include "abut/run/body_names.hpp"
 #include "abut/run/cell_velocity.hpp"
+#include "abut/solid/body_interference.hpp"
 
 namespace abut::run {
 namespace {
@@ -140,11 +141,14 @@ SurfaceWatch<Dim>::SurfaceWatch(const Scene<Dim>& scene) : scene_(scene) {
 }
 
 template <int Dim>
-bool SurfaceWatch<Dim>::may_meet(const Body& body_1, const Body& body_2) const {
+bool SurfaceWatch<Dim>::may_meet(const Body& body_1, const Body& body_2, double time) const {
     if (is_obstacle(body_1.number) && is_obstacle(body_2.number)) return false;
-    return std::ranges::none_of(scene_.solid.ignored_pairs, [&](const auto& pair) {
+    const auto is_this = [&](const std::array<std::int32_t, 2>& pair) {
         return pair == std::array{body_1.number, body_2.number} || pair == std::array{body_2.number, body_1.number};
-    });
+    };
+    const auto overlapping =
+        solid::overlapping_bodies<Dim>(scene_.mesh, scene_.solid.interference, scene_.solid.obstacles.size(), time);
+    return std::ranges::none_of(scene_.solid.ignored_pairs, is_this) && std::ranges::none_of(overlapping, is_this);
 }
 
 template <int Dim>
@@ -255,7 +259,7 @@ std::int64_t SurfaceWatch<Dim>::look_at_depths(double time) {
     };
     for (std::size_t a = 0; a < bodies_.size(); ++a)
         for (std::size_t b = a + 1; b < bodies_.size(); ++b) {
-            if (!around[a].overlaps(around[b]) || !may_meet(bodies_[a], bodies_[b])) continue;
+            if (!around[a].overlaps(around[b]) || !may_meet(bodies_[a], bodies_[b], time)) continue;
             const auto near_a = inside(a, around[b]), near_b = inside(b, around[a]);
             const auto boxes_a = chosen(boxes[a], near_a), boxes_b = chosen(boxes[b], near_b);
             for (const auto& [i, k] : geometry::overlapping_pairs<Dim>(geometry::SearchOptions{}, boxes_a, boxes_b)) {
@@ -344,7 +348,7 @@ void SurfaceWatch<Dim>::look_for_nearest(double time) {
     double best = std::numeric_limits<double>::infinity();
     for (std::size_t a = 0; a < bodies_.size(); ++a)
         for (std::size_t b = a + 1; b < bodies_.size(); ++b) {
-            if (!may_meet(bodies_[a], bodies_[b])) continue;
+            if (!may_meet(bodies_[a], bodies_[b], time)) continue;
             const double distance = geometry::distance_below(trees[a], trees[b], best);
             if (distance < best)
                 looks_.nearest = {quoted_name(scene_, bodies_[a].number), quoted_name(scene_, bodies_[b].number), distance,

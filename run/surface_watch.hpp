@@ -48,7 +48,7 @@ private:
 
     [[nodiscard]] bool is_on() const { return bodies_.size() > 1; }
     [[nodiscard]] bool is_obstacle(std::int32_t body) const { return body >= scene_.mesh.n_bodies(); }
-    [[nodiscard]] bool may_meet(const Body& body_1, const Body& body_2) const;
+    [[nodiscard]] bool may_meet(const Body& body_1, const Body& body_2, double time) const;
     [[nodiscard]] Points points(std::span<const std::int32_t> corners) const;
     void move(const dynamics::RunView<Dim>& run, const solid::Solid<Dim>& solid);
     std::int64_t look_at_depths(double time);

@@ -12,6 +12,7 @@
 #include "abut/base/error.hpp"
 #include "abut/base/stopwatch.hpp"
 #include "abut/base/throw_again.hpp"
+#include "abut/contact/nodal_contact.hpp"
 #include "abut/dynamics/filter.hpp"
 #include "abut/dynamics/neutral_restart.hpp"
 #include "abut/dynamics/with_scheme.hpp"
@@ -95,6 +96,8 @@ public:
         result_.finite = solid_.finite_extremes();
         result_.dissipated = solid_.dissipated();
         result_.contact = solid_.contact_report();
+        if (const auto* by_nodes = solid_.nodal_contact())
+            result_.overlaps.assign(by_nodes->interference().begin(), by_nodes->interference().end());
         result_.skin = solid_.skin();
         result_.evaluations = solid_.evaluations();
         result_.times = added(times_before_, solid_.times(), times_of_setup_);

@@ -58,6 +58,7 @@ constexpr std::array names_of_cpp = std::to_array<Name>({
     {"SolidOptions::ignored_pairs", "contact.ignored_pairs"},
     {"SolidOptions::body_friction", "contact.pairs"},
     {"SolidOptions::friction", "contact.friction"},
+    {"SolidOptions::interference", "contact.pairs"},
     {"SolidOptions::moments", "[moments]"},
     {"SolidOptions::springs", "[springs]"},
     {"StepDevice::host", "run.device = \"host\""},

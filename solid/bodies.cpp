@@ -224,10 +224,15 @@ ContactLaw Bodies<Dim>::law() const {
         throw BadInput(mesh_.name +
                        ": bonds are given, which the modified reconstruction does not know. Choose "
                        "ContactLaw::pair_potential or ContactLaw::automatic.");
+    if (!options_.interference.empty() && options_.law == ContactLaw::reconstruction)
+        throw BadInput(
+            mesh_.name +
+            ": bodies overlap at the start on purpose (interference), which the modified reconstruction does not know. "
+            "Choose ContactLaw::pair_potential or ContactLaw::automatic.");
     if (options_.law != ContactLaw::automatic) return options_.law;
-    return !any_turns && options_.bonds.empty() && asks_for(ContactLaw::reconstruction, options_)
-               ? ContactLaw::reconstruction
-               : ContactLaw::pair_potential;
+    const bool is_by_pairs = any_turns || !options_.bonds.empty() || !options_.interference.empty();
+    return !is_by_pairs && asks_for(ContactLaw::reconstruction, options_) ? ContactLaw::reconstruction
+                                                                          : ContactLaw::pair_potential;
 }
 
 // Cells and points ---------------------------------------------------------------------------------------------------

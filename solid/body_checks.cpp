@@ -3,6 +3,7 @@
 #include <string>
 
 #include "abut/base/error.hpp"
+#include "abut/contact/interference.hpp"
 #include "abut/solid/bodies.hpp"
 
 namespace abut::solid {
@@ -86,6 +87,15 @@ void Bodies<Dim>::check_pairs() const {
                                    "; bodies, obstacles and groups are counted from 0 to " + std::to_string(n_sides - 1) +
                                    ". Correct SolidOptions::body_friction.",
                                {.value = static_cast<double>(body), .allowed = static_cast<double>(n_sides - 1)});
+    }
+    for (const auto& [pair, time] : options_.interference) {
+        contact::check(contact::InterferenceOptions{.times = {time}});
+        for (const std::int32_t side : pair)
+            if (side < 0 || side >= n_sides)
+                throw BadInput(mesh_.name + ": interference is given for body or group " + std::to_string(side) +
+                                   "; bodies, obstacles and groups are counted from 0 to " + std::to_string(n_sides - 1) +
+                                   ". Correct SolidOptions::interference.",
+                               {.value = static_cast<double>(side), .allowed = static_cast<double>(n_sides - 1)});
     }
     for (const auto& pair : options_.ignored_pairs)
         for (const std::int32_t body : pair)

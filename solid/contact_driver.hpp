@@ -107,6 +107,8 @@ public:
     [[nodiscard]] virtual const contact::FrictionFigures& friction() const = 0;
     /// Sets the forces on the obstacles, and adds the work of these in the step: `share` of it [J].
     virtual void take_obstacle_forces(double share, double& work) = 0;
+    /// Work of the interference that grew in the step [J].
+    [[nodiscard]] virtual double interference_work() const { return 0.0; }
     /// Adds what bodies did to each other on the path of the step, or in a part of it this long [s].
     virtual void add_impulses(double dt) = 0;
     [[nodiscard]] std::span<const BodyImpulse<Dim>> impulses() const { return impulses_.pairs(); }

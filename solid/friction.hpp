@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <map>
 #include <span>
 #include <utility>
 #include <vector>
@@ -16,57 +15,12 @@
 #include "abut/mesh/mesh.hpp"
 #include "abut/solid/boundary_face.hpp"
 #include "abut/solid/contact_results.hpp"
+#include "abut/solid/face_sides.hpp"
 #include "abut/solid/options.hpp"
-#include "abut/solid/rank_faces.hpp"
 
 namespace abut::solid {
 
-/// Whether each of `n_faces` faces of contact is in a group of the mesh: those of `shared`, rigid ones behind them, and then those
-/// of obstacles. `boundary`: the boundary face of all but the last, `no_face` if there is none here. A call of all ranks.
-template <int Dim>
-[[nodiscard]] std::vector<bool> faces_in_group(const mesh::Mesh<Dim>& mesh, std::size_t group,
-                                               const SharedFaces<Dim>& shared, std::span<const BoundaryFace> boundary,
-                                               std::size_t n_faces) {
-    std::vector<bool> in_mesh(mesh.boundary_faces.size());
-    for (const std::int32_t face : mesh.groups[group].faces)
-        in_mesh[static_cast<std::size_t>(std::ranges::lower_bound(mesh.boundary_faces, face) -
-                                         mesh.boundary_faces.begin())] = true;
-    const auto is_in = [&](BoundaryFace b) { return b != no_face && in_mesh[static_cast<std::size_t>(b)]; };
-    std::vector<double> own;
-    for (std::size_t i = 0; i < shared.size(); ++i)
-        if (shared.is_own(i)) own.push_back(is_in(boundary[i]) ? 1.0 : 0.0);
-    std::vector<bool> in;
-    for (const double of_face : shared.numbers_of_all(own)) in.push_back(of_face != 0.0);
-    for (const BoundaryFace b : boundary.subspan(shared.size())) in.push_back(is_in(b));
-    in.resize(n_faces);
-    return in;
-}
-
-/// The sides between which laws of friction act, of faces of the surface of contact.
-class FrictionSides {
-public:
-    /// `body_of`: of each face, the body in the mesh, n_bodies + i of a face of obstacle i.
-    FrictionSides(std::vector<std::int32_t> body_of, std::int32_t n_bodies_and_obstacles)
-        : body_of_(std::move(body_of)), n_bodies_(n_bodies_and_obstacles) {}
-
-    /// A side as in BodyFriction::bodies. `faces_of(g)`: whether each face is in group g of the mesh.
-    template <class FacesOf>
-    void add(std::int32_t side, const FacesOf& faces_of) {
-        if (is_group(side)) in_group_.try_emplace(side, faces_of(static_cast<std::size_t>(side - n_bodies_)));
-    }
-    [[nodiscard]] bool is_group(std::int32_t side) const { return side >= n_bodies_; }
-    [[nodiscard]] bool has(std::int32_t side, contact::Face face) const {
-        const auto i = static_cast<std::size_t>(face);
-        return is_group(side) ? in_group_.at(side)[i] : body_of_[i] == side;
-    }
-
-private:
-    std::vector<std::int32_t> body_of_;
-    std::int32_t n_bodies_;
-    std::map<std::int32_t, std::vector<bool>> in_group_;
-};
-
-/// Laws of friction as contact asks for them, by face. `body_of` as FrictionSides, `faces_of(g)` as there.
+/// Laws of friction as contact asks for them, by face. `body_of` as FaceSides, `faces_of(g)` as there.
 template <int Dim, class FacesOf>
 [[nodiscard]] contact::FrictionOptions friction_between(const SolidOptions<Dim>& options, std::int32_t n_bodies,
                                                         std::vector<std::int32_t> body_of, const FacesOf& faces_of) {
@@ -79,7 +33,7 @@ template <int Dim, class FacesOf>
     contact::FrictionOptions friction;
     const bool is_for_all = options.friction.acts();
     if (is_for_all) friction.laws.push_back(options.friction);
-    FrictionSides sides(std::move(body_of), n_bodies + static_cast<std::int32_t>(options.obstacles.size()));
+    FaceSides sides(std::move(body_of), n_bodies + static_cast<std::int32_t>(options.obstacles.size()));
     std::vector<OfSides> of_sides;
     for (const auto& [pair, law] : options.body_friction) {
         of_sides.push_back(

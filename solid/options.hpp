@@ -29,6 +29,12 @@ struct BodyFriction {
     contact::Friction law;
 };
 
+/// Two bodies, obstacles or groups that overlap at the start on purpose (contact::InterferenceOptions); under the pair potential.
+struct BodyInterference {
+    std::array<std::int32_t, 2> bodies;  ///< as BodyFriction::bodies
+    double time;                         ///< over which the overlap comes to act [s] > 0
+};
+
 /// What a scene holds beside its mesh.
 template <int Dim>
 struct SolidOptions {
@@ -50,6 +56,7 @@ struct SolidOptions {
     std::vector<std::array<std::int32_t, 2>> ignored_pairs = {};
     contact::Friction friction = {};  ///< between all bodies and obstacles that have no law of their own
     std::vector<BodyFriction> body_friction = {};
+    std::vector<BodyInterference> interference = {};
     Precision precision = Precision::double_precision;  ///< of the bulk in steps: `mean_force` and `end_force`
     StepDevice device = StepDevice::host;               ///< of the same
 

@@ -14,6 +14,7 @@
 #include "abut/geometry/box.hpp"
 #include "abut/geometry/polygon.hpp"
 #include "abut/solid/friction.hpp"
+#include "abut/solid/interference.hpp"
 
 namespace abut::solid {
 namespace {
@@ -71,13 +72,14 @@ contact::NodalOptions nodal_options(const Bodies<Dim>& bodies, const CornerSurfa
     const contact::ContactOptions& contact = *options.contact;
     contact::CandidateOptions search = contact.search;
     search.ignored_bodies = ignored_pairs(bodies);
+    const auto faces_of = [&](std::size_t group) { return corners.faces_in_group(group); };
     return {.search = std::move(search),
             .facing = options.facing,
             .events = contact.events,
             .compression_warning = contact.compression_warning,
             .compression_limit = contact.compression_limit,
-            .friction = friction_between(options, bodies.mesh().n_bodies(), corners.bodies_of_faces(),
-                                         [&](std::size_t group) { return corners.faces_in_group(group); }),
+            .friction = friction_between(options, bodies.mesh().n_bodies(), corners.bodies_of_faces(), faces_of),
+            .interference = interference_between(options, bodies.mesh().n_bodies(), corners.bodies_of_faces(), faces_of),
             .wanted = wanted_beside(bodies, corners, bonds)};
 }
 

@@ -45,6 +45,7 @@ public:
     [[nodiscard]] double energy() const override { return contact_.last().energy + contact_.last().report.friction.energy; }
     [[nodiscard]] const contact::FrictionFigures& friction() const override { return contact_.last().report.friction; }
     void take_obstacle_forces(double share, double& work) override;
+    [[nodiscard]] double interference_work() const override { return contact_.last().interference_work; }
     void add_impulses(double dt) override;
     [[nodiscard]] const Obstacles<Dim>& obstacles() const override { return obstacles_; }
     [[nodiscard]] double compression() const override { return contact_.last().report.compression; }

@@ -147,7 +147,7 @@ public:
 
     /// Elastic and stabilisation energy of the state with its contact corrections, less the work of the loads [J].
     [[nodiscard]] double potential(std::span<const double> q);
-    /// Work of prescribed displacements, of changing tractions and of moving obstacles so far [J].
+    /// Work of prescribed displacements, of changing tractions, of moving obstacles and of interference so far [J].
     [[nodiscard]] double work() const { return work_; }
     /// Energy that materials have dissipated so far by flow, damping and viscosity, and bonds that broke; friction is not counted [J].
     [[nodiscard]] dynamics::Losses dissipated() const { return dissipated_; }

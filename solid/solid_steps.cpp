@@ -179,7 +179,10 @@ void Solid<Dim>::finish_step(const Ends& ends, double time, double dt, contact::
     const bool is_mean = take == contact::TakenForce::mean;
     require_no_collapse();
     add_work(share);
-    if (contact_) contact_->add_impulses(dt);
+    if (contact_) {
+        contact_->add_impulses(dt);
+        work_ += contact_->interference_work();
+    }
     to_force(is_mean ? ends.start : ends.end, ends.end, gradient);
     if (closure_ && is_mean) closure_->add(ends.start, ends.end, gradient);
     if (is_mean) add_drag(ends, dt, gradient);
@@ -194,8 +197,8 @@ void Solid<Dim>::finish_step(const Ends& ends, double time, double dt, contact::
 
 template <int Dim>
 bool Solid<Dim>::is_autonomous() const {
-    return !any_memory() && !bonds_->any_breaks() && !loads_->vary() && !point_loads_->do_work() && !frame_loads_->any() &&
-           !(contact_ && contact_->obstacles().move());
+    return !any_memory() && !bonds_->any_breaks() && options_.interference.empty() && !loads_->vary() &&
+           !point_loads_->do_work() && !frame_loads_->any() && !(contact_ && contact_->obstacles().move());
 }
 
 template <int Dim>
