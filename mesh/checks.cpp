@@ -119,25 +119,6 @@ void check_named_faces(const CellSoup<Dim>& soup) {
 }
 
 template <int Dim>
-void check_bodies_apart(const CellSoup<Dim>& soup) {
-    std::vector<std::int32_t> first_cell(soup.vertices.size(), -1);
-    for (std::int32_t cell = 0; cell < soup.cell_vertices.size(); ++cell)
-        for (const std::int32_t vertex : soup.cell_vertices[cell]) {
-            auto& first = first_cell[static_cast<std::size_t>(vertex)];
-            if (first < 0) first = cell;
-            const auto body = static_cast<std::size_t>(soup.cell_body[static_cast<std::size_t>(cell)]);
-            const auto other = static_cast<std::size_t>(soup.cell_body[static_cast<std::size_t>(first)]);
-            if (body != other)
-                throw MeshError(
-                    soup.name + ": bodies '" + soup.body_names[other] + "' and '" + soup.body_names[body] +
-                    "' share vertex " + text(soup.vertex_label, vertex) + " (cells " + text(soup.cell_label, first) + "|" +
-                    text(soup.cell_label, cell) +
-                    "). Give each body its own vertices on the interface, or make them one body, of one material: "
-                    "several materials bonded in one body are not supported.");
-        }
-}
-
-template <int Dim>
 std::string face_of(const Mesh<Dim>& mesh, std::int32_t face) {
     const auto cells = mesh.face_cells[static_cast<std::size_t>(face)];
     return mesh.name + ": face " + vertex_list(mesh.face_vertices[face], mesh.vertex_label) + " of " +
@@ -204,7 +185,24 @@ void check_soup(const CellSoup<Dim>& soup) {
     check_bodies(soup);
     check_distinct(soup.name, "boundary groups", soup.group_names);
     check_named_faces(soup);
-    check_bodies_apart(soup);
+}
+
+template <int Dim>
+void check_bodies_apart(const CellSoup<Dim>& soup) {
+    std::vector<std::int32_t> first_cell(soup.vertices.size(), -1);
+    for (std::int32_t cell = 0; cell < soup.cell_vertices.size(); ++cell)
+        for (const std::int32_t vertex : soup.cell_vertices[cell]) {
+            auto& first = first_cell[static_cast<std::size_t>(vertex)];
+            if (first < 0) first = cell;
+            const auto body = static_cast<std::size_t>(soup.cell_body[static_cast<std::size_t>(cell)]);
+            const auto other = static_cast<std::size_t>(soup.cell_body[static_cast<std::size_t>(first)]);
+            if (body != other)
+                throw MeshError(soup.name + ": bodies '" + soup.body_names[other] + "' and '" + soup.body_names[body] +
+                                "' share vertex " + text(soup.vertex_label, vertex) + " (cells " +
+                                text(soup.cell_label, first) + "|" + text(soup.cell_label, cell) +
+                                "). Give each body its own vertices on the interface (MeshOptions::shared_vertices), or "
+                                "make them one body.");
+        }
 }
 
 template <int Dim>
@@ -231,6 +229,8 @@ void check_faces(const Mesh<Dim>& mesh) {
 
 template void check_soup<2>(const CellSoup<2>&);
 template void check_soup<3>(const CellSoup<3>&);
+template void check_bodies_apart<2>(const CellSoup<2>&);
+template void check_bodies_apart<3>(const CellSoup<3>&);
 template void check_cells<2>(const CellSoup<2>&, std::span<const double>);
 template void check_cells<3>(const CellSoup<3>&, std::span<const double>);
 template void check_faces<2>(const Mesh<2>&);

@@ -9,12 +9,14 @@
 #include <numeric>
 #include <utility>
 
+#include "abut/base/disjoint_sets.hpp"
 #include "abut/base/error.hpp"
 #include "abut/base/sort_unique.hpp"
 #include "abut/geometry/box.hpp"
 #include "abut/mesh/cell_shape.hpp"
 #include "abut/mesh/checks.hpp"
 #include "abut/mesh/measures.hpp"
+#include "abut/mesh/own_vertices.hpp"
 #include "abut/mesh/quality.hpp"
 #include "abut/mesh/reorder.hpp"
 #include "abut/mesh/split.hpp"
@@ -165,13 +167,15 @@ void append_cells_and_faces(Mesh<Dim>& to, const Mesh<Dim>& from) {
     append(to.vertex_label, from.vertex_label);
 }
 
-void append_report(BuildReport& to, const BuildReport& from) {
+/// `bodies`: how many there are before those of `from`.
+void append_report(BuildReport& to, const BuildReport& from, std::int32_t bodies) {
     to.n_unused_vertices += from.n_unused_vertices;
     to.n_ignored_elements += from.n_ignored_elements;
     to.n_turned_cells += from.n_turned_cells;
     to.n_non_planar_faces += from.n_non_planar_faces;
     to.n_cut_cells += from.n_cut_cells;
     append(to.warnings, from.warnings);
+    for (const auto& [a, b] : from.joined_bodies) to.joined_bodies.push_back({a + bodies, b + bodies});
     if (from.worst_planarity <= to.worst_planarity && to.worst_face_cell >= 0) return;
     to.worst_planarity = from.worst_planarity;
     to.worst_face_cell = from.worst_face_cell;
@@ -233,13 +237,24 @@ void check_names(const Mesh<Dim>& mesh) {
 template <int Dim>
 using Place = std::pair<std::array<std::int64_t, Dim>, std::int32_t>;
 
-/// The boundary vertices on a grid of `spacing`, each once for every body, sorted. The grid starts at no round number: what
+/// Of each body the first of those that it is joined to, itself where it is joined to none.
+template <int Dim>
+std::vector<std::int32_t> first_of_joined(const Mesh<Dim>& mesh) {
+    DisjointSets joined(static_cast<std::size_t>(mesh.n_bodies()));
+    for (const auto& [a, b] : mesh.report.joined_bodies) joined.join(a, b);
+    std::vector<std::int32_t> first;
+    for (std::int32_t body = 0; body < mesh.n_bodies(); ++body) first.push_back(joined.find(body));
+    return first;
+}
+
+/// The boundary vertices on a grid of `spacing`, each once for every body or for those that are joined, sorted. The grid starts at no round number: what
 /// differs in its last digits comes to one point of it.
 template <int Dim>
 std::vector<Place<Dim>> places_of_boundary_vertices(const Mesh<Dim>& mesh, double spacing) {
     geometry::Box<Dim> box;
     for (const Vector<Dim>& vertex : mesh.vertices) box.extend(vertex);
     const Vector<Dim> origin = box.lower.array() - std::numbers::inv_pi * spacing;
+    const std::vector<std::int32_t> first = first_of_joined(mesh);
     std::vector<Place<Dim>> places;
     for (const std::int32_t face : mesh.boundary_faces)
         for (const std::int32_t vertex : mesh.face_vertices[face]) {
@@ -247,7 +262,8 @@ std::vector<Place<Dim>> places_of_boundary_vertices(const Mesh<Dim>& mesh, doubl
             for (int i = 0; i < Dim; ++i)
                 place.first[static_cast<std::size_t>(i)] =
                     std::llround((mesh.vertices[static_cast<std::size_t>(vertex)][i] - origin[i]) / spacing);
-            place.second = mesh.cell_body[static_cast<std::size_t>(mesh.face_cells[static_cast<std::size_t>(face)][0])];
+            const std::int32_t cell = mesh.face_cells[static_cast<std::size_t>(face)][0];
+            place.second = first[static_cast<std::size_t>(mesh.cell_body[static_cast<std::size_t>(cell)])];
             places.push_back(place);
         }
     sort_unique(places);
@@ -293,6 +309,10 @@ Mesh<Dim> build_mesh(CellSoup<Dim> soup, const MeshOptions& options) {
     check_soup(soup);
 
     BuildReport report;
+    if (options.shared_vertices == SharedVertices::separate)
+        report.joined_bodies = give_own_vertices(soup);
+    else
+        check_bodies_apart(soup);
     report.n_ignored_elements = soup.n_ignored_elements;
     report.warnings = soup.warnings;
     auto cells = measure_cells(soup);
@@ -322,7 +342,7 @@ Mesh<Dim> combine(std::span<const Mesh<Dim>> meshes) {
     std::vector<std::string> names;
     std::swap(names, result.body_names);  // bodies are counted while the meshes come in
     for (const auto& mesh : meshes) {
-        append_report(result.report, mesh.report);
+        append_report(result.report, mesh.report, result.n_bodies());
         append_cells_and_faces(result, mesh);
         append(result.body_names, mesh.body_names);
         result.name += (result.name.empty() ? "" : "+") + mesh.name;

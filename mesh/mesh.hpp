@@ -54,6 +54,9 @@ struct BuildReport {
     std::int32_t n_non_planar_faces = 0;  ///< faces beyond MeshOptions::planarity_tolerance (NonPlanarFaces::split only)
     std::int32_t n_cut_cells = 0;         ///< cells of the input that were cut into tetrahedra because of them
     std::int32_t n_turned_cells = 0;      ///< cells given inside out, whose vertices were put in the order of their shape
+    /// Bodies with a face in common in the input, which is one of each here (SharedVertices::separate): pairs, increasing. They touch, and
+    /// are not glued unless somebody bonds them
+    std::vector<std::array<std::int32_t, 2>> joined_bodies;
     double worst_planarity = 0.0;  ///< largest distance of a vertex from its face's plane / face size, before cutting [-]
     std::int64_t worst_face_cell = -1;  ///< number in its input of a cell with that face; -1 if every face has Dim vertices
 };
@@ -126,11 +129,18 @@ enum class NonPlanarFaces : std::uint8_t {
     split,  ///< cut its cells, and every cell they share a quadrangle with, into tetrahedra (see mesh/split.hpp)
 };
 
+/// Treatment of vertices that cells of several bodies share.
+enum class SharedVertices : std::uint8_t {
+    fail,      ///< throw MeshError
+    separate,  ///< each body gets its own; BuildReport::joined_bodies says which had faces in common
+};
+
 struct MeshOptions {
     bool reorder = true;  ///< renumber cells (within each body) and vertices row by row and layer by layer
     /// Largest distance of a face's vertex from its plane, in units of the face size
     double planarity_tolerance = geometry::planarity_tolerance;
     NonPlanarFaces non_planar = NonPlanarFaces::fail;
+    SharedVertices shared_vertices = SharedVertices::fail;
     std::optional<double> most_cells{};  ///< that a shape may get by its estimate; unset: see mesh/shapes/shapes.hpp
 };
 

@@ -283,7 +283,8 @@ TEST_CASE("binary data need no end of a line behind them", "[mesh][files][msh]")
     CHECK(read_by_us(folder / "a.msh") == wanted);
 }
 
-TEST_CASE("bodies that share vertices have one surface, and are no two bodies of a mesh", "[mesh][files][msh]") {
+TEST_CASE("bodies that share vertices have one surface, and are two bodies of a mesh only where each gets its own",
+          "[mesh][files][msh]") {
     const ScratchFolder folder;
     // Two tetrahedra on either side of a triangle, which is named, too.
     save(folder / "a.msh", head +
@@ -295,8 +296,10 @@ TEST_CASE("bodies that share vertices have one surface, and are no two bodies of
     CHECK(surface.faces.size() == 6);
     CHECK(health_of(surface).sound());
     CHECK_THROWS_WITH(read_gmsh<3>(folder / "a.msh"),
-                      Contains("bodies 'left' and 'right' share vertex") &&
-                          Contains("several materials bonded in one body are not supported."));
+                      Contains("bodies 'left' and 'right' share vertex") && Contains("MeshOptions::shared_vertices"));
+    const Mesh<3> mesh = read_gmsh<3>(folder / "a.msh", {.shared_vertices = SharedVertices::separate});
+    CHECK(mesh.report.joined_bodies == std::vector<std::array<std::int32_t, 2>>{{0, 1}});
+    CHECK(mesh.groups.front().faces.size() == 2);
 }
 
 TEST_CASE("cells of format 2.2 have each their own group, whatever their entity", "[mesh][files][msh]") {
