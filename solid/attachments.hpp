@@ -38,6 +38,8 @@ struct Bond {
     std::array<std::int32_t, 2> sides;  ///< numbered as BodyFriction::bodies, without obstacles
     /// Largest traction that it bears [Pa], of which pressure is no part; infinity: it holds for ever
     double strength = std::numeric_limits<double>::infinity();
+    /// G [J/m^2] >= 0 that it takes per area as it opens, with a traction that falls from the strength to 0; 0: it breaks at once
+    double fracture_energy = 0.0;
 };
 
 /// A moment on a body as a whole, as of a drive or a brake: a constant part and one against its spin. Its work is booked.

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "abut/mesh/mesh.hpp"
+#include "abut/solid/bond_places.hpp"
 #include "abut/solid/cell_points.hpp"
 #include "abut/solid/kinematics/body_frames.hpp"
 #include "abut/solid/kinematics/rigid_bodies.hpp"
@@ -48,6 +49,8 @@ public:
     [[nodiscard]] std::pair<std::int32_t, std::int32_t> points_of(std::int32_t body) const;
     /// The options of these bodies, by their numbers in `deformable`.
     [[nodiscard]] const SolidOptions<Dim>& deformable_options() const { return part_options_; }
+    /// Of SolidOptions::bonds, by the mesh of all bodies.
+    [[nodiscard]] const std::vector<BondPlace<Dim>>& bond_places() const { return bond_places_; }
     [[nodiscard]] const RigidBodies<Dim>& rigid() const { return *rigid_; }
     [[nodiscard]] RigidBodies<Dim>& rigid() { return *rigid_; }
     [[nodiscard]] bool any_rigid() const { return rigid_->size() > 0; }
@@ -134,6 +137,9 @@ private:
                                          const PositionOf& x_of) const;
     std::vector<std::optional<CellPoints<Dim>>> cell_points_;  // by body that deforms; none: at the centroids
     const RankPart<Dim>* rank_part_ = nullptr;                 // null until `take_part`
+    void find_joined_faces();
+
+    std::vector<BondPlace<Dim>> bond_places_;
     SolidOptions<Dim> part_options_;
     std::vector<std::int32_t> deformable_bodies_;
     std::optional<RigidBodies<Dim>> rigid_;

@@ -43,8 +43,8 @@ public:
     /// What they push each body with besides others (n_bodies that deform).
     [[nodiscard]] std::span<const BodyPush<Dim>> pushes(std::span<const BodyPush<Dim>> others);
     [[nodiscard]] double energy() const;  ///< at the end of the step [J]
-    /// Calls visit(place, traction, normal), both in space at the end of the step: dV/dx_2 per area [Pa], and the normal out of
-    /// the first face.
+    /// Calls visit(place, traction, stiffness, normal): in space at the end of the step dV/dx_2 per area of a whole place [Pa] and the normal
+    /// out of the first face; k_12 [Pa/m].
     template <class Visit>
     void for_each_traction(const Visit& visit) const {
         for (std::size_t i = 0; i < springs_.size(); ++i) {
@@ -52,9 +52,15 @@ public:
             const BondPlace<Dim>& place = places_[spring.place];
             const End& end = spring.ends[0];
             const Vector<Dim> in_frame = (Matrix<Dim>::Identity() + tilt_[end.face]).inverse().transpose() * place.normal;
-            visit(spring.place, Vector<Dim>(spring.stiffness / place.area * (x_1_[i][1] - x_1_[i][0])),
+            const double stiffness = spring.stiffness / place.area;
+            visit(spring.place, Vector<Dim>(stiffness * (x_1_[i][1] - x_1_[i][0])), stiffness,
                   Vector<Dim>(frames_.end()[end.body].turn * in_frame));
         }
+    }
+    /// Calls visit(place, k_12) [Pa/m].
+    template <class Visit>
+    void for_each_stiffness(const Visit& visit) const {
+        for (const BondSpring& spring : springs_) visit(spring.place, spring.stiffness / places_[spring.place].area);
     }
 
 private:

@@ -6,6 +6,7 @@
 
 #include "abut/base/decompositions.hpp"
 #include "abut/base/error.hpp"
+#include "abut/base/messages.hpp"
 #include "abut/base/sort_unique.hpp"
 
 namespace abut::solid {
@@ -30,11 +31,7 @@ std::size_t position_of(const FaceCorrections<Dim>& corrections, BoundaryFace fa
 
 template <int Dim>
 Bonds<Dim>::Bonds(const Bodies<Dim>& bodies, Ccg<Dim>& ccg, const BodyFrames<Dim>& frames)
-    : bodies_(bodies),
-      mesh_(bodies.deformable()),
-      ccg_(ccg),
-      places_(find_bond_places<Dim>(bodies.mesh(), bodies.options().bonds, bodies.options().obstacles.size())),
-      share_(places_.size(), 1.0) {
+    : bodies_(bodies), mesh_(bodies.deformable()), ccg_(ccg), places_(bodies.bond_places()), share_(places_.size(), 1.0) {
     check_bodies();
     const mesh::Mesh<Dim>& mesh = bodies.mesh();
     std::vector<BoundaryFace> here;  // in the numbering of the bodies that deform
@@ -61,6 +58,7 @@ Bonds<Dim>::Bonds(const Bodies<Dim>& bodies, Ccg<Dim>& ccg, const BodyFrames<Dim
     for (const std::size_t p : of_joints) append_joint(p, faces[p]);
     for (auto* jump : {&jump_, &jump_0_, &jump_1_}) jump->resize(joints_.size());
     for (auto* of_face : {&of_face_, &delta_, &gradient_}) of_face->resize(faces_.size());
+    check_fracture_energy();
 }
 
 template <int Dim>
@@ -223,9 +221,10 @@ template <int Dim>
 void Bonds<Dim>::set_corrections() {
     for (Vector<Dim>& delta : delta_) delta.setZero();
     for (std::size_t p = 0; p < joints_.size(); ++p)
-        for (std::size_t side = 0; side < 2 && counts(joints_[p]); ++side) {
+        for (std::size_t side = 0; side < 2; ++side) {
             const std::size_t face = joints_[p].face[side];
-            delta_[face] += joints_[p].area / faces_[face].measure * (joints_[p].share[side] * jump_[p]);
+            const double weight = share_of(joints_[p]) * joints_[p].area / faces_[face].measure;
+            delta_[face] += weight * (joints_[p].share[side] * jump_[p]);
         }
 }
 
@@ -246,7 +245,7 @@ double Bonds<Dim>::energy() const {
     if (!any()) return 0.0;
     double energy = springs_->energy();
     for (std::size_t p = 0; p < joints_.size(); ++p)
-        if (counts(joints_[p])) energy += 0.5 * joints_[p].area * jump_[p].dot(joints_[p].stiffness * jump_[p]);
+        energy += 0.5 * share_of(joints_[p]) * joints_[p].area * jump_[p].dot(joints_[p].stiffness * jump_[p]);
     for (std::size_t i = 0; i < faces_.size(); ++i)
         energy -= 0.5 * faces_[i].measure * delta_[i].dot(faces_[i].stiffness * delta_[i]);
     return energy;
@@ -281,10 +280,9 @@ void Bonds<Dim>::add_gradient(std::span<Vector<Dim>> gradient) {
     }
     for (std::size_t p = 0; p < joints_.size(); ++p) {
         const Joint& joint = joints_[p];
-        if (!counts(joint)) continue;
-        const Vector<Dim> push =
-            joint.area * (joint.stiffness * jump_[p] + joint.share[0].transpose() * excess[joint.face[0]] +
-                          joint.share[1].transpose() * excess[joint.face[1]]);
+        const Vector<Dim> push = share_of(joint) * joint.area *
+                                 (joint.stiffness * jump_[p] + joint.share[0].transpose() * excess[joint.face[0]] +
+                                  joint.share[1].transpose() * excess[joint.face[1]]);
         for (std::size_t side = 0; side < 2; ++side) {
             const Vector<Dim> on_side = side == 0 ? Vector<Dim>(-push) : push;
             gradient_[joint.face[side]] += on_side;
@@ -312,30 +310,65 @@ double Bonds<Dim>::work_of_loads(const BoundaryLoad<Dim>& start, const BoundaryL
 
 // Breaking -----------------------------------------------------------------------------------------------------------
 
+/// `traction` of the place as if it were whole, `stiffness` of both half cells in its direction.
 template <int Dim>
-bool Bonds<Dim>::overloads(std::size_t place, const Vector<Dim>& traction, const Vector<Dim>& normal) const {
-    const double strength = bodies_.options().bonds[places_[place].bond].strength;
-    return share_[place] == 1.0 && traction.dot(normal) > 0.0 && traction.norm() > strength;
+void Bonds<Dim>::append_change(std::size_t place, const Vector<Dim>& traction, double stiffness, const Vector<Dim>& normal,
+                               std::vector<BondChange>& changes) const {
+    if (share_[place] == 0.0 || traction.dot(normal) <= 0.0) return;
+    const double share = share_of_bond(bodies_.options().bonds[places_[place].bond], traction.norm(), stiffness);
+    if (share < share_[place]) changes.push_back({place, share_[place], share});
 }
 
 template <int Dim>
-std::vector<std::size_t> Bonds<Dim>::overloaded() const {
-    std::vector<std::size_t> overloaded;
-    for (std::size_t p = 0; p < joints_.size(); ++p)
-        if (const std::size_t place = joints_[p].place;
-            overloads(place, joints_[p].stiffness * jump_1_[p], places_[place].normal))
-            overloaded.push_back(place);
-    springs_->for_each_traction([&](std::size_t place, const Vector<Dim>& traction, const Vector<Dim>& normal) {
-        if (overloads(place, traction, normal)) overloaded.push_back(place);
-    });
-    std::ranges::sort(overloaded);
-    return overloaded;
+std::vector<BondChange> Bonds<Dim>::changes() const {
+    std::vector<BondChange> changes;
+    for (std::size_t p = 0; p < joints_.size(); ++p) {
+        const Vector<Dim> traction = joints_[p].stiffness * jump_1_[p];
+        const double energy = traction.dot(jump_1_[p]);
+        if (energy > 0.0)
+            append_change(joints_[p].place, traction, traction.squaredNorm() / energy, places_[joints_[p].place].normal,
+                          changes);
+    }
+    springs_->for_each_traction(
+        [&](std::size_t place, const Vector<Dim>& traction, double stiffness, const Vector<Dim>& normal) {
+            append_change(place, traction, stiffness, normal, changes);
+        });
+    std::ranges::sort(changes, {}, &BondChange::place);
+    return changes;
 }
 
 template <int Dim>
-void Bonds<Dim>::set_share(std::span<const std::size_t> places, double share, bool is_there) {
-    for (const std::size_t place : places) share_[place] = share;
-    halves_count_ = is_there;
+void Bonds<Dim>::set_shares(std::span<const BondChange> changes, When when) {
+    for (const auto& [place, start, end] : changes)
+        share_[place] = when == When::start ? start : when == When::end ? end : 0.5 * (start + end);
+}
+
+/// A bond that opens must take more than half cells give back as it does, straight at least: at the rim of a bond they may give way along the
+/// face without bearing anything.
+template <int Dim>
+void Bonds<Dim>::check_fracture_energy() const {
+    const auto check = [&](std::size_t p, double stiffness) {
+        const Bond& bond = bodies_.options().bonds[places_[p].bond];
+        if (bond.fracture_energy == 0.0) return;
+        const double held = energy_at_strength(bond, stiffness);
+        if (bond.fracture_energy > held) return;
+        const mesh::Mesh<Dim>& mesh = bodies_.mesh();
+        const auto body_at = [&](std::size_t side) {
+            return "'" + mesh.body_names[static_cast<std::size_t>(mesh.cell_body[cell_of(mesh, places_[p].faces[side])])] +
+                   "'";
+        };
+        throw BadInput(mesh_.name + ": the bond of " + body_at(0) + " and " + body_at(1) + " has a fracture energy of " +
+                           number(bond.fracture_energy) + " J/m^2, but at its strength the half cells beside it hold " +
+                           number(held) + " J/m^2, and it would take these at once. Make cells there " +
+                           number(std::ceil(10.0 * held / bond.fracture_energy) / 10.0 + 0.1) +
+                           " times smaller or more, or leave fracture_energy out.",
+                       {.value = bond.fracture_energy, .allowed = held});
+    };
+    for (const Joint& joint : joints_) {
+        const Vector<Dim>& normal = places_[joint.place].normal;
+        check(joint.place, (joint.stiffness * normal).squaredNorm() / normal.dot(joint.stiffness * normal));
+    }
+    springs_->for_each_stiffness(check);
 }
 
 template <int Dim>

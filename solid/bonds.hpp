@@ -9,6 +9,7 @@
 
 #include "abut/base/state_bytes.hpp"
 #include "abut/solid/bodies.hpp"
+#include "abut/solid/bond_law.hpp"
 #include "abut/solid/bond_places.hpp"
 #include "abut/solid/bond_springs.hpp"
 #include "abut/solid/ccg/ccg.hpp"
@@ -29,14 +30,15 @@ namespace abut::solid {
 ///
 /// All of it is quadratic in the displacements of the cells. Where a body may turn: BondSprings. docs/method.md, Bonds.
 ///
-/// A place whose traction t = K_12 Delta pulls the faces apart and is larger than the strength of its bond is bonded no more:
-/// the force of the step in which it breaks is the mean of those with it and without it, and what V loses by it at both ends,
-/// half of each, is dissipated.
+/// A place whose traction t = s K_12 Delta pulls the faces apart and would exceed the strength gives way: its share s falls, at once to 0 or
+/// so that t falls with the opening until all of the fracture energy is taken (BondLaw). In a step the share is the mean of both ends, and
+/// what V loses by its change is dissipated.
 template <int Dim>
 class Bonds {
 public:
     /// All must outlive it; `frames` are led along each step before it. Throws BadInput as `find_bond_places`, for bodies that are
-    /// rigid, and where a support holds a bonded face, a traction is on one, or a load from outside on one that answers to it.
+    /// rigid, where a support holds a bonded face, a traction is on one, or a load from outside on one that answers to it, and for a
+    /// fracture energy that is less than what the half cells beside the bond hold at its strength.
     Bonds(const Bodies<Dim>& bodies, Ccg<Dim>& ccg, const BodyFrames<Dim>& frames);
 
     [[nodiscard]] bool any() const { return !places_.empty(); }
@@ -76,11 +78,12 @@ public:
 
     // Breaking
 
-    /// Places that the end of the step that was followed overloads, increasing.
-    [[nodiscard]] std::vector<std::size_t> overloaded() const;
-    /// From the next call of `stand_at` or `follow` on these places are whole (1), broken (0), or break in this step (1/2): then
-    /// springs have half of their pull, and the massless interface is there if `is_there` says so.
-    void set_share(std::span<const std::size_t> places, double share, bool is_there = false);
+    /// Places that the end of the step that was followed opens further than ever before, increasing.
+    [[nodiscard]] std::vector<BondChange> changes() const;
+    /// From the next call of `stand_at` or `follow` on these places have the share of the start of the step, of its end, or the mean of both.
+    enum class When { start, middle, end };
+    void set_shares(std::span<const BondChange> changes, When when);
+    [[nodiscard]] double share(std::size_t place) const { return share_[place]; }
 
     void save(StateWriter& state) const;
     void restore(StateReader& state);
@@ -117,19 +120,18 @@ private:
     void stand_linear(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load);
     void take_jumps(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load, std::vector<Vector<Dim>>& jump);
     void set_corrections();
-    [[nodiscard]] bool counts(const Joint& joint) const {
-        return share_[joint.place] == 1.0 || (share_[joint.place] != 0.0 && halves_count_);
-    }
+    [[nodiscard]] double share_of(const Joint& joint) const { return share_[joint.place]; }
     [[nodiscard]] FaceCorrections<Dim> own_corrections() const { return {face_numbers_, delta_, {}, {}}; }
-    [[nodiscard]] bool overloads(std::size_t place, const Vector<Dim>& traction, const Vector<Dim>& normal) const;
+    void check_fracture_energy() const;
+    void append_change(std::size_t place, const Vector<Dim>& traction, double stiffness, const Vector<Dim>& normal,
+                       std::vector<BondChange>& changes) const;
     [[nodiscard]] Vector<Dim> bulk_gradient(const BondedFace& of_cell, BoundaryFace face) const;
 
     const Bodies<Dim>& bodies_;
     const mesh::Mesh<Dim>& mesh_;  // of the bodies that deform
     const Ccg<Dim>& ccg_;
     std::vector<BondPlace<Dim>> places_;
-    std::vector<double> share_;  // by place
-    bool halves_count_ = false;
+    std::vector<double> share_;  // by place, from 1, whole, to 0, broken
     std::unique_ptr<BondSprings<Dim>> springs_;
     std::vector<BondedFace> faces_;  // of small bodies, increasing
     std::vector<Joint> joints_;

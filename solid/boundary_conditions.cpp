@@ -42,6 +42,10 @@ template <int Dim>
 FaceConditions<Dim> sort_to_faces(const mesh::Mesh<Dim>& mesh, const BoundaryConditions<Dim>& conditions) {
     FaceConditions<Dim> sorted;
     sorted.prescribed.assign(mesh.boundary_faces.size(), Matrix<Dim>::Zero());
+    sorted.joined.assign(mesh.boundary_faces.size(), 0);
+    for (const std::int32_t face : conditions.joined_faces)
+        sorted.joined[static_cast<BoundaryFace>(std::ranges::lower_bound(mesh.boundary_faces, face) -
+                                                mesh.boundary_faces.begin())] = 1;
     for (const DirichletCondition<Dim>& condition : conditions.dirichlet) {
         auto& faces = sorted.dirichlet.emplace_back();
         for (const BoundaryFace b : boundary_faces_of(mesh, condition.group)) {

@@ -67,12 +67,16 @@ struct BoundaryConditions {
     CornerRule corner_rule = CornerRule::relaxed;
     std::vector<DirichletCondition<Dim>> dirichlet;
     std::vector<TractionCondition<Dim>> traction;
+    /// Boundary faces of the mesh that are bonded face to face for ever: what holds them is no matter of their own cell, and they are
+    /// extrapolated from the cells around. A solid finds them by itself
+    std::vector<std::int32_t> joined_faces = {};
 };
 
 /// The conditions sorted to the boundary faces of a mesh.
 template <int Dim>
 struct FaceConditions {
     IdVector<BoundaryFace, Matrix<Dim>> prescribed;  ///< P_f, projector onto all prescribed directions (n_boundary)
+    IdVector<BoundaryFace, char> joined;             ///< BoundaryConditions::joined_faces (n_boundary)
     /// A boundary face of a Dirichlet condition and the directions that this condition prescribes there.
     struct Prescribed {
         BoundaryFace face;

@@ -47,6 +47,7 @@ struct OwnCells {
 
 template <int Dim>
 class Bodies;
+struct BondChange;
 template <int Dim>
 struct BondPlace;
 template <int Dim>
@@ -235,6 +236,8 @@ public:
     /// Where faces are bonded, whether they are still or not. solid/bond_places.hpp.
     [[nodiscard]] std::span<const BondPlace<Dim>> bond_places() const;
     [[nodiscard]] bool is_broken(std::size_t bond_place) const;
+    /// What is left of the pull of a place at the same jump [-]: 1 whole, 0 broken.
+    [[nodiscard]] double bond_share(std::size_t bond_place) const;
     /// The part of the area of all bonds that is broken [-]; 0 without bonds.
     [[nodiscard]] double broken_share() const;
     [[nodiscard]] const SolidTimes& times() const { return times_; }
@@ -311,12 +314,9 @@ private:
     void add_work(double share);
     void finish_step(const Ends& ends, double time, double dt, contact::TakenForce take, double share,
                      std::span<Vector<Dim>> gradient, std::span<double> force);
-    [[nodiscard]] std::vector<std::size_t> overloaded_bonds(const Ends& ends, const BoundaryLoad<Dim>& start_load);
-    template <class TakeMean>
-    void take_breaking(const Ends& ends, std::span<const std::size_t> places, const BoundaryLoad<Dim>& start_load,
-                       const TakeMean& take_mean, std::span<Vector<Dim>> gradient);
-    [[nodiscard]] double energy_of_bonds(std::span<const std::size_t> places, const Ends& ends,
-                                         const BoundaryLoad<Dim>& start_load);
+    [[nodiscard]] std::vector<BondChange> bonds_that_give_way(const Ends& ends, const BoundaryLoad<Dim>& start_load);
+    [[nodiscard]] double energy_lost_by(std::span<const BondChange> changes, const Ends& ends,
+                                        const BoundaryLoad<Dim>& start_load);
     void end_step(double time);
     void book_losses();
     void save_memory(StateWriter& state) const;

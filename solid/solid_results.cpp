@@ -339,6 +339,11 @@ bool Solid<Dim>::is_broken(std::size_t bond_place) const {
 }
 
 template <int Dim>
+double Solid<Dim>::bond_share(std::size_t bond_place) const {
+    return bonds_->share(bond_place);
+}
+
+template <int Dim>
 double Solid<Dim>::broken_share() const {
     double all = 0.0, broken = 0.0;
     for (std::size_t i = 0; i < bonds_->places().size(); ++i) {
@@ -412,6 +417,7 @@ double Solid<Dim>::damping_ratio(double omega) const {
     template Matrix<Dim> Solid<Dim>::stress(std::int32_t cell) const;                                                 \
     template std::span<const BondPlace<Dim>> Solid<Dim>::bond_places() const;                                         \
     template bool Solid<Dim>::is_broken(std::size_t) const;                                                           \
+    template double Solid<Dim>::bond_share(std::size_t) const;                                                        \
     template double Solid<Dim>::broken_share() const;                                                                 \
     template double Solid<Dim>::step_margin() const;                                                                  \
     template dynamics::MomentArms Solid<Dim>::moment_arms() const;

@@ -1,4 +1,5 @@
 // The steps of a solid: all cells with one, or each level of them with its own.
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -70,30 +71,30 @@ void Solid<Dim>::mean_force(std::span<const double> q_0, std::span<const double>
     const Stopwatch watch(times_.bulk);
     const auto gradient = result_here(force);
     const StepEnds<Dim> ends = step_ends({u_0, u_1}, start_load, dt);
-    const auto take_gradient = [&](const BoundaryLoad<Dim>& load, std::span<Vector<Dim>> result) {
+    const auto take_gradient = [&](const BoundaryLoad<Dim>& load) {
         const ProcessorStopwatch of_cells(times_.own_cells);
         if (frames_->any_turns())
-            ccg_.gradient_of_packed(midpoint_, load, corrections(), result, ends);
+            ccg_.gradient_of_packed(midpoint_, load, corrections(), gradient, ends);
         else
-            ccg_.mean_gradient(ends, load, corrections(), result);
-        bonds_->add_gradient(result);
+            ccg_.mean_gradient(ends, load, corrections(), gradient);
+        bonds_->add_gradient(gradient);
     };
-    const auto take_mean = [&](std::span<Vector<Dim>> result) {
-        bonds_->follow(u_0, start_load, u_1, loads_->end());
-        if (loads_->vary())
-            take_gradient(loads_->mean(), result);
-        else
-            take_gradient(loads_->end(), result);
-    };
-    const std::vector<std::size_t> breaking = overloaded_bonds({u_0, u_1}, start_load);
-    if (breaking.empty()) {
-        take_mean(gradient);
-        return finish_step({u_0, u_1}, time, dt, contact::TakenForce::mean, 1.0, gradient, force);
+    const std::vector<BondChange> changes = bonds_that_give_way({u_0, u_1}, start_load);
+    if (!changes.empty()) {
+        dissipated_.in_bonds += energy_lost_by(changes, {u_0, u_1}, start_load);
+        bonds_->set_shares(changes, Bonds<Dim>::When::middle);
+        static_cast<void>(follow_frames(of_cells(u_0), of_cells(u_1)));
     }
-    take_breaking({u_0, u_1}, breaking, start_load, take_mean, gradient);
-    finish_step({u_0, u_1}, time, dt, contact::TakenForce::mean, 0.5, gradient, force);
-    bonds_->set_share(breaking, 0.0);
-    if (contact_) contact_->jumped(u_1, time + dt);  // more faces may touch than in its list
+    bonds_->follow(u_0, start_load, u_1, loads_->end());
+    if (loads_->vary())
+        take_gradient(loads_->mean());
+    else
+        take_gradient(loads_->end());
+    finish_step({u_0, u_1}, time, dt, contact::TakenForce::mean, 1.0, gradient, force);
+    if (changes.empty()) return;
+    bonds_->set_shares(changes, Bonds<Dim>::When::end);
+    const bool any_breaks = std::ranges::any_of(changes, [](const BondChange& change) { return change.end == 0.0; });
+    if (contact_ && any_breaks) contact_->jumped(u_1, time + dt);  // more faces may touch than in its list
 }
 
 template <int Dim>
@@ -132,43 +133,29 @@ void Solid<Dim>::end_force(std::span<const double> q_0, std::span<const double> 
 }
 
 template <int Dim>
-std::vector<std::size_t> Solid<Dim>::overloaded_bonds(const Ends& ends, const BoundaryLoad<Dim>& start_load) {
+std::vector<BondChange> Solid<Dim>::bonds_that_give_way(const Ends& ends, const BoundaryLoad<Dim>& start_load) {
     if (!bonds_->any_breaks()) return {};
     bonds_->follow(ends.start, start_load, ends.end, loads_->end());
-    return bonds_->overloaded();
+    return bonds_->changes();
 }
 
-/// The mean of the gradients with some places of bonds and without them, and half of the work; what V loses is dissipated.
+/// By the change of their shares to the mean in the step where it starts, and from there where it ends.
 template <int Dim>
-template <class TakeMean>
-void Solid<Dim>::take_breaking(const Ends& ends, std::span<const std::size_t> places, const BoundaryLoad<Dim>& start_load,
-                               const TakeMean& take_mean, std::span<Vector<Dim>> gradient) {
-    dissipated_.in_bonds += energy_of_bonds(places, ends, start_load);
-    const auto take = [&](bool with_bonds, std::span<Vector<Dim>> result) {
-        static_cast<void>(follow_frames(of_cells(ends.start), of_cells(ends.end)));
-        bonds_->set_share(places, 0.5, with_bonds);
-        take_mean(result);
+double Solid<Dim>::energy_lost_by(std::span<const BondChange> changes, const Ends& ends,
+                                  const BoundaryLoad<Dim>& start_load) {
+    using When = typename Bonds<Dim>::When;
+    const auto energy_at_start = [&](When when) {
+        bonds_->set_shares(changes, when);
+        return stored_energy(ends.start, start_load);
     };
-    std::vector<Vector<Dim>> with_bonds(gradient.size());
-    take(true, with_bonds);
-    add_work(0.5);
-    take(false, gradient);
-    for (std::size_t c = 0; c < all_cells_.size(); ++c) gradient[c] = 0.5 * (gradient[c] + with_bonds[c]);
-}
-
-/// What V has of these places, half of it at each end of the step; they are whole before and broken afterwards.
-template <int Dim>
-double Solid<Dim>::energy_of_bonds(std::span<const std::size_t> places, const Ends& ends,
-                                   const BoundaryLoad<Dim>& start_load) {
-    const auto of_both_ends = [&] {
-        frames_->stand_at_start();
-        const double at_start = stored_energy(ends.start, start_load);
-        frames_->stand_at_end();
-        return 0.5 * (at_start + stored_energy(ends.end, loads_->end()));
+    const auto energy_at_end = [&](When when) {
+        bonds_->set_shares(changes, when);
+        return stored_energy(ends.end, loads_->end());
     };
-    const double with = of_both_ends();
-    bonds_->set_share(places, 0.0);
-    return with - of_both_ends();
+    frames_->stand_at_start();
+    const double at_start = energy_at_start(When::start) - energy_at_start(When::middle);
+    frames_->stand_at_end();
+    return at_start + energy_at_end(When::middle) - energy_at_end(When::end);
 }
 
 /// Books the work of the step, makes the force of its gradient, and ends it. Where only a share of the work is booked the rest

@@ -85,6 +85,7 @@ private:
     Matrix<Dim> free_part(BoundaryFace b) const { return Matrix<Dim>::Identity() - conditions_.prescribed[b]; }
     static Eigen::Index first_row(std::size_t face) { return static_cast<Eigen::Index>(face) * Dim; }
 
+    bool is_joined(BoundaryFace b) const { return conditions_.joined[b] != 0; }
     bool is_free(BoundaryFace b) const { return !conditions_.prescribed[b].isIdentity(1e-12); }
     /// The part of a unit displacement along the normal that is not prescribed, in the direction of the normal.
     double free_along_normal(BoundaryFace b) const { return normal_of(b).dot(free_part(b) * normal_of(b)); }
@@ -114,7 +115,7 @@ private:
             const auto others = boundary_of(cell_of(mesh_, b));
             const auto n_free =
                 std::count_if(others.begin(), others.end(), [&](BoundaryFace other) { return is_free(other); });
-            if (rule == FreeFaceRule::extrapolate || n_free > 1 || !conditions_.prescribed[b].isZero(0.0))
+            if (rule == FreeFaceRule::extrapolate || is_joined(b) || n_free > 1 || !conditions_.prescribed[b].isZero(0.0))
                 wanted.push_back(b);
         }
         std::vector<std::int32_t> faces;
@@ -134,7 +135,11 @@ private:
         }
         const FreeFaceRule rule = rule_of(cell);
         if (rule == FreeFaceRule::local_equilibrium) {
-            balance(cell, boundary);
+            auto alone = boundary;
+            std::erase_if(alone, [&](BoundaryFace b) { return is_joined(b); });
+            if (!alone.empty()) balance(cell, alone);
+            for (const BoundaryFace b : boundary)
+                if (is_joined(b)) rows_[b].add_stencil(affine_[b], free_part(b));
             if (corner_rule_ == CornerRule::relaxed)
                 for (const BoundaryFace b : boundary) relax_corners(cell, b, boundary);
             return;
@@ -175,7 +180,7 @@ private:
     std::vector<BoundaryFace> corners_with(BoundaryFace b, const std::vector<BoundaryFace>& boundary) const {
         std::vector<BoundaryFace> corners;
         for (const BoundaryFace other : boundary)
-            if (other != b && is_free(other) &&
+            if (other != b && is_free(other) && !is_joined(other) &&
                 std::abs(normal_of(b).dot(normal_of(other))) <= largest_corner_cosine + rounding)
                 corners.push_back(other);
         return corners;
@@ -216,7 +221,7 @@ private:
         rows_[b].normal_stiffness = left;
     }
 
-    /// Minimum of the cell's energy over what is free of its boundary faces:
+    /// Minimum of the cell's energy over what is free of these boundary faces, joined ones standing where they are extrapolated:
     ///   N A N z = N (|f| t - A_interior u_g - A P u_D),  z = pinv(...) + the part of the affine extrapolation in the null
     /// space.
     void balance(std::int32_t cell, const std::vector<BoundaryFace>& boundary) {
@@ -245,7 +250,10 @@ private:
                 Row<Dim>::add(row.traction, b, mesh_.face_measure[face] * answer);
                 if (!block(undetermined, i, j).isZero(1e-9)) row.add_stencil(affine_[b], block(undetermined, i, j));
                 for (const std::int32_t g : mesh_.cell_faces[cell])
-                    if (index_[g] == no_face) row.add_stencil(interior_[g], -answer * stiffness(cell, face, g));
+                    if (index_[g] == no_face)
+                        row.add_stencil(interior_[g], -answer * stiffness(cell, face, g));
+                    else if (is_joined(index_[g]))
+                        row.add_stencil(affine_[index_[g]], -answer * stiffness(cell, face, g));
             }
         }
     }

@@ -4,6 +4,8 @@
 #include <numbers>
 
 #include "abut/geometry/box.hpp"
+#include "abut/solid/bond_law.hpp"
+#include "abut/solid/bond_places.hpp"
 #include "abut/solid/statics.hpp"
 #include "solid/turning_scenes.hpp"
 
@@ -412,6 +414,55 @@ TEST_CASE("a bond that is stronger than what pulls at it holds", "[solid][bonds]
     CHECK(scene.solid.dissipated().in_bonds == 0.0);
 }
 
+TEMPLATE_TEST_CASE_SIG("a bond that opens takes its fracture energy per area, whatever the mesh, and no less in any step",
+                       "[solid][bonds]", ((int Dim), Dim), 2, 3) {
+    const auto kinematics = GENERATE(Kinematics::small, Kinematics::floating, Kinematics::finite);
+    const double energy = 3e-4;
+    for (const auto& [name, mesh] : blocks<Dim>()) {
+        if (kinematics == Kinematics::finite &&
+            mesh.cell_shape[0] != (Dim == 2 ? CellShape::triangle : CellShape::tetrahedron))
+            continue;
+        CAPTURE(Dim, static_cast<int>(kinematics), name);
+        auto options = bonded<Dim>({.young = 1.0, .poisson = 0.3, .density = 1.0}, {2.0, 0.2, 1.0});
+        options.bonds.front().strength = 0.01;
+        options.bonds.front().fracture_energy = energy;
+        options.contact.emplace();
+        TurningScene<Dim> scene(mesh, options,
+                                {moving<Dim>(-0.04 * Vector<Dim>::Unit(0)), moving<Dim>(0.04 * Vector<Dim>::Unit(0))}, -0.01,
+                                {kinematics, kinematics});
+        double dissipated = 0.0, least = 0.0;
+        bool any_open = false;
+        for (int i = 0; i < 600 && scene.solid.broken_share() < 1.0; ++i) {
+            scene.run(1, 1);
+            any_open = any_open || (scene.solid.bond_share(0) > 0.0 && scene.solid.bond_share(0) < 1.0);
+            const double now = scene.solid.dissipated().in_bonds;
+            least = std::min(least, now - dissipated);
+            dissipated = now;
+        }
+        CHECK(any_open);
+        CHECK(scene.solid.broken_share() == 1.0);
+        double area = 0.0;
+        for (const auto& place : scene.solid.bond_places()) area += place.area;
+        CHECK(area == Approx(1.0).epsilon(1e-12));
+        // At the rim of bricks of small bodies half cells hold more than G along the face, and give it at once.
+        CHECK(dissipated == Approx(energy * area).epsilon(kinematics == Kinematics::small ? 0.05 : 0.01));
+        CHECK(least >= -1e-15 * scene.ledger.largest_energy());
+        const Drifts drifts = scene.drifts();
+        CHECK(drifts.pseudo_energy <= 1e-12);
+        CHECK(drifts.momentum <= 1e-13);
+        if (kinematics != Kinematics::small) CHECK(drifts.pseudo_moment <= 1e-13);
+    }
+}
+
+TEST_CASE("a bond bears its strength at most as it opens, and less and less", "[solid][bonds]") {
+    // By hand: kappa = 4, sigma_c = 2, G = 3: w_f = 3; a trial traction of 6 is t + 4 w with t = 2 (1 - w/3): w = 1.2, t = 1.2.
+    const solid::Bond bond{.sides = {0, 1}, .strength = 2.0, .fracture_energy = 3.0};
+    CHECK(solid::share_of_bond(bond, 1.9, 4.0) == 1.0);
+    CHECK(6.0 * solid::share_of_bond(bond, 6.0, 4.0) == Approx(1.2).epsilon(1e-14));
+    CHECK(solid::share_of_bond(bond, 12.0, 4.0) == 0.0);
+    CHECK(solid::share_of_bond({.sides = {0, 1}, .strength = 2.0}, 2.1, 4.0) == 0.0);
+}
+
 TEST_CASE("bodies whose bond is broken touch each other", "[solid][bonds]") {
     const auto mesh = blocks<2>().front().mesh;
     auto options = bonded<2>({.young = 1.0, .poisson = 0.3, .density = 1.0}, {1.0, 0.3, 1.0});
@@ -457,6 +508,11 @@ TEST_CASE("bonds that cannot be made are refused with the reason", "[solid][bond
         return std::string();
     };
     using Catch::Contains;
+    CHECK_THAT(message([](auto& options) {
+                   options.bonds.front().strength = 1e8;
+                   options.bonds.front().fracture_energy = 1e3;  // J/m^2; half cells of 0.2 m hold more
+               }),
+               Contains("has a fracture energy of 1000 J/m^2") && Contains("times smaller"));
     CHECK_THAT(message([](auto& options) {
                    options.bonds = {{.sides = {0, 0}}};
                }),
