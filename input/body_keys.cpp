@@ -145,6 +145,9 @@ const Keys<Body>& body_keys() {
                 "a material it gives those that the body does not"),
             Of::word("kinematics", &Body::kinematics, body_kinematics(),
                      "how it may move: without turns, in a frame that turns, bending, or rigid"),
+            key_of<Body>("self", "true, false", "whether its faces touch each other; by default as [contact] says",
+                         &Body::self,
+                         [](Reader& reader, const Node& node, const std::string& path) { return reader.truth(node, path); }),
             Of::vector("place", &Body::place, "m", "0",
                        "where its own origin goes: of disc, fan_disc, gear, cylinder and sphere their centre"),
             Of::axial("turn", &Body::turn, "rad", "turn about its own origin before it is placed; in 3D axis times angle"),
@@ -165,6 +168,10 @@ const Keys<Body>& part_keys() {
                 chosen.push_back(key);
                 chosen.back().required = false;
             }
+        chosen.push_back(
+            Of::formula("region", &Body::region, "", Variables::time_and_space,
+                        "not 0 where its cells are, by the centroids of cells before the body is turned and placed: "
+                        "\"sqrt(x^2 + y^2) < 0.01\"; cells that no region takes are BODY \"rest\""));
         return chosen;
     }();
     return keys;

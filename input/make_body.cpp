@@ -16,6 +16,7 @@
 #include "abut/mesh/shapes/fill.hpp"
 #include "abut/mesh/shapes/gear.hpp"
 #include "abut/mesh/shapes/shapes.hpp"
+#include "abut/mesh/split_body.hpp"
 
 namespace abut::input {
 namespace {
@@ -47,7 +48,9 @@ double usual_most_cells(Shape shape) {
 
 /// Copies of a pattern share the cells that may be made.
 mesh::MeshOptions mesh_options(const BodySettings& body) {
-    mesh::MeshOptions options{.planarity_tolerance = body.planarity_tolerance, .non_planar = body.non_planar};
+    mesh::MeshOptions options{.planarity_tolerance = body.planarity_tolerance,
+                              .non_planar = body.non_planar,
+                              .shared_vertices = mesh::SharedVertices::separate};
     if (std::isfinite(body.most_cells)) options.most_cells = body.most_cells;
     if (body.n_copies > 1.0) options.most_cells = options.most_cells.value_or(usual_most_cells(body.shape)) / body.n_copies;
     return options;
@@ -154,13 +157,41 @@ mesh::Mesh<Dim> unplaced(const BodySettings& body, const std::filesystem::path& 
     return mesh::read_mesh<Dim>(folder / body.mesh, mesh_options(body));
 }
 
+/// Each cell belongs to the first region that its centroid is in, seen from the origin of the body.
+template <int Dim>
+mesh::Mesh<Dim> cut_into_regions(const mesh::Mesh<Dim>& mesh, const BodySettings& body) {
+    std::vector<const BodySettings*> regions;
+    for (const BodySettings& part : body.parts)
+        if (part.region) regions.push_back(&part);
+    if (regions.empty()) return mesh;
+    if (mesh.n_bodies() > 1)
+        throw mesh::MeshError(
+            fmt::format("bodies.{}.{}.region: {} has {} bodies, and regions are made of one. Leave the region out, and "
+                        "give tables to the bodies.",
+                        body.name, regions.front()->name, body.mesh.string(), mesh.n_bodies()));
+    const Vector<Dim> origin = has_centre(body.shape) ? head<Dim>(centre(body)) : Vector<Dim>(Vector<Dim>::Zero());
+    std::vector<std::int32_t> part_of;
+    for (const Vector<Dim>& centroid : mesh.cell_centroid) {
+        Vector<3> x = Vector<3>::Zero();
+        x.head<Dim>() = centroid - origin;
+        const auto found =
+            std::ranges::find_if(regions, [&](const BodySettings* part) { return (*part->region)(0.0, x) != 0.0; });
+        part_of.push_back(static_cast<std::int32_t>(found - regions.begin()));
+    }
+    std::vector<std::string> names;
+    for (const BodySettings* part : regions) names.push_back(part->name);
+    if (std::ranges::find(part_of, std::ssize(regions)) != part_of.end()) names.emplace_back(rest_of_regions);
+    return mesh::split_body<Dim>(mesh, part_of, std::move(names));
+}
+
 /// Every table of a body of the file has its body.
 template <int Dim>
 void check_parts(const mesh::Mesh<Dim>& mesh, const BodySettings& body) {
     for (const BodySettings& part : body.parts)
         if (std::ranges::find(mesh.body_names, part.name) == mesh.body_names.end())
             throw mesh::MeshError(fmt::format("bodies.{}.{}: {} has no body of this name.{}", body.name, part.name,
-                                              body.mesh.string(), hint(part.name, mesh.body_names)));
+                                              body.mesh.empty() ? "it" : body.mesh.string(),
+                                              hint(part.name, mesh.body_names)));
 }
 
 template <int Dim>
@@ -179,7 +210,7 @@ void name_parts(mesh::Mesh<Dim>& mesh, const std::string& name) {
 
 template <int Dim>
 mesh::Mesh<Dim> make_body(const BodySettings& body, const std::filesystem::path& folder, const GivenMeshes* given) {
-    mesh::Mesh<Dim> mesh = unplaced<Dim>(body, folder, given);
+    mesh::Mesh<Dim> mesh = cut_into_regions<Dim>(unplaced<Dim>(body, folder, given), body);
     const bool turns = !body.turn.isZero(0.0);
     if (turns || (!has_centre(body.shape) && !body.place.isZero(0.0)))
         mesh::place(mesh, turns ? rotation<Dim>(body.turn) : Matrix<Dim>(Matrix<Dim>::Identity()), head<Dim>(body.place));

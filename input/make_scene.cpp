@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -11,6 +12,7 @@
 #include <utility>
 
 #include "abut/base/error.hpp"
+#include "abut/input/joined_parts.hpp"
 #include "abut/input/make_body.hpp"
 #include "abut/input/make_loads.hpp"
 #include "abut/input/make_obstacle.hpp"
@@ -44,6 +46,10 @@ void append_bodies(run::Scene<Dim>& scene, const BodySettings& body, const std::
             faults.push_back({own.where, fmt::format("body '{}' has no material. Give young and density, or material, in "
                                                      "[bodies.{}].",
                                                      name, name)});
+        if (settings.options.contact.search.self_contact && !own.self.value_or(settings.self)) {
+            const auto number = static_cast<std::int32_t>(scene.solid.materials.size());
+            scene.solid.ignored_pairs.push_back({number, number});
+        }
         append_body(scene, own, settings.gravity);
         if (any_spins) scene.spin.push_back(axial<Dim>(own.spin));
     }
@@ -245,7 +251,13 @@ void add_bonds(run::Scene<Dim>& scene, const Settings& settings, std::vector<Fau
             if (const auto number = names.body(name, bond.where, "bonds.bodies")) numbers.push_back(*number);
         for (const std::string& name : bond.groups)
             if (const auto number = sides.group(name, bond.where, "bonds.groups")) numbers.push_back(*number);
-        if (numbers.size() == 2) scene.solid.bonds.push_back({.sides = {numbers[0], numbers[1]}, .strength = bond.strength});
+        if (bond.fracture_energy > 0.0 && std::isinf(bond.strength))
+            faults.push_back({bond.where,
+                              "bonds: fracture_energy is what a bond takes as it opens, which it does from its strength on. "
+                              "Give strength, or leave it out."});
+        if (numbers.size() == 2)
+            scene.solid.bonds.push_back(
+                {.sides = {numbers[0], numbers[1]}, .strength = bond.strength, .fracture_energy = bond.fracture_energy});
     }
 }
 
@@ -282,6 +294,7 @@ run::Scene<Dim> make_scene(const Settings& settings, std::vector<Fault>& faults)
     add_pairs(scene, settings, faults);
     take_friction_from_mirrors(scene, settings);
     add_bonds(scene, settings, faults);
+    join_parts(scene, settings, faults);
     add_loads(scene, settings, faults);
     add_obstacles<Dim>(scene, settings, may_overlap(scene, settings), faults);
     add_outputs(scene, settings, faults);

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "abut/input/keys.hpp"
+#include "abut/input/make_body.hpp"
 #include "abut/input/materials.hpp"
 #include "abut/input/nearest_word.hpp"
 #include "abut/input/patterns.hpp"
@@ -100,16 +101,18 @@ void take_yield_stress(BodySettings& body, const std::vector<MaterialSettings>& 
     if (const KnownMaterial* known = known_material(body.material_name)) body.material.yield_stress = known->yield_stress;
 }
 
-/// Tables within that of a body that are none of its keys: each of a body of its file.
+/// Tables within that of a body that are none of its keys: each of a body of its file, or of a region.
 std::vector<std::size_t> part_tables(const Node& body, const Variety<BodySettings, Shape>& variety) {
     std::vector<std::size_t> tables;
-    if (variety.choice != Shape::file) return tables;
+    const auto is_part = [&](std::size_t i) {
+        return variety.choice == Shape::file || body.names[i] == rest_of_regions || body.items[i].find("region");
+    };
     const auto known = [&](const std::string& name) {
         return std::ranges::find(variety.keys, name, &Key<BodySettings>::name) != variety.keys.end() ||
                std::ranges::find(body_keys(), name, &Key<BodySettings>::name) != body_keys().end();
     };
     for (std::size_t i = 0; i < body.items.size(); ++i)
-        if (body.items[i].type == Node::Type::table && !known(body.names[i])) tables.push_back(i);
+        if (body.items[i].type == Node::Type::table && !known(body.names[i]) && is_part(i)) tables.push_back(i);
     return tables;
 }
 
@@ -400,6 +403,15 @@ void check_options(const Settings& settings, std::vector<Fault>& faults) {
     }
 }
 
+/// Contact looks within bodies if one of them touches itself.
+void take_self_contact(Settings& settings) {
+    bool& looks_within = settings.options.contact.search.self_contact;
+    settings.self = looks_within;
+    const auto touches = [](const BodySettings& body) { return body.self.value_or(false); };
+    for (const BodySettings& body : settings.bodies)
+        looks_within = looks_within || touches(body) || std::ranges::any_of(body.parts, touches);
+}
+
 /// To contact the other half of a body is a rigid plane, which each of its faces meets half way.
 void add_mirrors(Settings& settings) {
     for (std::size_t i = 0; i < settings.symmetries.size(); ++i) {
@@ -432,6 +444,7 @@ ReadSettings settings_from(Node document, const std::filesystem::path& file, con
     if (read.settings.contact) add_mirrors(read.settings);
     check_numbers_used(overrides.set, reader);
     if (overrides.options) overrides.options(read.settings.options);
+    take_self_contact(read.settings);
     check_options(read.settings, reader.faults());
     read.faults = std::move(reader.faults());
     return read;

@@ -162,7 +162,10 @@ const Keys<BondSettings>& bond_keys() {
                              "two groups of boundary faces, \"<body>.<group>\"; one of them beside one of `bodies`",
                              &BondSettings::groups, names),
         Make<BondSettings>::number("strength", &BondSettings::strength, {.unit = "Pa", .above = 0.0},
-                                   "largest traction that it bears, pressure not counted; not given: it holds for ever")};
+                                   "largest traction that it bears, pressure not counted; not given: it holds for ever"),
+        Make<BondSettings>::number("fracture_energy", &BondSettings::fracture_energy,
+                                   {.unit = "J/m^2", .above = 0.0, .zero = true},
+                                   "that it takes per area as it opens from its strength on; 0: it breaks at once")};
     return keys;
 }
 

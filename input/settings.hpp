@@ -83,7 +83,9 @@ struct BodySettings : Named {
     Vector<3> velocity = Vector<3>::Zero();  ///< [m/s]
     Vector<3> spin = Vector<3>::Zero();      ///< [rad/s]
     bool has_material = false;               ///< Young's modulus and density are given
-    std::vector<BodySettings> parts;         ///< bodies of `mesh` with a table of their own, by their names in the file
+    std::optional<bool> self;                ///< whether it touches itself; not given: as Settings::self says
+    std::vector<BodySettings> parts;         ///< bodies of `mesh` or regions with a table of their own, by their names
+    std::optional<Formula> region;           ///< of a part: not 0 where its cells have their centroids, in x, y, z [m]
     std::string pattern;                     ///< PatternSettings::path of that which made it; empty: none did
     std::string pattern_where;               ///< Fault::where
     double n_copies = 1.0;                   ///< that `pattern` makes
@@ -195,6 +197,7 @@ struct BondSettings {
     std::vector<std::string> groups;
     std::string where;                                          ///< Fault::where
     double strength = std::numeric_limits<double>::infinity();  ///< [Pa]
+    double fracture_energy = 0.0;                               ///< [J/m^2]
 };
 
 struct ProbeSettings : Named {
@@ -213,6 +216,7 @@ struct Settings {
     Vector<3> gravity = Vector<3>::Zero();  ///< [m/s^2]
     double energy_scale = 0.0;              ///< [J]
     bool contact = true;
+    bool self = false;  ///< of [contact]: whether bodies touch themselves that do not say so
     std::vector<IgnoredPair> ignored_pairs;
     std::vector<PairSettings> pairs;
     std::vector<BondSettings> bonds;

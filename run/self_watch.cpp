@@ -176,9 +176,14 @@ private:
 template <int Dim>
 SelfWatch<Dim>::SelfWatch(const Scene<Dim>& scene, const solid::Solid<Dim>& solid) {
     const auto& contact = solid.options().contact;
-    if (!contact || contact->search.self_contact) return;
+    if (!contact) return;
     const auto& kinematics = solid.options().kinematics;
+    const auto touches_itself = [&](std::int32_t body) {
+        return contact->search.self_contact && std::ranges::find(solid.options().ignored_pairs, std::array{body, body}) ==
+                                                   solid.options().ignored_pairs.end();
+    };
     for (std::int32_t body = 0; body < scene.mesh.n_bodies(); ++body) {
+        if (touches_itself(body)) continue;
         if (!kinematics.empty() && kinematics[static_cast<std::size_t>(body)] == solid::Kinematics::rigid) continue;
         is_on_ = true;
         if (solid.ranks().is_one()) bodies_.push_back(std::make_unique<Body>(scene.mesh, body, solid.body_of_points()));

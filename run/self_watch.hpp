@@ -18,7 +18,7 @@ namespace abut::run {
 template <int Dim>
 class SelfWatch {
 public:
-    /// Watches the bodies of the scene that deform; none where contact acts within bodies. `solid`: the whole of them, or that of
+    /// Watches the bodies of the scene that deform, except those within which contact acts. `solid`: the whole of them, or that of
     /// a rank that only says with the others whether there is anything to watch.
     SelfWatch(const Scene<Dim>& scene, const solid::Solid<Dim>& solid);
     ~SelfWatch();

@@ -126,8 +126,9 @@ Mesh<Dim> mesh_of(const py::handle& points, const py::object& cells, const py::o
         }
         soup.group_names.push_back(group);
     }
-    return mesh::build_mesh<Dim>(std::move(soup),
-                                 {.planarity_tolerance = planarity_tolerance, .non_planar = non_planar_of(non_planar)});
+    return mesh::build_mesh<Dim>(std::move(soup), {.planarity_tolerance = planarity_tolerance,
+                                                   .non_planar = non_planar_of(non_planar),
+                                                   .shared_vertices = mesh::SharedVertices::separate});
 }
 
 py::object mesh_of_arrays(const py::object& points, const py::object& cells, const py::object& body,
@@ -303,7 +304,9 @@ void add_meshes(py::module_& module) {
     module.def(
         "read_mesh",
         [](const std::filesystem::path& path, int dim, const std::string& non_planar, double planarity_tolerance) {
-            const MeshOptions options{.planarity_tolerance = planarity_tolerance, .non_planar = non_planar_of(non_planar)};
+            const MeshOptions options{.planarity_tolerance = planarity_tolerance,
+                                      .non_planar = non_planar_of(non_planar),
+                                      .shared_vertices = mesh::SharedVertices::separate};
             if (dim == 2) return py::cast(mesh::read_mesh<2>(path, options));
             if (dim == 3) return py::cast(mesh::read_mesh<3>(path, options));
             throw py::value_error("dim is " + std::to_string(dim) + "; 2 and 3 are allowed");

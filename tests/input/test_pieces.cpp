@@ -1,0 +1,159 @@
+// Bodies of several materials: by the groups of a file, or by regions.
+#include <algorithm>
+#include <array>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "abut/run/simulation.hpp"
+#include "input/scenes.hpp"
+
+namespace {
+
+using namespace abut;
+using test::WrittenScene;
+
+std::string wheel(const std::string& of_body, const std::string& more = "") {
+    return R"toml(dim = 2
+[bodies.wheel]
+shape = "disc"
+radius = 0.3
+size = 0.06
+place = [1, 2]
+kinematics = "floating"
+young = 1e6
+density = 1000
+)toml" + of_body +
+           R"toml([bodies.wheel.hub]
+region = "sqrt(x^2 + y^2) < 0.18"
+young = 4e6
+density = 3000
+)toml" + more +
+           "[run]\nsteps = 30\n";
+}
+
+template <int Dim>
+run::Scene<Dim> scene_of(const std::string& text) {
+    const WrittenScene written(text);
+    const auto checked = input::check_scene(written.path());
+    CAPTURE(input::text_of(checked.faults));
+    REQUIRE(checked.faults.empty());
+    return input::SceneFile(written.path()).scene<Dim>();
+}
+
+/// 6 x 3 squares cut into triangles, of two groups that share the vertices between them.
+void write_plate(const std::filesystem::path& path) {
+    std::ofstream file(path);
+    file << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n2 1 \"left\"\n2 2 "
+            "\"right\"\n$EndPhysicalNames\n$Nodes\n28\n";
+    for (int j = 0; j < 4; ++j)
+        for (int i = 0; i < 7; ++i) file << 7 * j + i + 1 << ' ' << i << ' ' << j << " 0\n";
+    file << "$EndNodes\n$Elements\n36\n";
+    int number = 0;
+    for (int j = 0; j < 3; ++j)
+        for (int i = 0; i < 6; ++i) {
+            const int a = 7 * j + i + 1, group = i < 3 ? 1 : 2;
+            file << ++number << " 2 2 " << group << ' ' << group << ' ' << a << ' ' << a + 1 << ' ' << a + 8 << '\n';
+            file << ++number << " 2 2 " << group << ' ' << group << ' ' << a << ' ' << a + 8 << ' ' << a + 7 << '\n';
+        }
+    file << "$EndElements\n";
+}
+
+bool is_refused(const std::string& text, const std::string& words) {
+    const WrittenScene written(text);
+    const auto faults = input::check_scene(written.path()).faults;
+    return std::ranges::any_of(faults,
+                               [&](const input::Fault& fault) { return fault.text.find(words) != std::string::npos; });
+}
+
+}  // namespace
+
+TEST_CASE("a region of a body is a part with its own material, bonded to the rest for ever", "[input][pieces]") {
+    const auto scene = scene_of<2>(wheel(""));
+    CHECK(scene.mesh.body_names == std::vector<std::string>{"wheel.hub", "wheel.rest"});
+    CHECK(scene.solid.materials[0].young == 4e6);
+    CHECK(scene.solid.materials[1].young == 1e6);
+    CHECK(scene.solid.kinematics[0] == solid::Kinematics::floating);
+    REQUIRE(scene.solid.bonds.size() == 1);
+    CHECK(scene.solid.bonds[0].sides == std::array{0, 1});
+    CHECK(std::isinf(scene.solid.bonds[0].strength));
+    CHECK(scene.solid.ignored_pairs == std::vector<std::array<std::int32_t, 2>>{{0, 1}});
+    for (std::int32_t cell = 0; cell < scene.mesh.n_cells(); ++cell)
+        CHECK(((scene.mesh.cell_centroid[cell] - Vector<2>(1.0, 2.0)).norm() < 0.18) == (scene.mesh.cell_body[cell] == 0));
+    CHECK(scene_of<2>(wheel("", "[contact]\nself = true\n")).solid.ignored_pairs.empty());
+}
+
+TEST_CASE("a body says for itself whether it touches itself", "[input][pieces]") {
+    const auto blocks = [](const std::string& left, const std::string& contact) {
+        std::string text = test::two_blocks(contact);
+        text.insert(text.find("[bodies.right]"), left);
+        return text;
+    };
+    using Pairs = std::vector<std::array<std::int32_t, 2>>;
+    const auto self = [](const std::string& text) {
+        const WrittenScene written(text);
+        return input::SceneFile(written.path()).options().contact.search.self_contact;
+    };
+    const auto ignored = [](const std::string& text) { return scene_of<2>(text).solid.ignored_pairs; };
+    CHECK_FALSE(self(blocks("", "")));
+    CHECK(self(blocks("self = true\n", "")));
+    CHECK(ignored(blocks("self = true\n", "")) == Pairs{{1, 1}});
+    CHECK(self(blocks("self = false\n", "[contact]\nself = true\n")));
+    CHECK(ignored(blocks("self = false\n", "[contact]\nself = true\n")) == Pairs{{0, 0}});
+    CHECK(ignored(blocks("", "[contact]\nself = true\n")).empty());
+}
+
+TEST_CASE("the parts of a piece fly and turn as one", "[input][pieces]") {
+    const auto scene = scene_of<2>(wheel("velocity = [3, 0]\nspin = 7\n", "[contact]\nenabled = true\n"));
+    run::RunOptions options;
+    options.steps = 400;
+    const auto result = run::simulate<2>(scene, options);
+    CHECK(result.ledger.pseudo_energy_drift() < 1e-11 * result.scale.value);
+    // All that the bond and the strain of the spin have of the energy, which is 1e-4 of it.
+    const auto& ledger = result.ledger.entries();
+    CHECK(ledger.back().potential < 1e-3 * ledger.front().kinetic);
+    for (const auto& part : result.end) CHECK(part.spin[0] == Approx(7.0).epsilon(0.01));  // released unstrained, it swings
+}
+
+TEST_CASE("groups of a file that share vertices are parts of one piece", "[input][pieces]") {
+    const WrittenScene written(R"toml(dim = 2
+[bodies.plate]
+mesh = "plate.msh"
+young = 1
+density = 1
+[bodies.plate.right]
+young = 4
+[bodies.plate.right.unknown]
+[run]
+steps = 3
+)toml");
+    write_plate(written.path().parent_path() / "plate.msh");
+    std::string text;
+    {
+        std::ifstream in(written.path());
+        text.assign(std::istreambuf_iterator<char>(in), {});
+    }
+    CHECK(input::check_scene(written.path()).faults.size() == 1);  // the unknown table
+    text.erase(text.find("[bodies.plate.right.unknown]\n"), 29);
+    std::ofstream(written.path()) << text;
+    const auto checked = input::check_scene(written.path());
+    CAPTURE(input::text_of(checked.faults));
+    REQUIRE(checked.faults.empty());
+    const auto scene = input::SceneFile(written.path()).scene<2>();
+    CHECK(scene.mesh.body_names == std::vector<std::string>{"plate.left", "plate.right"});
+    CHECK(scene.solid.materials[1].young == 4.0);
+    CHECK(scene.solid.materials[1].density == 1.0);
+    REQUIRE(scene.solid.bonds.size() == 1);
+    CHECK(scene.mesh.report.n_coincident_vertices == 0);
+}
+
+TEST_CASE("parts of a piece that cannot be are refused with the reason", "[input][pieces]") {
+    CHECK(is_refused(wheel("", "[bodies.wheel.rest]\nvelocity = [1, 0]\n"), "velocity or spin differs"));
+    CHECK(is_refused(wheel("", "[bodies.wheel.rest]\nkinematics = \"rigid\"\n"), "'wheel.rest' is rigid"));
+    CHECK(is_refused(wheel("", "[bodies.wheel.rim]\nregion = \"x > 5\"\nyoung = 1\ndensity = 1\n"), "'rim' has 0 cells"));
+    CHECK(is_refused(wheel("", "[bodies.wheel.rim]\nyoung = 1\ndensity = 1\n"), "rim"));
+    CHECK(is_refused(wheel("region = \"x > 0\"\n"), "region"));
+}
