@@ -13,7 +13,8 @@ def mesh(points, cells=None, body=None, body_names=(), groups=None, **options):
     """A mesh of arrays, or of a meshio.Mesh.
 
     points: (n, dim) [m]. cells: {"triangle": (n, 3), ...}, pairs, or blocks with type and data: triangle, quad; tetra, hexahedron,
-    wedge, pyramid. body: one number per cell. groups: {name: points of each face (n, corners), or a list of such arrays}. name: what
+    wedge, pyramid. body: one number per cell; bodies that share points are one piece of
+    several materials where a scene has them. groups: {name: points of each face (n, corners), or a list of such arrays}. name: what
     messages call it. non_planar: "fail" or "split", for faces with a corner farther off their plane than planarity_tolerance times
     their size.
 
