@@ -36,7 +36,7 @@ density = 3000
 }
 
 template <int Dim>
-run::Scene<Dim> scene_of(const std::string& text) {
+run::Scene<Dim> piece_scene(const std::string& text) {
     const WrittenScene written(text);
     const auto checked = input::check_scene(written.path());
     CAPTURE(input::text_of(checked.faults));
@@ -62,7 +62,7 @@ void write_plate(const std::filesystem::path& path) {
     file << "$EndElements\n";
 }
 
-bool is_refused(const std::string& text, const std::string& words) {
+bool is_piece_refused(const std::string& text, const std::string& words) {
     const WrittenScene written(text);
     const auto faults = input::check_scene(written.path()).faults;
     return std::ranges::any_of(faults,
@@ -72,7 +72,7 @@ bool is_refused(const std::string& text, const std::string& words) {
 }  // namespace
 
 TEST_CASE("a region of a body is a part with its own material, bonded to the rest for ever", "[input][pieces]") {
-    const auto scene = scene_of<2>(wheel(""));
+    const auto scene = piece_scene<2>(wheel(""));
     CHECK(scene.mesh.body_names == std::vector<std::string>{"wheel.hub", "wheel.rest"});
     CHECK(scene.solid.materials[0].young == 4e6);
     CHECK(scene.solid.materials[1].young == 1e6);
@@ -83,7 +83,7 @@ TEST_CASE("a region of a body is a part with its own material, bonded to the res
     CHECK(scene.solid.ignored_pairs == std::vector<std::array<std::int32_t, 2>>{{0, 1}});
     for (std::int32_t cell = 0; cell < scene.mesh.n_cells(); ++cell)
         CHECK(((scene.mesh.cell_centroid[cell] - Vector<2>(1.0, 2.0)).norm() < 0.18) == (scene.mesh.cell_body[cell] == 0));
-    CHECK(scene_of<2>(wheel("", "[contact]\nself = true\n")).solid.ignored_pairs.empty());
+    CHECK(piece_scene<2>(wheel("", "[contact]\nself = true\n")).solid.ignored_pairs.empty());
 }
 
 TEST_CASE("a body says for itself whether it touches itself", "[input][pieces]") {
@@ -97,7 +97,7 @@ TEST_CASE("a body says for itself whether it touches itself", "[input][pieces]")
         const WrittenScene written(text);
         return input::SceneFile(written.path()).options().contact.search.self_contact;
     };
-    const auto ignored = [](const std::string& text) { return scene_of<2>(text).solid.ignored_pairs; };
+    const auto ignored = [](const std::string& text) { return piece_scene<2>(text).solid.ignored_pairs; };
     CHECK_FALSE(self(blocks("", "")));
     CHECK(self(blocks("self = true\n", "")));
     CHECK(ignored(blocks("self = true\n", "")) == Pairs{{1, 1}});
@@ -107,7 +107,7 @@ TEST_CASE("a body says for itself whether it touches itself", "[input][pieces]")
 }
 
 TEST_CASE("the parts of a piece fly and turn as one", "[input][pieces]") {
-    const auto scene = scene_of<2>(wheel("velocity = [3, 0]\nspin = 7\n", "[contact]\nenabled = true\n"));
+    const auto scene = piece_scene<2>(wheel("velocity = [3, 0]\nspin = 7\n", "[contact]\nenabled = true\n"));
     run::RunOptions options;
     options.steps = 400;
     const auto result = run::simulate<2>(scene, options);
@@ -151,9 +151,9 @@ steps = 3
 }
 
 TEST_CASE("parts of a piece that cannot be are refused with the reason", "[input][pieces]") {
-    CHECK(is_refused(wheel("", "[bodies.wheel.rest]\nvelocity = [1, 0]\n"), "velocity or spin differs"));
-    CHECK(is_refused(wheel("", "[bodies.wheel.rest]\nkinematics = \"rigid\"\n"), "'wheel.rest' is rigid"));
-    CHECK(is_refused(wheel("", "[bodies.wheel.rim]\nregion = \"x > 5\"\nyoung = 1\ndensity = 1\n"), "'rim' has 0 cells"));
-    CHECK(is_refused(wheel("", "[bodies.wheel.rim]\nyoung = 1\ndensity = 1\n"), "rim"));
-    CHECK(is_refused(wheel("region = \"x > 0\"\n"), "region"));
+    CHECK(is_piece_refused(wheel("", "[bodies.wheel.rest]\nvelocity = [1, 0]\n"), "velocity or spin differs"));
+    CHECK(is_piece_refused(wheel("", "[bodies.wheel.rest]\nkinematics = \"rigid\"\n"), "'wheel.rest' is rigid"));
+    CHECK(is_piece_refused(wheel("", "[bodies.wheel.rim]\nregion = \"x > 5\"\nyoung = 1\ndensity = 1\n"), "'rim' has 0 cells"));
+    CHECK(is_piece_refused(wheel("", "[bodies.wheel.rim]\nyoung = 1\ndensity = 1\n"), "rim"));
+    CHECK(is_piece_refused(wheel("region = \"x > 0\"\n"), "region"));
 }
