@@ -212,6 +212,10 @@ Matrix<Dim> Solid<Dim>::mean_turn(std::int32_t body) const {
 
 template <int Dim>
 void Solid<Dim>::set_rates(std::span<const double> q, std::span<const double> p) {
+    if (ccg_.any_damped()) {
+        const bool moves = std::ranges::any_of(p, [](double value) { return value != 0.0; });
+        if (ranks().largest(moves ? 1.0 : 0.0) == 0.0) ccg_.bring_to_rest();
+    }
     if (!point_loads_->damp()) return;
     std::vector<double> v(p.begin(), p.end());
     for (std::size_t i = 0; i < v.size(); ++i) v[i] *= inverse_mass()[i];

@@ -131,7 +131,8 @@ public:
     [[nodiscard]] bool is_constrained(std::int32_t point) const;
     void constrain_along(std::span<const double> q, double dt, std::span<double> p);
     void constrain_at(std::span<const double> q, double dt, std::span<double> p);
-    /// RateSystem: what dashpots and brakes act on next is the mean of the rates of p in q and of those of the next step.
+    /// RateSystem: what dashpots and brakes act on next is the mean of the rates of p in q and of those of the next step. So is what
+    /// damped materials act on where p is 0 everywhere; else their rates stay those of the last step.
     void set_rates(std::span<const double> q, std::span<const double> p);
     /// Whether V depends on q alone: no condition has a history, no obstacle a path, and no material remembers.
     [[nodiscard]] bool is_autonomous() const;

@@ -306,6 +306,11 @@ void Ccg<Dim>::end_step() {
 }
 
 template <int Dim>
+void Ccg<Dim>::bring_to_rest() {
+    impl_->viscous.bring_to_rest();
+}
+
+template <int Dim>
 bool Ccg<Dim>::any_damped() const {
     return impl_->viscous.any();
 }

@@ -134,6 +134,14 @@ dynamics::Losses ViscousCells<Dim>::loss(std::ptrdiff_t cell) const {
 }
 
 template <int Dim>
+void ViscousCells<Dim>::bring_to_rest() {
+    for (Cell& cell : cells_) {
+        cell.before = {};
+        cell.before.deforms_known = cell.before.moves_known = true;
+    }
+}
+
+template <int Dim>
 void ViscousCells<Dim>::end_step() {
     for (Cell& cell : cells_) cell.before = cell.now;
 }

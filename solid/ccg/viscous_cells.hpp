@@ -36,6 +36,8 @@ public:
     [[nodiscard]] dynamics::Losses loss(std::ptrdiff_t cell) const;
     /// The next step begins where this one ends.
     void end_step();
+    /// The next step begins with rates of 0.
+    void bring_to_rest();
 
     /// The largest Material::damping_ratio of a mode with this frequency [rad/s].
     [[nodiscard]] double damping_ratio(double omega) const;
