@@ -98,7 +98,9 @@ Matrix<Dim> CcgSweeps<Dim, Real>::gradient_of_stage(std::int32_t c) const {
 template <int Dim, class Real>
 Matrix<Dim> CcgSweeps<Dim, Real>::stress_of_flow(std::int32_t c, const Matrix<Dim>& elastic) {
     if (!steps_ || (follows_ && plastic_->stays_elastic(c, elastic))) return plastic_->stress(c);
-    const Matrix<Dim> mean = gradient_of_stage(c), half = 0.5 * linear_change(c);
+    const bool is_made = !follows_ && capped_ && capped_->contains(c);
+    const Matrix<Dim> mean = gradient_of_stage(c);
+    const Matrix<Dim> half = 0.5 * (is_made ? unload(load_tensor<Dim>(g_change_, c)) : linear_change(c));
     return plastic_->advance(c, mean - half, mean + half, dt_);
 }
 
