@@ -11,8 +11,8 @@ namespace {
 // Material::jump_cap where none is given. Gradients of bricks are central differences, so that jumps have more to hold.
 constexpr double cap_of_simplices = 0.1, cap_of_others = 0.3;
 constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
-constexpr double rounding = 1e-9;      // more than what sums of very many steps make of a jump, over the cap
-constexpr double same_normal = 1e-10;  // 1 - |cos| of two normals that count as one
+constexpr double jump_rounding = 1e-9;  // more than what sums of very many steps make of a jump, over the cap
+constexpr double same_normal = 1e-10;   // 1 - |cos| of two normals that count as one
 
 template <int Dim>
 bool is_simplex(const mesh::Mesh<Dim>& mesh, std::int32_t cell) {
@@ -101,7 +101,7 @@ template <int Dim>
 bool CappedJumps<Dim>::stays_elastic(std::ptrdiff_t half_face, const Vector<Dim>& mean) {
     const auto i = static_cast<std::size_t>(half_face);
     next_elastic_[i] = 2.0 * (mean - memory_[i]) - elastic_[i];
-    const double largest = (1.0 - rounding) * largest_[i];
+    const double largest = (1.0 - jump_rounding) * largest_[i];
     if (!(next_elastic_[i].squaredNorm() <= largest * largest)) return false;  // or not a number
     next_[i] = memory_[i];
     return true;

@@ -16,7 +16,8 @@ namespace {
 constexpr double free_direction = 1e-10;  // an eigenvalue of B^T C B over the largest, below which it counts as none
 constexpr double no_answer = 1e-12;       // the same of dev C_e dev, over 2 mu
 constexpr int most_doublings = 60;
-constexpr double rounding = 1e-9;  // more than what sums of very many steps make of a driving force, over the yield radius
+constexpr double return_rounding =
+    1e-9;  // more than what sums of very many steps make of a driving force, over the yield radius
 constexpr double two_thirds = 2.0 / 3.0;
 const double slope_of_alpha = std::sqrt(two_thirds);  // in |p|
 
@@ -145,7 +146,7 @@ bool PlasticCells<Dim>::stays_elastic(std::ptrdiff_t cell, const Matrix<Dim>& me
     Strain stress = packed(mean);
     if constexpr (Dim == 2) stress[2] = of.material->poisson * mean.trace();
     of.next_driving = 2.0 * (deviator_of(stress) - of.memory.shift) - of.driving;
-    const double largest = (1.0 - rounding) * of.memory.radius;
+    const double largest = (1.0 - return_rounding) * of.memory.radius;
     if (!(of.next_driving.squaredNorm() <= largest * largest)) return false;  // or not a number
     of.flows = false;
     of.loss = 0.0;

@@ -153,7 +153,8 @@ steps = 3
 TEST_CASE("parts of a piece that cannot be are refused with the reason", "[input][pieces]") {
     CHECK(is_piece_refused(wheel("", "[bodies.wheel.rest]\nvelocity = [1, 0]\n"), "velocity or spin differs"));
     CHECK(is_piece_refused(wheel("", "[bodies.wheel.rest]\nkinematics = \"rigid\"\n"), "'wheel.rest' is rigid"));
-    CHECK(is_piece_refused(wheel("", "[bodies.wheel.rim]\nregion = \"x > 5\"\nyoung = 1\ndensity = 1\n"), "'rim' has 0 cells"));
+    CHECK(is_piece_refused(wheel("", "[bodies.wheel.rim]\nregion = \"x > 5\"\nyoung = 1\ndensity = 1\n"),
+                           "'rim' has 0 cells"));
     CHECK(is_piece_refused(wheel("", "[bodies.wheel.rim]\nyoung = 1\ndensity = 1\n"), "rim"));
     CHECK(is_piece_refused(wheel("region = \"x > 0\"\n"), "region"));
 }
