@@ -297,3 +297,29 @@ TEST_CASE("viscosity makes a shock of halves that meet: stress, place and energy
     CHECK(fine.lost < 1.2);
     CHECK(fine.lost - 1.0 < 0.55 * (coarse.lost - 1.0));
 }
+
+TEST_CASE("a damped body that is brought to rest goes on as one that begins there, whatever it did before",
+          "[solid][damping]") {
+    for (const Material& material : damped_materials())
+        for (const Kinematics kinematics : kinematics_that_deform) {
+            CAPTURE(static_cast<int>(kinematics), material.stiffness_damping);
+            const auto mesh = boxes<2>()[0].mesh;
+            TurningScene<2> rests(mesh, alone<2>(material), {moving<2>({0.01, 0.0})}, 0.6, kinematics, 0.01);
+            rests.run(20);
+            rests.memm.bring_to_rest();
+            solid::Solid<2> begins(mesh, TurningScene<2>::with(alone<2>(material), {kinematics}));
+            const std::vector<double> at(rests.memm.q().begin(), rests.memm.q().end());
+            dynamics::Memm<solid::Solid<2>> memm(begins, at, std::vector<double>(at.size(), 0.0), rests.memm.dt());
+            for (int i = 0; i < 5; ++i) {
+                rests.memm.step();
+                memm.step();
+            }
+            double largest = 0.0, apart = 0.0;
+            for (std::size_t i = 0; i < at.size(); ++i) {
+                raise(largest, std::abs(memm.q()[i] - at[i]));
+                raise(apart, std::abs(memm.q()[i] - rests.memm.q()[i]));
+            }
+            CHECK(largest > 0.0);
+            CHECK(apart <= 1e-12 * largest);
+        }
+}
