@@ -78,7 +78,7 @@ private:
     std::vector<Sharpest> all_;
 };
 
-/// One facet at an edge u -> v: its corners, and the way from the edge to the third one.
+/// One facet at an edge u -> v: its corners, and the vector from the edge to the third one, across it.
 struct Flank {
     std::int32_t u, v, third;  // vertices
     double along;              // of the foot of the third corner, from u to v

@@ -215,7 +215,14 @@ void add_pairs(run::Scene<Dim>& scene, const Settings& settings, std::vector<Fau
             return other.bodies == both || other.bodies == Numbers{both[1], both[0]};
         };
         const bool resolves = pair.interference == Interference::resolve;
-        if (resolves) scene.solid.interference.push_back({both, pair.interference_time});
+        const auto has_one = [&](const auto& other) {
+            return other.bodies == both || other.bodies == Numbers{both[1], both[0]};
+        };
+        if (resolves && std::ranges::any_of(scene.solid.interference, has_one))
+            faults.push_back({pair.where, fmt::format("contact.pairs: '{}' and '{}' have two interferences; give one.",
+                                                      names[0], names[1])});
+        else if (resolves)
+            scene.solid.interference.push_back({both, pair.interference_time});
         const bool has_friction = pair.has_friction || !resolves;
         if (has_friction && std::ranges::any_of(scene.solid.body_friction, is_same_pair))
             faults.push_back({pair.where, fmt::format("contact.pairs: '{}' and '{}' have two laws of friction; give one.",

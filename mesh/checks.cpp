@@ -200,8 +200,8 @@ void check_bodies_apart(const CellSoup<Dim>& soup) {
                 throw MeshError(soup.name + ": bodies '" + soup.body_names[other] + "' and '" + soup.body_names[body] +
                                 "' share vertex " + text(soup.vertex_label, vertex) + " (cells " +
                                 text(soup.cell_label, first) + "|" + text(soup.cell_label, cell) +
-                                "). Give each body its own vertices on the interface (MeshOptions::shared_vertices), or "
-                                "make them one body.");
+                                "). Give each body its own vertices on the interface, let them be separated as the "
+                                "file is read, or make them one body.");
         }
 }
 

@@ -99,6 +99,7 @@ void Bodies<Dim>::find_joined_faces() {
     for (const BondPlace<Dim>& place : bond_places_)
         if (std::isinf(options_.bonds[place.bond].strength) && fills(place, place.faces[0]) && fills(place, place.faces[1]))
             for (const BoundaryFace b : place.faces) is_joined[number_of(b)] = 1;
+    part_options_.boundary.joined_faces.clear();
     std::size_t here = 0;  // among the boundary faces of the bodies that deform
     for (const BoundaryFace b : boundary_faces(mesh_)) {
         if (is_rigid(mesh_.cell_body[cell_of(mesh_, b)])) continue;

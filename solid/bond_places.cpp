@@ -82,6 +82,14 @@ void check(const mesh::Mesh<Dim>& mesh, const Bond& bond, std::size_t n_obstacle
                            side_in_words(mesh, bond.sides[1], n_obstacles) + " has a strength of " + number(bond.strength) +
                            " Pa; > 0 is needed. Correct SolidOptions::bonds.",
                        {.value = bond.strength, .allowed = 0.0});
+    if (!(bond.fracture_energy >= 0.0 && std::isfinite(bond.fracture_energy)) ||
+        (bond.fracture_energy > 0.0 && std::isinf(bond.strength)))
+        throw BadInput(
+            mesh.name + ": the bond of " + side_in_words(mesh, bond.sides[0], n_obstacles) + " and " +
+                side_in_words(mesh, bond.sides[1], n_obstacles) + " has a fracture energy of " +
+                number(bond.fracture_energy) +
+                " J/m^2; it is finite and >= 0, and 0 where the strength is infinite. Correct SolidOptions::bonds.",
+            {.value = bond.fracture_energy, .allowed = 0.0});
 }
 
 template <int Dim>

@@ -68,7 +68,7 @@ struct BoundaryConditions {
     std::vector<DirichletCondition<Dim>> dirichlet;
     std::vector<TractionCondition<Dim>> traction;
     /// Boundary faces of the mesh that are bonded face to face for ever: what holds them is no matter of their own cell, and they are
-    /// extrapolated from the cells around. A solid finds them by itself
+    /// extrapolated from the cells around. Read by operators alone: a solid finds them by itself
     std::vector<std::int32_t> joined_faces = {};
 };
 

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "abut/base/error.hpp"
 #include "abut/input/given_meshes.hpp"
 #include "abut/run/options.hpp"
 #include "abut/run/scene.hpp"
@@ -69,6 +70,13 @@ std::function<Vector<Dim>(const Vector<Dim>&)> field_of(const py::object& functi
 
 template <int Dim>
 run::Scene<Dim> scene_of(const SceneArguments<Dim>& given) {
+    if (const mesh::Mesh<Dim>& mesh = given.mesh; !mesh.report.joined_bodies.empty()) {
+        const auto& [body_1, body_2] = mesh.report.joined_bodies.front();
+        throw BadInput(mesh.name + ": bodies '" + mesh.body_names[static_cast<std::size_t>(body_1)] + "' and '" +
+                       mesh.body_names[static_cast<std::size_t>(body_2)] +
+                       "' share points, and these arguments have no bonds. Give each its own points, or run the mesh in a "
+                       "scene (text or a file), which bonds them.");
+    }
     run::Scene<Dim> scene;
     scene.mesh = given.mesh;
     scene.solid.materials = given.materials;

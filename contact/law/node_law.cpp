@@ -147,13 +147,16 @@ void NodeLaw<Dim>::list(std::vector<FacetPair>& pairs, std::span<const FacetPair
 template <int Dim>
 void NodeLaw<Dim>::begin_interference(State x_0) {
     std::vector<double> overlaps(options_.interference.times.size(), 0.0);
+    std::vector<const NodalPair<Dim>*> deeper(overlaps.size(), nullptr);
     for (const NodalPair<Dim>& pair : pairs_.pairs()) {
         if (pair.interference < 0) continue;
+        const auto which = static_cast<std::size_t>(pair.interference);
         const auto state = geometry::pair_state<Dim>(pair.at(x_0), pair.law);
         if (state.energy <= 0.0) continue;
         if (-state.gap < pair.admission_depth) {
-            double& overlap = overlaps[static_cast<std::size_t>(pair.interference)];
-            overlap = std::max(overlap, -state.gap);
+            overlaps[which] = std::max(overlaps[which], -state.gap);
+        } else if (-state.gap >= 2.0 * pair.admission_depth) {
+            deeper[which] = &pair;
         } else if (-state.gap < 2.0 * pair.admission_depth) {
             const Face face_1 = acting().face_of(Facet{pair.facet_1}), face_2 = acting().face_of(Facet{pair.facet_2});
             throw BadInput("interference: " + face_name(face_1) + " and " + face_name(face_2) + " overlap by " +
@@ -166,8 +169,21 @@ void NodeLaw<Dim>::begin_interference(State x_0) {
                             .allowed = pair.admission_depth});
         }
     }
+    for (std::size_t which = 0; which < overlaps.size(); ++which)
+        if (overlaps[which] == 0.0 && deeper[which] != nullptr) refuse_deep_interference(*deeper[which]);
     ramps_.begin(std::move(overlaps));
     set_offsets(0.0);
+}
+
+template <int Dim>
+void NodeLaw<Dim>::refuse_deep_interference(const NodalPair<Dim>& pair) const {
+    const Face face_1 = acting().face_of(Facet{pair.facet_1}), face_2 = acting().face_of(Facet{pair.facet_2});
+    throw BadInput("interference: " + face_name(face_1) + " and " + face_name(face_2) +
+                       " look at each other, and nowhere do their bodies overlap by less than " +
+                       number(pair.admission_depth) +
+                       " m, half the depth of the cells behind both. Take deeper cells there, or a smaller overlap; leave "
+                       "the interference out where the bodies lie apart.",
+                   {.face_1 = number_of(face_1), .face_2 = number_of(face_2), .allowed = pair.admission_depth});
 }
 
 /// Of all pairs, at both ends of a step that takes `dt`.
@@ -181,6 +197,10 @@ void NodeLaw<Dim>::set_offsets(double dt) {
 template <int Dim>
 void NodeLaw<Dim>::set_interference(std::span<const double> saved) {
     ramps_.restore(saved);
+    if (!ramps_.has_begun()) {
+        const std::vector<double> none(options_.interference.times.size(), 0.0);
+        pairs_.set_offsets(none, none);
+    }
     set_offsets(0.0);
 }
 

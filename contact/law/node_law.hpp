@@ -97,6 +97,7 @@ private:
     [[nodiscard]] bool is_seen_from_outside(const NodalPair<Dim>& pair, State x) const;
     void set_inside_pairs_apart(std::vector<FacetPair>& pairs, State x_0);
     void begin_interference(State x_0);
+    [[noreturn]] void refuse_deep_interference(const NodalPair<Dim>& pair) const;
     void set_offsets(double dt);
 
     BevelledSurface<Dim> surface_;
