@@ -16,7 +16,7 @@ struct HardeningLaw {
 };
 
 /// The part of a table that begins at or before alpha, and the integral of the rise up to it.
-struct Place {
+struct Segment {
     const HardeningPoint* point;
     const HardeningPoint* next;  // null behind the last
     double work;
@@ -26,18 +26,18 @@ struct Place {
     }
 };
 
-Place place_in(const std::vector<HardeningPoint>& table, double alpha) {
-    Place place{table.data(), nullptr, 0.0};
+Segment segment_at(const std::vector<HardeningPoint>& table, double alpha) {
+    Segment segment{table.data(), nullptr, 0.0};
     const double first = table.front().stress;
     for (std::size_t i = 1; i < table.size(); ++i) {
-        place.next = &table[i];
-        if (table[i].plastic_strain > alpha) return place;
-        place.work += (0.5 * (table[i - 1].stress + table[i].stress) - first) *
-                      (table[i].plastic_strain - table[i - 1].plastic_strain);
-        place.point = place.next;
+        segment.next = &table[i];
+        if (table[i].plastic_strain > alpha) return segment;
+        segment.work += (0.5 * (table[i - 1].stress + table[i].stress) - first) *
+                        (table[i].plastic_strain - table[i - 1].plastic_strain);
+        segment.point = segment.next;
     }
-    place.next = nullptr;
-    return place;
+    segment.next = nullptr;
+    return segment;
 }
 
 /// All of them; they add up. docs/method.md, Metal that yields.
@@ -68,16 +68,16 @@ constexpr std::array hardening_laws{
     // A table
     HardeningLaw{[](const Material& of) { return !of.hardening_table.empty(); },
                  [](const Material& of, double alpha) {
-                     const Place place = place_in(of.hardening_table, alpha);
-                     return place.point->stress - of.hardening_table.front().stress +
-                            place.slope() * (alpha - place.point->plastic_strain);
+                     const Segment segment = segment_at(of.hardening_table, alpha);
+                     return segment.point->stress - of.hardening_table.front().stress +
+                            segment.slope() * (alpha - segment.point->plastic_strain);
                  },
-                 [](const Material& of, double alpha) { return place_in(of.hardening_table, alpha).slope(); },
+                 [](const Material& of, double alpha) { return segment_at(of.hardening_table, alpha).slope(); },
                  [](const Material& of, double alpha) {
-                     const Place place = place_in(of.hardening_table, alpha);
-                     const double beyond = alpha - place.point->plastic_strain;
-                     return place.work +
-                            (place.point->stress - of.hardening_table.front().stress + 0.5 * place.slope() * beyond) *
+                     const Segment segment = segment_at(of.hardening_table, alpha);
+                     const double beyond = alpha - segment.point->plastic_strain;
+                     return segment.work +
+                            (segment.point->stress - of.hardening_table.front().stress + 0.5 * segment.slope() * beyond) *
                                 beyond;
                  }}};
 
