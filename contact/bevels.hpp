@@ -25,7 +25,7 @@ struct Bevels {
     std::vector<std::array<std::int32_t, Dim>> corners;  ///< counted from 0 among the above
     std::vector<std::array<std::int32_t, 2>> beside;     ///< facets of the host that meet there, the lower one first
     std::vector<double> stiffening;  ///< F >= 1 [-]: a narrow strip gives way less, for its pressure, than a wide face
-    std::vector<geometry::FacingFade> facing;  ///< weight of its pairs; of two bevels, that of the blunter one
+    std::vector<geometry::FacingFade> facing;  ///< weight of its pairs, unless the other facet has a narrower one
 
     std::vector<Vector<Dim>> tips;  ///< sharp corners of the body at rest that have a bevel, of their own or of an edge [m]
     double width = 0.0;             ///< largest distance of a corner of a bevel from that of its body [m]

@@ -95,7 +95,7 @@ Flank flank_of(const SurfaceView<3>& facets, std::int32_t facet, const Vector<3>
     return flank;
 }
 
-/// across of a flank, of its corners.
+/// Flank::across as a combination of the corners.
 Combination across(const Flank& flank) {
     Combination combination;
     combination.add(flank.third, 1.0);
@@ -149,15 +149,14 @@ void append_edge(const SurfaceView<3>& facets, const Edge& edge, Bevels<3>& beve
     bevels.width = std::max(bevels.width, 0.5 * width);
 }
 
-/// The facets of one body at one position.
-struct PointedCorner {
+/// A corner of a body, with the facets that meet there.
+struct SurfaceCorner {
     std::int32_t merged_vertex, body;
     Vector<3> position;
     std::vector<std::int32_t> facets;
-    std::vector<std::int32_t> vertex;  // of each facet there
-    std::vector<std::array<std::int32_t, 2>>
-        ring;        // an edge from there: the vertex there and at the other end, facet by facet
-    Vector<3> axis;  // outwards, unit; 0 where the edges leave no direction
+    std::vector<std::int32_t> vertex;               // of each facet there
+    std::vector<std::array<std::int32_t, 2>> ring;  // edges, facet by facet: the vertex there, that at the other end
+    Vector<3> axis;                                 // outwards, unit; 0 where the edges make no spike
 };
 
 /// Whether the facets go all around a corner: each edge from there belongs to two of them.
@@ -170,7 +169,7 @@ bool is_closed(const SurfaceView<3>& facets, const std::vector<std::array<std::i
     return std::ranges::all_of(count, [](const auto& of) { return of.second == 2; });
 }
 
-std::vector<PointedCorner> corners_of(const SurfaceView<3>& facets) {
+std::vector<SurfaceCorner> corners_of(const SurfaceView<3>& facets) {
     const std::vector<std::int32_t> merged = geometry::merged_vertices<3>(facets.vertices);
     struct At {
         std::int32_t merged, body, facet, vertex;
@@ -180,11 +179,11 @@ std::vector<PointedCorner> corners_of(const SurfaceView<3>& facets) {
         for (const std::int32_t vertex : facets.vertices_of(facet))
             all.push_back({merged[vertex], facets.body[facet], facet, vertex});
     std::ranges::sort(all, {}, [](const At& at) { return std::tie(at.merged, at.body, at.facet); });
-    std::vector<PointedCorner> corners;
+    std::vector<SurfaceCorner> corners;
     for (std::size_t i = 0; i < all.size(); ++i) {
         if (i == 0 || all[i].merged != all[i - 1].merged || all[i].body != all[i - 1].body)
             corners.push_back({all[i].merged, all[i].body, facets.vertices[all[i].merged], {}, {}, {}, Vector<3>::Zero()});
-        PointedCorner& corner = corners.back();
+        SurfaceCorner& corner = corners.back();
         corner.facets.push_back(all[i].facet);
         corner.vertex.push_back(all[i].vertex);
         for (const std::int32_t other : facets.vertices_of(all[i].facet))
@@ -193,7 +192,7 @@ std::vector<PointedCorner> corners_of(const SurfaceView<3>& facets) {
                 corner.axis += (corner.position - facets.vertices[other]).normalized();
             }
     }
-    for (PointedCorner& corner : corners) {
+    for (SurfaceCorner& corner : corners) {
         const double length = corner.axis.norm();
         corner.axis = length > least_spike * static_cast<double>(corner.ring.size()) && is_closed(facets, corner.ring)
                           ? Vector<3>(corner.axis / length)
@@ -202,7 +201,7 @@ std::vector<PointedCorner> corners_of(const SurfaceView<3>& facets) {
     return corners;
 }
 
-bool is_sharp(const SurfaceView<3>& facets, const PointedCorner& corner) {
+bool is_sharp(const SurfaceView<3>& facets, const SurfaceCorner& corner) {
     return !corner.axis.isZero() && std::ranges::all_of(corner.facets, [&](std::int32_t facet) {
         const double facing = facets.normal[facet].dot(corner.axis);
         return facing > 0.0 && facing < enough_for_corners;
@@ -210,7 +209,7 @@ bool is_sharp(const SurfaceView<3>& facets, const PointedCorner& corner) {
 }
 
 /// A square across the axis, of two triangles: v + sum of a (w - v) over the edges around it, the sum of least norm.
-void append_corner(const SurfaceView<3>& facets, const PointedCorner& corner, Bevels<3>& bevels) {
+void append_corner(const SurfaceView<3>& facets, const SurfaceCorner& corner, Bevels<3>& bevels) {
     const auto edge = [&](std::size_t i) { return Vector<3>(facets.vertices[corner.ring[i][1]] - corner.position); };
     Matrix<3> squares = Matrix<3>::Zero();
     double shortest = edge(0).norm(), radius = 0.0;  // of the ring, seen along the axis
@@ -248,7 +247,7 @@ public:
         for (const std::int32_t end : {ridge.vertex_1, ridge.vertex_2})
             outward_[{end, facets.body[ridge.face_1]}].push_back(bisector(facets, ridge));
     }
-    [[nodiscard]] bool stand_for(const PointedCorner& corner) const {
+    [[nodiscard]] bool stand_for(const SurfaceCorner& corner) const {
         const auto there = outward_.find({corner.merged_vertex, corner.body});
         return there != outward_.end() && std::ranges::any_of(there->second, [&](const Vector<3>& outward) {
                    return outward.dot(corner.axis) > near_axis;
@@ -272,7 +271,7 @@ Bevels<3> bevels_of(const SurfaceView<3>& facets) {
         append_edge(facets, edge, bevels);
         ends.add(facets, edge.ridge);
     }
-    for (const PointedCorner& corner : corners_of(facets)) {
+    for (const SurfaceCorner& corner : corners_of(facets)) {
         if (!is_sharp(facets, corner)) continue;
         if (!ends.stand_for(corner)) append_corner(facets, corner, bevels);
         bevels.tips.push_back(corner.position);
