@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -11,6 +12,7 @@
 #include "abut/input/names.hpp"
 #include "abut/input/values.hpp"
 #include "abut/mesh/interpenetration.hpp"
+#include "abut/solid/kinematics/capabilities.hpp"
 
 namespace abut::input {
 namespace {
@@ -33,14 +35,19 @@ public:
     Movers(const run::Scene<Dim>& scene, const Settings& settings)
         : scene_(scene), of_all_(run::kinematics_of_all(settings.options.kinematics)) {}
 
-    /// The name of the first body of this kind; empty if there is none.
-    [[nodiscard]] std::string first(const std::string& group, solid::Kinematics kinematics) const {
+    struct Body {
+        std::string name;
+        std::string kinematics;
+    };
+    /// The first body that does not have what a load asks for.
+    [[nodiscard]] std::optional<Body> first_without(const std::string& group, solid::Capability capability) const {
         const mesh::Mesh<Dim>& mesh = scene_.mesh;
         for (const std::int32_t face : mesh.group(group).faces) {
             const auto body = static_cast<std::size_t>(mesh.cell_body[mesh.face_cells[face][0]]);
-            if (of_all_.value_or(scene_.solid.kinematics[body]) == kinematics) return mesh.body_names[body];
+            const solid::Kinematics kinematics = of_all_.value_or(scene_.solid.kinematics[body]);
+            if (!solid::has(kinematics, capability)) return Body{mesh.body_names[body], run::name_of(kinematics)};
         }
-        return "";
+        return std::nullopt;
     }
 
 private:
@@ -48,25 +55,22 @@ private:
     std::optional<solid::Kinematics> of_all_;
 };
 
-/// A frame that turns has no place for a displacement in space, and a finite body for none that varies.
 template <int Dim>
 bool can_hold(const SupportSettings& support, const Movers<Dim>& movers, std::vector<Fault>& faults) {
-    for (const auto& [kinematics, word] :
-         {std::pair(solid::Kinematics::floating, "floating"), std::pair(solid::Kinematics::rigid, "rigid")})
-        if (const std::string body = movers.first(support.group, kinematics); !body.empty()) {
-            faults.push_back(
-                {support.where, fmt::format("supports.{} holds body '{}', which is {}: only small and finite bodies can be "
-                                            "held so. Hold it by [springs.NAME].",
-                                            support.name, body, word)});
-            return false;
-        }
+    if (const auto body = movers.first_without(support.group, solid::Capability::clamp)) {
+        faults.push_back(
+            {support.where, fmt::format("supports.{} holds body '{}', which is {}: only small and finite bodies can be "
+                                        "held so. Hold it by [springs.NAME].",
+                                        support.name, body->name, body->kinematics)});
+        return false;
+    }
     if (support.constraint == solid::Constraint::full && !varies(support.value)) return true;
-    const std::string body = movers.first(support.group, solid::Kinematics::finite);
-    if (body.empty()) return true;
-    faults.push_back({support.where, fmt::format("supports.{} holds body '{}', which is finite: it can be clamped, with "
+    const auto body = movers.first_without(support.group, solid::Capability::guide);
+    if (!body) return true;
+    faults.push_back({support.where, fmt::format("supports.{} holds body '{}', which is {}: it can be clamped, with "
                                                  "constraint = \"full\" and a constant value. Do so, or hold it by "
                                                  "[springs.NAME].",
-                                                 support.name, body)});
+                                                 support.name, body->name, body->kinematics)});
     return false;
 }
 
@@ -124,7 +128,7 @@ void require_symmetric(const run::Scene<Dim>& scene, std::int32_t body, solid::K
     const auto b = static_cast<std::size_t>(body);
     const std::string name = "cuts body '" + scene.mesh.body_names[b] + "', ";
     constexpr double rounding = 1e-12;
-    if (kinematics != solid::Kinematics::small)
+    if (!solid::has(kinematics, solid::Capability::symmetry))
         throw BadInput(name +
                        "which may turn: only small bodies can be held on a plane. Give it kinematics = \"small\", or run "
                        "the whole of it.");
@@ -216,31 +220,25 @@ void add_pressure(run::Scene<Dim>& scene, const TractionSettings& traction) {
     }
 }
 
-/// What turns with a face of a finite body is a pressure, and a pressure turns with all faces that turn.
 template <int Dim>
 bool can_follow(const TractionSettings& traction, const Movers<Dim>& movers, std::vector<Fault>& faults) {
     if (traction.follows.value_or(false) && traction.value)
-        if (const std::string body = movers.first(traction.group, solid::Kinematics::finite); !body.empty()) {
-            faults.push_back({traction.where, fmt::format("tractions.{} follows body '{}', which is finite: of such a body "
+        if (const auto body = movers.first_without(traction.group, solid::Capability::following_traction)) {
+            faults.push_back({traction.where, fmt::format("tractions.{} follows body '{}', which is {}: of such a body "
                                                           "a pressure alone turns with the faces. Leave follows out, or "
                                                           "give a pressure.",
-                                                          traction.name, body)});
+                                                          traction.name, body->name, body->kinematics)});
             return false;
         }
     if (traction.follows.value_or(true) || !traction.pressure) return true;
-    for (const auto& [kinematics, word] :
-         {std::pair(solid::Kinematics::floating, "floating"), std::pair(solid::Kinematics::finite, "finite"),
-          std::pair(solid::Kinematics::rigid, "rigid")})
-        if (const std::string body = movers.first(traction.group, kinematics); !body.empty()) {
-            faults.push_back(
-                {traction.where, fmt::format("tractions.{} is a pressure on body '{}', which is {}, and follows "
-                                             "is false: the forces would stay as they are while its faces "
-                                             "turn, and spin a body up that is pressed from all sides. Leave "
-                                             "follows out, or give a value, which keeps its direction.",
-                                             traction.name, body, word)});
-            return false;
-        }
-    return true;
+    const auto body = movers.first_without(traction.group, solid::Capability::dead_pressure);
+    if (!body) return true;
+    faults.push_back({traction.where, fmt::format("tractions.{} is a pressure on body '{}', which is {}, and follows "
+                                                  "is false: the forces would stay as they are while its faces "
+                                                  "turn, and spin a body up that is pressed from all sides. Leave "
+                                                  "follows out, or give a value, which keeps its direction.",
+                                                  traction.name, body->name, body->kinematics)});
+    return false;
 }
 
 template <int Dim>

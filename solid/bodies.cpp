@@ -10,6 +10,7 @@
 #include "abut/base/error.hpp"
 #include "abut/mesh/extract.hpp"
 #include "abut/solid/body_cells.hpp"
+#include "abut/solid/kinematics/capabilities.hpp"
 #include "abut/solid/law_options.hpp"
 #include "abut/solid/material/law_check.hpp"
 #include "abut/solid/obstacles.hpp"
@@ -201,7 +202,7 @@ void Bodies<Dim>::set_laws() {
         if (!stored[i] && !inelastic[i]) continue;
         const std::int32_t body = deformable_bodies_[i];
         const std::string who = mesh_.name + ": body '" + mesh_.body_names[static_cast<std::size_t>(body)] + "' ";
-        if (!is_finite(body))
+        if (!has(kinematics(body), Capability::large_strains))
             throw BadInput(
                 who +
                 "has a law of large strains, which bodies of Kinematics::finite alone know. Take that (--kinematics "

@@ -5,6 +5,7 @@
 #include "abut/base/error.hpp"
 #include "abut/contact/interference.hpp"
 #include "abut/solid/bodies.hpp"
+#include "abut/solid/kinematics/capabilities.hpp"
 
 namespace abut::solid {
 
@@ -47,14 +48,14 @@ template <int Dim>
 void Bodies<Dim>::check_material(std::int32_t body) const {
     const Material& material = options_.materials[static_cast<std::size_t>(body)];
     const std::string who = mesh_.name + ": body '" + mesh_.body_names[static_cast<std::size_t>(body)] + "' ";
-    if (material.law == MaterialLaw::j2 && is_rigid(body))
+    if (material.law == MaterialLaw::j2 && !has(kinematics(body), Capability::flow))
         throw BadInput(who + "is rigid, and has a material that yields. Take other kinematics, or another law.");
-    if (material.kinematic_hardening > 0.0 && is_finite(body))
+    if (material.kinematic_hardening > 0.0 && !has(kinematics(body), Capability::kinematic_hardening))
         throw BadInput(who +
                        "is of Kinematics::finite, whose plastic flow knows no kinematic_hardening. Take hardening, or "
                        "kinematics \"floating\".");
     if (!material.is_damped()) return;
-    if (is_rigid(body))
+    if (!has(kinematics(body), Capability::damping))
         throw BadInput(who +
                        "is rigid, and has a damped or viscous material. Leave damping out, and give it a brake "
                        "(SolidOptions::moments) or dashpots.");
@@ -111,14 +112,13 @@ template <int Dim>
 void Bodies<Dim>::refuse_on_turning_bodies(const DirichletCondition<Dim>& condition) const {
     for (const std::int32_t face : mesh_.group(condition.group).faces) {
         const std::int32_t body = mesh_.cell_body[mesh_.face_cells[face][0]];
-        if (!turns(body)) continue;
-        const std::string who = mesh_.name + ": body '" + mesh_.body_names[body] + "'";
-        if (!is_finite(body))
-            throw BadInput(who + " may turn, and has a prescribed displacement ('" + condition.group +
+        const auto who = [&] { return mesh_.name + ": body '" + mesh_.body_names[body] + "'"; };
+        if (!has(kinematics(body), Capability::clamp))
+            throw BadInput(who() + " may turn, and has a prescribed displacement ('" + condition.group +
                            "'), which only bodies of Kinematics::small and ::finite can have. Hold it by "
                            "SolidOptions::springs.");
-        if (condition.constraint != Constraint::full || condition.history)
-            throw BadInput(who + " is of Kinematics::finite, and the displacement prescribed on '" + condition.group +
+        if ((condition.constraint != Constraint::full || condition.history) && !has(kinematics(body), Capability::guide))
+            throw BadInput(who() + " is of Kinematics::finite, and the displacement prescribed on '" + condition.group +
                            (condition.history ? "' varies." : "' leaves directions free.") +
                            " Such a body can be clamped (Constraint::full without a history), or held by "
                            "SolidOptions::springs.");
@@ -130,7 +130,8 @@ template <int Dim>
 void Bodies<Dim>::refuse_following(const TractionCondition<Dim>& condition) const {
     if (!condition.follows || !condition.from_outside) return;
     for (const std::int32_t face : mesh_.group(condition.group).faces)
-        if (const std::int32_t body = mesh_.cell_body[mesh_.face_cells[face][0]]; is_finite(body))
+        if (const std::int32_t body = mesh_.cell_body[mesh_.face_cells[face][0]];
+            !has(kinematics(body), Capability::following_from_outside))
             throw BadInput(mesh_.name + ": body '" + mesh_.body_names[body] +
                            "' is of Kinematics::finite, and the traction from outside on '" + condition.group +
                            "' follows. Give one that keeps its direction in space.");

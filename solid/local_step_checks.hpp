@@ -4,6 +4,7 @@
 #include <string>
 
 #include "abut/base/error.hpp"
+#include "abut/solid/kinematics/capabilities.hpp"
 #include "abut/solid/options.hpp"
 
 namespace abut::solid {
@@ -12,13 +13,14 @@ namespace abut::solid {
 /// a step.
 template <int Dim>
 void require_local_steps(const std::string& mesh, const SolidOptions<Dim>& options, bool contact_makes_parts) {
-    const bool all_small =
-        std::ranges::all_of(options.kinematics, [](Kinematics of_body) { return of_body == Kinematics::small; });
-    if (all_small && contact_makes_parts) return;
-    throw BadInput(mesh +
-                   ": local steps are for bodies of Kinematics::small under the modified reconstruction, without friction: the "
-                   "frame of a body couples all of its cells, and forces inside a body of Kinematics::finite are not linear. "
-                   "Take one step for all (memm), or other kinematics and law.");
+    const bool all_can =
+        std::ranges::all_of(options.kinematics, [](Kinematics of_body) { return has(of_body, Capability::local_steps); });
+    if (all_can && contact_makes_parts) return;
+    throw BadInput(
+        mesh +
+        ": local steps are for bodies of Kinematics::small under the modified reconstruction, without friction: the "
+        "frame of a body couples all of its cells, and forces inside a body of Kinematics::finite are not linear. "
+        "Take one step for all (memm), or other kinematics and law.");
 }
 
 }  // namespace abut::solid

@@ -15,6 +15,7 @@
 #include "abut/dynamics/integrator.hpp"
 #include "abut/dynamics/sparse.hpp"
 #include "abut/solid/boundary_face.hpp"
+#include "abut/solid/kinematics/capabilities.hpp"
 #include "abut/solid/rigid_motions.hpp"
 
 namespace abut::solid {
@@ -301,13 +302,13 @@ std::string text(Ending ending, const StaticOptions& options) {
 template <int Dim>
 void check_start(const Solid<Dim>& solid, std::span<const double> q) {
     const SolidOptions<Dim>& options = solid.options();
-    const auto is_any = [&](Kinematics kind) {
-        return std::ranges::find(options.kinematics, kind) != options.kinematics.end();
+    const auto all_have = [&](Capability capability) {
+        return std::ranges::all_of(options.kinematics, [&](Kinematics of_body) { return has(of_body, capability); });
     };
-    if (is_any(Kinematics::floating) || is_any(Kinematics::rigid))
+    if (!all_have(Capability::rest))
         throw BadInput(
             "statics: a body is floating or rigid; bodies at rest are sought for Kinematics::small and ::finite alone.");
-    if (is_any(Kinematics::finite) && (!options.boundary.traction.empty() || !options.moments.empty()))
+    if (!all_have(Capability::loaded_rest) && (!options.boundary.traction.empty() || !options.moments.empty()))
         throw BadInput(
             "statics: tractions and moments on a body of Kinematics::finite have no potential. Load it by "
             "SolidOptions::body_load, acceleration or springs.");

@@ -7,6 +7,7 @@
 #include "abut/input/materials.hpp"
 #include "abut/run/option_table.hpp"
 #include "abut/run/user_words.hpp"
+#include "abut/solid/kinematics/capabilities.hpp"
 
 TEST_CASE("the document shows the grammar that scenes are read by", "[input][grammar]") {
     std::ifstream file(ABUT_SOURCE "/docs/scenes.md");
@@ -18,6 +19,18 @@ TEST_CASE("the document shows the materials that scenes know by name", "[input][
     std::ifstream file(ABUT_SOURCE "/docs/scenes.md");
     const std::string text{std::istreambuf_iterator<char>(file), {}};
     CHECK(text.find(abut::input::table_of_materials()) != std::string::npos);
+}
+
+TEST_CASE("the document shows what bodies of each kinematics have", "[input][grammar][kinematics]") {
+    std::string table = "| | `small` | `floating` | `finite` | `rigid` | since |\n|---|---|---|---|---|---|\n";
+    const auto cell = [](bool has) { return has ? " yes |" : " |"; };
+    for (const abut::solid::CapabilityRow& row : abut::solid::capabilities)
+        table += "| " + std::string(row.name) + " |" + cell(row.small) + cell(row.floating) + cell(row.finite) +
+                 cell(row.rigid) + " " + std::string(row.reason) + " |\n";
+    std::ifstream file(ABUT_SOURCE "/docs/kinematics.md");
+    const std::string text{std::istreambuf_iterator<char>(file), {}};
+    CAPTURE(table);
+    CHECK(text.find(table) != std::string::npos);
 }
 
 TEST_CASE("every option that scenes have is a key of its table, and messages call it so", "[input][grammar]") {
