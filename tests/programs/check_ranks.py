@@ -15,7 +15,7 @@ import time
 OPTIONS = ["--set", "bodies.left.size=0.2", "--set", "bodies.right.size=0.2", "--quiet"]
 MPIRUN = ["mpirun", "--oversubscribe", "--bind-to", "none"] + (["--allow-run-as-root"] if os.geteuid() == 0 else [])
 AGAIN = ["--rebalance", "20", "--rebalance-above", "1"]  # at each look
-LONG = {"steps": 60000, "frames": 0, "interval": 20}
+LONG = {"steps": 15000, "frames": 0, "interval": 20}
 
 
 def command(program, scene, folder, *more, steps=150, frames=3, interval=1, threads=1):
