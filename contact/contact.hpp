@@ -97,6 +97,12 @@ public:
     [[nodiscard]] std::vector<std::byte> state() const;
     void restore(std::span<const std::byte> state);
 
+    /// Goes on, between two steps, where `before` has stopped, which was made for another surface. `old_face_of`: of each face its
+    /// number there, -1 for one that was not there (n_faces). Old faces and their pairs keep what they remember. For those with a new face the
+    /// run begins: what is pressed in by less than D is a contact. Throws BadInput, and stays as it is, for numbers out of range
+    /// or given twice, and where one of both has friction and the other has not.
+    void take_over(const Contact& before, std::span<const std::int32_t> old_face_of);
+
     [[nodiscard]] const SurfaceView<Dim>& surface() const;
     [[nodiscard]] const ContactReport& report() const;
     void clear_report();  ///< a run begins here: its counts do, while pairs and faces remember what they do

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdint>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "abut/base/decompositions.hpp"
 #include "abut/base/error.hpp"
@@ -140,6 +142,26 @@ void check_step_length(double dt) {
         throw BadInput("contact: a step has the length dt = " + number(dt) +
                            " s; it must be finite and > 0. Give the time from the start of the step to its end.",
                        {.value = dt});
+}
+
+void check_old_faces(std::span<const std::int32_t> old_face_of, std::int32_t n_faces, std::int32_t n_old) {
+    if (old_face_of.size() != static_cast<std::size_t>(n_faces))
+        throw BadInput("contact: old numbers of " + std::to_string(old_face_of.size()) +
+                       " faces are given, the surface has " + std::to_string(n_faces) +
+                       " faces; give one each, -1 for a face that was not there.");
+    std::vector<char> is_taken(static_cast<std::size_t>(n_old), 0);
+    for (std::size_t face = 0; face < old_face_of.size(); ++face) {
+        const std::int32_t old = old_face_of[face];
+        if (old == -1) continue;
+        const std::string who =
+            "contact: face " + std::to_string(face) + " is said to have been face " + std::to_string(old) + ", ";
+        const ErrorFacts facts{.face_1 = static_cast<std::int64_t>(face)};
+        if (old < 0 || old >= n_old)
+            throw BadInput(
+                who + "but there were " + std::to_string(n_old) + " faces. Give -1 for a face that was not there.", facts);
+        if (std::exchange(is_taken[static_cast<std::size_t>(old)], 1) != 0)
+            throw BadInput(who + "which another one is, too.", facts);
+    }
 }
 
 template <int Dim>

@@ -1,6 +1,7 @@
 #pragma once
 // Private to the layer.
 #include <cstddef>
+#include <cstdint>
 #include <span>
 
 #include "abut/contact/contact.hpp"
@@ -24,6 +25,8 @@ template <int Dim>
 void check_coupling(const SurfaceView<Dim>& surface, std::span<const Face> faces, const FaceCoupling<Dim>& coupling);
 template <int Dim>
 void check_path(const SurfaceView<Dim>& surface, std::span<const Face> faces, const FacePath<Dim>& path);
+/// One old number per face of the surface, out of `n_old`, each at most once; -1: it was not there.
+void check_old_faces(std::span<const std::int32_t> old_face_of, std::int32_t n_faces, std::int32_t n_old);
 template <int Dim>
 void check_host_step(const SurfaceView<Dim>& surface, const HostStep<Dim>& host);
 

@@ -115,6 +115,12 @@ void Contact<Dim>::restore(std::span<const std::byte> state) {
 }
 
 template <int Dim>
+void Contact<Dim>::take_over(const Contact& before, std::span<const std::int32_t> old_face_of) {
+    check_old_faces(old_face_of, surface().size(), before.surface().size());
+    implementation_->engine.take_over(before.implementation_->engine, old_face_of);
+}
+
+template <int Dim>
 const SurfaceView<Dim>& Contact<Dim>::surface() const {
     return implementation_->engine.law().facets();
 }

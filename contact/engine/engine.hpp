@@ -196,30 +196,46 @@ public:
         drop_list();
     }
 
-    /// Goes on with a law on another surface. `old_of_new`: of each of its facets the old number, -1 for one that was not
-    /// there; for pairs of that one the run begins.
-    void replace(Law law, std::span<const std::int32_t> old_of_new) {
-        CandidateSearch<Law::dimension> candidates(law.facets(), search_options_, sharing_);
-        candidates.restore_skin(candidates_.next_skin());
-        PairStore pairs =
-            pairs_.carried_over(old_of_new, [&, facets = law.facets()](FacetPair pair) { return may_touch(facets, pair); });
-        FacetStore facets = facets_.carried_over(old_of_new);
-        const double lost = law_.stored_energy(facets_) - law.stored_energy(facets);
+    /// Goes on where another engine has stopped, with the law and the surface of this one. `old_of_new`: of each facet its number
+    /// there, -1 for one that was not there; for pairs of that one the run begins. Throws BadInput, and stays as it is, where
+    /// the laws remember other things.
+    void take_over(const Engine& before, std::span<const std::int32_t> old_of_new) {
+        if (facets_.size() != before.facets_.size())
+            throw BadInput(law_.name() + ": its facets remember " + std::to_string(facets_.size()) +
+                           " numbers each, and those that it takes over " + std::to_string(before.facets_.size()) +
+                           ". Give both the same laws of friction.");
+        PairStore pairs = before.pairs_.carried_over(
+            old_of_new, [&, facets = law_.facets()](FacetPair pair) { return may_touch(facets, pair); });
+        FacetStore facets = before.facets_.carried_over(old_of_new);
         std::vector<Facet> new_facets;
         for (std::size_t i = 0; i < old_of_new.size(); ++i)
-            if (old_of_new[i] < 0 || is_new(Facet{old_of_new[i]})) new_facets.push_back(Facet(i));
+            if (old_of_new[i] < 0 || before.is_new(Facet{old_of_new[i]})) new_facets.push_back(Facet(i));
         PairStore seen;
-        seen.follow(law_.seen_from_outside(), [](std::size_t) { return PairMemory{}; });
-        law.set_seen_from_outside(
-            seen.carried_over(old_of_new, [&](FacetPair pair) { return law.lies_inside(pair); }).pairs());
-        law.set_interference(law_.saved_interference());
-        // The views of the new search are of arrays that stay where they are when the law is moved.
-        law_ = std::move(law);
-        candidates_ = std::move(candidates);
+        seen.follow(before.law_.seen_from_outside(), [](std::size_t) { return PairMemory{}; });
+        law_.set_interference(before.law_.saved_interference());
+        law_.set_seen_from_outside(
+            seen.carried_over(old_of_new, [&](FacetPair pair) { return law_.lies_inside(pair); }).pairs());
+        candidates_.restore_skin(before.candidates_.next_skin());
+        report_ = before.report_;
+        report_.friction_dissipated += before.law_.stored_energy(before.facets_) - law_.stored_energy(facets);
+        has_searched_ = before.has_searched_;
         pairs_ = std::move(pairs);
         facets_ = std::move(facets);
         new_facets_ = std::move(new_facets);
-        report_.friction_dissipated += lost;
+        drop_list();
+    }
+
+    /// Goes on with a law on another surface, as an engine that takes over this one.
+    void replace(Law law, std::span<const std::int32_t> old_of_new) {
+        Engine next(std::move(law), search_options_, limits_, sharing_);
+        next.take_over(*this, old_of_new);
+        // The views of the new search are of arrays that stay where they are when the law is moved.
+        law_ = std::move(next.law_);
+        candidates_ = std::move(next.candidates_);
+        pairs_ = std::move(next.pairs_);
+        facets_ = std::move(next.facets_);
+        new_facets_ = std::move(next.new_facets_);
+        report_ = next.report_;
         drop_list();
     }
 

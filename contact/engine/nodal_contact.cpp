@@ -202,6 +202,13 @@ void NodalContact<Dim>::surface_replaced(NodalSurface<Dim> surface, std::span<co
 }
 
 template <int Dim>
+void NodalContact<Dim>::take_over(const NodalContact& before, std::span<const std::int32_t> old_face_of) {
+    const auto& from = before.implementation_->engine;
+    auto& engine = implementation_->engine;
+    engine.take_over(from, old_acting_facets(from.law().surface(), engine.law().surface(), old_face_of));
+}
+
+template <int Dim>
 const NodalSurface<Dim>& NodalContact<Dim>::surface() const {
     return implementation_->surface().host();
 }

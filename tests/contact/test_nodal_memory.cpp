@@ -196,6 +196,19 @@ TEST_CASE("faces of bodies that have become one, or rigid, press on each other n
     const auto refused = [&](std::vector<std::int32_t> old) {
         return message_of([&] { contact.surface_replaced(faces.scene.surface(), old); });
     };
+    NodalContact<2> before(faces.scene.surface());
+    before.step(1.0, apart, apart);
+    before.step(1.0, apart, closed);
+    contact.take_over(before, old_face_of);  // made for its surface, with options of its own
+    CHECK(contact.report().rebuilds == before.report().rebuilds);
+    CHECK(contact.step(1.0, closed, closed).energy == before.step(1.0, closed, closed).energy);
+    contact::NodalOptions rough;
+    rough.friction.laws = {{.coefficient = 0.3}};
+    contact::NodalFaces<2> with_shear = faces.scene.faces.view();
+    const std::vector<double> shear{1.0, 1.0};
+    with_shear.shear_stiffness = shear;
+    NodalContact<2> rubbing(contact::NodalSurface<2>(faces.scene.rest, with_shear), rough);
+    CHECK(has_part(message_of([&] { rubbing.take_over(before, old_face_of); }), "same laws of friction"));
     CHECK(has_part(refused({0, 0}), "which another one is, too"));
     CHECK(has_part(refused({0, 2}), "there were 2 faces"));
     CHECK(has_part(refused({0}), "give one each"));

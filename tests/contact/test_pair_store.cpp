@@ -82,6 +82,44 @@ TEMPLATE_TEST_CASE_SIG("after save and restore the next steps have the same bits
     CHECK(naive_losses > 2);  // the state is what makes the difference
 }
 
+TEMPLATE_TEST_CASE_SIG("an object whose faces have other numbers takes over from another one with the same bits",
+                       "[contact][store]", ((int Dim), Dim), 2, 3) {
+    const auto surface = plates<Dim>();
+    const auto states = path_of_plates(surface);
+    contact::Surface<Dim> longer;  // the same faces behind one that is far away
+    longer.append(tile<Dim>(100.0 * axis<Dim>(0), up<Dim>(), 0.5), 0.2, 1.0, 0);
+    for (int body = 0; body < 2; ++body)
+        for (int i = 0; i < 5; ++i)
+            longer.append(tile<Dim>((i + 0.3 * body) * axis<Dim>(0), (body == 0 ? 1.0 : -1.0) * up<Dim>(), 0.5), 0.2,
+                          1.0 + body, body);
+    std::vector<std::int32_t> old_face_of;
+    for (std::int32_t face = 0; face < longer.size(); ++face) old_face_of.push_back(face - 1);
+    const auto behind = [](std::vector<Vector<Dim>> u) {
+        u.insert(u.begin(), Vector<Dim>::Zero());
+        return u;
+    };
+    for (std::size_t stop = 3; stop + 2 < states.size(); stop += 8) {
+        contact::Contact<Dim> whole(surface.view(), deep()), other(longer.view(), deep());
+        for (std::size_t i = 0; i <= stop; ++i) drive(whole, states[i], states[i + 1]);
+        other.take_over(whole, old_face_of);
+        for (std::size_t i = stop + 1; i + 1 < states.size(); ++i) {
+            const auto& expected = drive(whole, states[i], states[i + 1]);
+            const auto& found = drive(other, behind(states[i]), behind(states[i + 1]));
+            REQUIRE(found.pairs.size() == expected.pairs.size());
+            CHECK(found.energy == expected.energy);
+            for (std::size_t p = 0; p < found.pairs.size(); ++p) CHECK(found.pairs[p].force == expected.pairs[p].force);
+        }
+        CHECK(other.report().events == whole.report().events);
+        CHECK(other.report().missed_contacts == whole.report().missed_contacts);
+        CHECK_THROWS_WITH(whole.take_over(other, old_face_of), Contains("give one each"));
+        old_face_of.back() = old_face_of[1];
+        CHECK_THROWS_WITH(other.take_over(whole, old_face_of), Contains("another one is, too"));
+        old_face_of.back() = 10;
+        CHECK_THROWS_WITH(other.take_over(whole, old_face_of), Contains("there were 10 faces"));
+        old_face_of.back() = 9;
+    }
+}
+
 TEMPLATE_TEST_CASE_SIG("a state that is damaged, of another version, dimension or surface is refused, and nothing changes",
                        "[contact][store]", ((int Dim), Dim), 2, 3) {
     const auto surface = plates<Dim>();
