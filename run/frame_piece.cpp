@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "abut/run/cell_velocity.hpp"
+#include "abut/solid/bond_places.hpp"
 
 namespace abut::run {
 namespace {
@@ -59,8 +60,10 @@ public:
         const mesh::Mesh<Dim>& part = solid_.mesh();
         std::vector<char> is_own_here(part.cell_measure.size(), 0);
         for (const std::int32_t position : positions_) is_own_here[static_cast<std::size_t>(position)] = 1;
+        const std::vector<double> bonds = left_of_bonds(solid_);
         for (std::size_t b = 0; b < part.boundary_faces.size(); ++b) {
             if (!is_own_here[first_cell(part, b)]) continue;
+            if (!bonds.empty()) piece_.bond.push_back(bonds[b]);
             piece_.pressure.push_back(contact.pressure[b]);
             piece_.gap.push_back(gap_in_contact(contact.gap[b]));
             if (contact.friction.empty()) continue;
@@ -150,6 +153,23 @@ private:
 }  // namespace
 
 template <int Dim>
+std::vector<double> left_of_bonds(const solid::Solid<Dim>& solid) {
+    if (solid.bond_places().empty()) return {};
+    std::vector<double> left(solid.mesh().boundary_faces.size(), 0.0), area(left);
+    std::size_t number = 0;
+    for (const solid::BondPlace<Dim>& place : solid.bond_places()) {
+        for (const solid::BoundaryFace b : place.faces) {
+            if (b == solid::no_face) continue;
+            area[static_cast<std::size_t>(b)] += place.area;
+            left[static_cast<std::size_t>(b)] += solid.bond_share(number) * place.area;
+        }
+        ++number;
+    }
+    for (std::size_t b = 0; b < left.size(); ++b) left[b] /= area[b];  // 0/0 where none is
+    return left;
+}
+
+template <int Dim>
 FramePiece<Dim> frame_piece(std::int64_t frame, const mesh::Mesh<Dim>& mesh, const dynamics::RunView<Dim>& run,
                             solid::Solid<Dim>& solid) {
     FramePiece<Dim> piece;
@@ -164,6 +184,8 @@ FramePiece<Dim> frame_piece(std::int64_t frame, const mesh::Mesh<Dim>& mesh, con
     return piece;
 }
 
+template std::vector<double> left_of_bonds(const solid::Solid<2>&);
+template std::vector<double> left_of_bonds(const solid::Solid<3>&);
 template FramePiece<2> frame_piece(std::int64_t, const mesh::Mesh<2>&, const dynamics::RunView<2>&, solid::Solid<2>&);
 template FramePiece<3> frame_piece(std::int64_t, const mesh::Mesh<3>&, const dynamics::RunView<3>&, solid::Solid<3>&);
 

@@ -38,7 +38,13 @@ struct FramePiece {
     std::vector<double> gap;             ///< (n_faces) [m]; gap_in_contact
     /// Fields of friction (n_faces) as in solid::ContactField; empty without any
     std::vector<double> friction, slip, sliding;
+    std::vector<double> bond;  ///< left_of_bonds (n_faces); empty without bonds
 };
+
+/// What is left of the pull of the bonds of each boundary face of the solid's mesh, by area [-]; NaN where none is, and empty without
+/// bonds.
+template <int Dim>
+[[nodiscard]] std::vector<double> left_of_bonds(const solid::Solid<Dim>& solid);
 
 /// The piece of this rank, or the whole where there is one; `solid` is that of the run. A call of all ranks.
 template <int Dim>

@@ -12,7 +12,6 @@
 #include "abut/run/obstacle_frames.hpp"
 #include "abut/run/scene.hpp"
 #include "abut/run/xdmf_series.hpp"
-#include "abut/solid/bond_places.hpp"
 #include "abut/solid/boundary_face.hpp"
 
 namespace abut::run {
@@ -21,23 +20,6 @@ namespace {
 std::vector<double> in_contact(std::vector<double> gaps) {
     for (double& gap : gaps) gap = gap_in_contact(gap);
     return gaps;
-}
-
-/// What is left of the pull of the bonds of each boundary face, by area [-]; NaN where none is, and empty without bonds.
-template <int Dim>
-std::vector<double> left_of_bonds(const solid::Solid<Dim>& solid) {
-    if (solid.bond_places().empty()) return {};
-    std::vector<double> left(solid.mesh().boundary_faces.size(), 0.0), area(left);
-    std::size_t number = 0;
-    for (const solid::BondPlace<Dim>& place : solid.bond_places()) {
-        for (const solid::BoundaryFace b : place.faces) {
-            area[static_cast<std::size_t>(b)] += place.area;
-            left[static_cast<std::size_t>(b)] += solid.bond_share(number) * place.area;
-        }
-        ++number;
-    }
-    for (std::size_t b = 0; b < left.size(); ++b) left[b] /= area[b];  // 0/0 where none is
-    return left;
 }
 
 /// Stresses of some cells, and what follows from them.
@@ -79,7 +61,8 @@ std::vector<mesh::Field<Dim>> cell_fields(const FrameFields& fields, std::span<c
 }
 
 template <int Dim>
-std::vector<mesh::Field<Dim>> boundary_fields(const FrameFields& fields, std::span<const double> gap, const auto& contact) {
+std::vector<mesh::Field<Dim>> boundary_fields(const FrameFields& fields, std::span<const double> gap, const auto& contact,
+                                              std::span<const double> bond) {
     std::vector<mesh::Field<Dim>> chosen;
     if (fields.pressure) chosen.push_back({"contact pressure [Pa]", contact.pressure});
     if (fields.gap) chosen.push_back({"gap [m]", gap});
@@ -88,6 +71,7 @@ std::vector<mesh::Field<Dim>> boundary_fields(const FrameFields& fields, std::sp
         chosen.push_back({"slip [m]", contact.slip});
         chosen.push_back({"sticks 1, slides 2", contact.sliding});
     }
+    if (!bond.empty()) chosen.push_back({"bond", bond});
     return chosen;
 }
 
@@ -101,7 +85,7 @@ mesh::PieceFrame<Dim> shown(const FrameFields& fields, const FramePiece<Dim>& pi
             .displacement = piece.displacement,
             .vertex_displacement = piece.vertex_displacement,
             .cell_fields = cell_fields<Dim>(fields, piece.velocity, stresses),
-            .boundary_fields = boundary_fields<Dim>(fields, piece.gap, piece)};
+            .boundary_fields = boundary_fields<Dim>(fields, piece.gap, piece, piece.bond)};
 }
 
 template <int Dim>
@@ -284,9 +268,8 @@ void Frames<Dim>::write(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& so
         const auto velocity = cell_velocity(run, solid);
         mesh::Frame<Dim> frame{.time = run.time, .displacement = displacement, .vertex_displacement = of_vertices};
         frame.cell_fields = cell_fields<Dim>(fields_, velocity, stresses);
-        frame.boundary_fields = boundary_fields<Dim>(fields_, gap, contact);
         const std::vector<double> bonds = left_of_bonds(solid);
-        if (!bonds.empty()) frame.boundary_fields.push_back({"bond", std::span<const double>(bonds)});
+        frame.boundary_fields = boundary_fields<Dim>(fields_, gap, contact, bonds);
         if (pairs_) write_pairs(run, solid, displacement, of_vertices);
         if (obstacles_) obstacles_->write(run.time);
         write_whole_frame(frame);

@@ -69,7 +69,7 @@ solid::SolidTimes added(const solid::SolidTimes& sum, const solid::SolidTimes& a
             sum.own_cells + a.own_cells - b.own_cells};
 }
 
-/// Faces of the mesh. None on several ranks, where nothing is bonded.
+/// Faces of the mesh of a whole.
 template <int Dim>
 std::vector<std::array<std::int32_t, 2>> bonded_faces(const solid::Solid<Dim>& solid) {
     std::vector<std::array<std::int32_t, 2>> pairs;
@@ -103,7 +103,7 @@ Start<Dim>::Start(const Scene<Dim>& of, const RunOptions& given, std::optional<P
     if (share.ranks.rank() == 0) result.inertia = solid::inertia_of_bodies(seen);
     result.blind_corners = solid->blind_corners();
     result.unseen_edges = solid->unseen_edges();
-    if (share.ranks.rank() == 0) result.unjoined = mesh::find_unjoined_faces(scene.mesh, bonded_faces(*solid));
+    if (share.ranks.rank() == 0) result.unjoined = mesh::find_unjoined_faces(scene.mesh, bonded_faces(seen));
     set_outside();
     set_state();
     if (options.settle) settle();

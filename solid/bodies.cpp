@@ -10,6 +10,7 @@
 #include "abut/base/error.hpp"
 #include "abut/mesh/extract.hpp"
 #include "abut/solid/body_cells.hpp"
+#include "abut/solid/find_bond_places.hpp"
 #include "abut/solid/kinematics/capabilities.hpp"
 #include "abut/solid/law_options.hpp"
 #include "abut/solid/material/law_check.hpp"
@@ -63,8 +64,6 @@ Bodies<Dim>::Bodies(const mesh::Mesh<Dim>& mesh, const SolidOptions<Dim>& option
         else  // its faces are no free ones for cells of finite bodies
             part_options_.boundary.traction.push_back({.group = options.boundary.traction[i].group});
     if (part_) keep_groups();
-    bond_places_ = find_bond_places<Dim>(mesh, options.bonds, options.obstacles.size());
-    find_joined_faces();
     rigid_.emplace(mesh, rigid, options.materials, n_cells());
 
     const mesh::Mesh<Dim>& part = deformable();
@@ -82,31 +81,20 @@ Bodies<Dim>::Bodies(const mesh::Mesh<Dim>& mesh, const SolidOptions<Dim>& option
     for (const double mass : masses_) inverse_masses_.insert(inverse_masses_.end(), Dim, 1.0 / mass);
 }
 
-/// Of small bodies: those that lie on one face alone, all of it, and cannot part from it. Not of triangles and tetrahedra: their gradient is
-/// that of their faces, which would be loose where no face of the cell is balanced.
 template <int Dim>
-void Bodies<Dim>::find_joined_faces() {
-    std::vector<int> n_places(mesh_.boundary_faces.size(), 0);
-    for (const BondPlace<Dim>& place : bond_places_)
-        for (const BoundaryFace b : place.faces) ++n_places[number_of(b)];
-    const auto fills = [&](const BondPlace<Dim>& place, BoundaryFace b) {
-        constexpr double rounding = 1e-6;
-        const double measure = mesh_.face_measure[mesh_face(mesh_, b)];
-        const bool is_simplex = mesh_.cell_faces[cell_of(mesh_, b)].size() == Dim + 1;
-        return !is_simplex && n_places[number_of(b)] == 1 && std::abs(place.area - measure) <= rounding * measure &&
-               kinematics(mesh_.cell_body[cell_of(mesh_, b)]) == Kinematics::small;
-    };
-    std::vector<char> is_joined(mesh_.boundary_faces.size(), 0);
-    for (const BondPlace<Dim>& place : bond_places_)
-        if (std::isinf(options_.bonds[place.bond].strength) && fills(place, place.faces[0]) && fills(place, place.faces[1]))
-            for (const BoundaryFace b : place.faces) is_joined[number_of(b)] = 1;
+void Bodies<Dim>::find_bonds(const RankPart<Dim>& part) {
+    FoundBonds<Dim> found = find_bond_places(*this, part);
+    bond_places_ = std::move(found.places);
     part_options_.boundary.joined_faces.clear();
-    std::size_t here = 0;  // among the boundary faces of the bodies that deform
-    for (const BoundaryFace b : boundary_faces(mesh_)) {
-        if (is_rigid(mesh_.cell_body[cell_of(mesh_, b)])) continue;
-        if (is_joined[number_of(b)] != 0) part_options_.boundary.joined_faces.push_back(deformable().boundary_faces[here]);
-        ++here;
-    }
+    for (const BoundaryFace b : found.joined) part_options_.boundary.joined_faces.push_back(mesh_face(deformable(), b));
+}
+
+template <int Dim>
+std::vector<BoundaryFace> Bodies<Dim>::boundary_in_mesh() const {
+    std::vector<BoundaryFace> in_mesh;
+    for (const BoundaryFace b : boundary_faces(mesh_))
+        if (!is_rigid(mesh_.cell_body[cell_of(mesh_, b)])) in_mesh.push_back(b);
+    return in_mesh;
 }
 
 template <int Dim>

@@ -34,6 +34,9 @@ public:
     void place_cell_points(const RankPart<Dim>& part);
     /// Who brings ranks together from then on, in what is said to be a call of all; to be called before any of that.
     void take_part(const RankPart<Dim>& part) { rank_part_ = &part; }
+    /// Finds where bodies are bonded, and which of their faces are joined; to be called before anything is made of `deformable`.
+    /// Throws as find_bond_places. A call of all ranks.
+    void find_bonds(const RankPart<Dim>& part);
 
     [[nodiscard]] const mesh::Mesh<Dim>& mesh() const { return mesh_; }
     /// Of the bodies that deform: `mesh` itself where all do, and none is floating.
@@ -49,11 +52,13 @@ public:
     [[nodiscard]] std::pair<std::int32_t, std::int32_t> points_of(std::int32_t body) const;
     /// The options of these bodies, by their numbers in `deformable`.
     [[nodiscard]] const SolidOptions<Dim>& deformable_options() const { return part_options_; }
-    /// Of SolidOptions::bonds, by the mesh of all bodies.
+    /// Of SolidOptions::bonds, once `find_bonds` was called.
     [[nodiscard]] const std::vector<BondPlace<Dim>>& bond_places() const { return bond_places_; }
     [[nodiscard]] const RigidBodies<Dim>& rigid() const { return *rigid_; }
     [[nodiscard]] RigidBodies<Dim>& rigid() { return *rigid_; }
     [[nodiscard]] bool any_rigid() const { return rigid_->size() > 0; }
+    /// The boundary faces of `deformable` in `mesh` (n_boundary).
+    [[nodiscard]] std::vector<BoundaryFace> boundary_in_mesh() const;
     [[nodiscard]] std::int32_t n_cells() const { return deformable().n_cells(); }  ///< that deform
 
     [[nodiscard]] std::span<const Vector<Dim>> rest() const { return rest_; }                 ///< of the points [m]
@@ -137,7 +142,6 @@ private:
                                          const PositionOf& x_of) const;
     std::vector<std::optional<CellPoints<Dim>>> cell_points_;  // by body that deforms; none: at the centroids
     const RankPart<Dim>* rank_part_ = nullptr;                 // null until `take_part`
-    void find_joined_faces();
 
     std::vector<BondPlace<Dim>> bond_places_;
     SolidOptions<Dim> part_options_;

@@ -1,58 +1,93 @@
 #include "abut/solid/bond_springs.hpp"
 
 #include <algorithm>
-
-#include "abut/base/sort_unique.hpp"
+#include <array>
+#include <limits>
 
 namespace abut::solid {
+namespace {
+
+constexpr std::size_t nowhere = std::numeric_limits<std::size_t>::max();
+
+}  // namespace
 
 template <int Dim>
 BondSprings<Dim>::BondSprings(const Bodies<Dim>& bodies, Ccg<Dim>& ccg, const BodyFrames<Dim>& frames,
-                              std::span<const BondPlace<Dim>> places, std::span<const std::array<BoundaryFace, 2>> faces,
+                              const RankPart<Dim>& part, std::span<const BondPlace<Dim>> places,
                               std::span<const std::size_t> of_springs, const std::vector<double>& share)
-    : mesh_(bodies.deformable()), ccg_(ccg), frames_(frames), places_(places), share_(share) {
-    for (const std::size_t place : of_springs) faces_.insert(faces_.end(), faces[place].begin(), faces[place].end());
-    sort_unique(faces_);
+    : ccg_(ccg),
+      frames_(frames),
+      places_(places),
+      share_(share),
+      faces_(bodies.deformable(), part, places, of_springs),
+      here_(faces_.size(), nowhere) {
+    if (of_springs.empty()) return;
+    const std::vector<double> stiffness =
+        faces_.of_owners(1, [&](std::size_t face) { return std::array{ccg.normal_stiffness(faces_[face])}; });
+    const std::vector<double> centroids = faces_.of_owners(Dim, [&](std::size_t face) { return ccg.centroid(faces_[face]); });
+    const auto centroid = as_vectors<Dim>(std::span<const double>(centroids));
     for (const std::size_t place : of_springs) {
         BondSpring spring{};
         spring.place = place;
         double compliance = 0.0;
         for (std::size_t side = 0; side < 2; ++side) {
-            const BoundaryFace face = faces[place][side];
-            compliance += 1.0 / ccg.normal_stiffness(face);
-            spring.ends[side] = {static_cast<std::size_t>(std::ranges::lower_bound(faces_, face) - faces_.begin()),
-                                 places[place].position - ccg.centroid(face), places[place].position,
-                                 static_cast<std::size_t>(mesh_.cell_body[cell_of(mesh_, face)])};
+            const std::size_t face = faces_.position_of(places[place], side);
+            compliance += 1.0 / stiffness[face];
+            spring.ends[side] = {face, places[place].position - centroid[face], places[place].position,
+                                 static_cast<std::size_t>(bodies.deformable_body(places[place].bodies[side]))};
         }
         spring.stiffness = places[place].area / compliance;
         springs_.push_back(spring);
     }
-    if (springs_.empty()) return;
-    region_ = ccg.region_of_tilted_faces(faces_);
+    for (std::size_t i = 0; i < faces_.here().size(); ++i) here_[faces_.here()[i]] = i;
+    region_ = ccg.region_of_tilted_faces(faces_.own_faces());
     u_.resize(static_cast<std::size_t>(bodies.n_cells()));
-    displacement_.resize(faces_.size());
-    tilt_.resize(faces_.size());
+    own_displacement_.resize(faces_.own().size());
+    own_tilt_.resize(faces_.own().size());
+    for (Tilted* state : {&start_, &end_}) {
+        state->displacement.resize(faces_.size());
+        state->tilt.resize(faces_.size());
+    }
     x_0_.resize(springs_.size());
     x_1_.resize(springs_.size());
 }
 
+// Where the points are -----------------------------------------------------------------------------------------------
+
 template <int Dim>
-void BondSprings<Dim>::place(std::span<const Vector<Dim>> q, std::span<const BodyFrame<Dim>> frames,
-                             const BoundaryLoad<Dim>& load, StepState state, Positions& x) {
-    frames_.displacement(region_.input_cells, q, frames, u_);
-    ccg_.evaluate_tilted_faces(region_, u_, load, displacement_, tilt_, state);
+void BondSprings<Dim>::evaluate_own(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load, StepState state,
+                                    Tilted& faces) {
+    ccg_.evaluate_tilted_faces(region_, u, load, own_displacement_, own_tilt_, state);
+    for (std::size_t i = 0; i < faces_.own().size(); ++i) {
+        faces.displacement[faces_.own()[i]] = own_displacement_[i];
+        faces.tilt[faces_.own()[i]] = own_tilt_[i];
+    }
+}
+
+template <int Dim>
+void BondSprings<Dim>::bring(std::initializer_list<Tilted*> states) {
+    for (Tilted* state : states)
+        faces_.items().bring({{as_values<Dim>(state->displacement), Dim},
+                              {{state->tilt.front().data(), state->tilt.size() * Dim * Dim}, Dim * Dim}});
+}
+
+template <int Dim>
+void BondSprings<Dim>::place(std::span<const BodyFrame<Dim>> frames, const Tilted& faces, Positions& x) const {
     for (std::size_t i = 0; i < springs_.size(); ++i)
         for (std::size_t side = 0; side < 2; ++side) {
             const End& end = springs_[i].ends[side];
-            x[i][side] = frames[end.body](end.rest - frames_.rest_centre(end.body) + displacement_[end.face] +
-                                          tilt_[end.face] * end.arm);
+            x[i][side] = frames[end.body](end.rest - frames_.rest_centre(end.body) + faces.displacement[end.face] +
+                                          faces.tilt[end.face] * end.arm);
         }
 }
 
 template <int Dim>
 void BondSprings<Dim>::stand_at(std::span<const Vector<Dim>> q, const BoundaryLoad<Dim>& load) {
     if (!any()) return;
-    place(q, frames_.end(), load, StepState::given, x_1_);
+    frames_.displacement(region_.input_cells, q, frames_.end(), u_);
+    evaluate_own(u_, load, StepState::given, end_);
+    bring({&end_});
+    place(frames_.end(), end_, x_1_);
     x_0_ = x_1_;
     collect();
 }
@@ -61,16 +96,36 @@ template <int Dim>
 void BondSprings<Dim>::follow(std::span<const Vector<Dim>> q_0, const BoundaryLoad<Dim>& load_0,
                               std::span<const Vector<Dim>> q_1, const BoundaryLoad<Dim>& load_1) {
     if (!any()) return;
-    place(q_0, frames_.start(), load_0, StepState::given, x_0_);
-    place(q_1, frames_.end(), load_1, StepState::end, x_1_);
+    frames_.displacement(region_.input_cells, q_0, frames_.start(), u_);
+    evaluate_own(u_, load_0, StepState::given, start_);
+    frames_.displacement(region_.input_cells, q_1, frames_.end(), u_);
+    evaluate_own(u_, load_1, StepState::end, end_);
+    bring({&start_, &end_});
+    place(frames_.start(), start_, x_0_);
+    place(frames_.end(), end_, x_1_);
     collect();
+}
+
+// What they pull with ------------------------------------------------------------------------------------------------
+
+template <int Dim>
+void BondSprings<Dim>::begin_collecting() {
+    face_gradient_.assign(faces_.here().size(), Vector<Dim>::Zero());
+    cell_moment_.assign(faces_.here().size(), Matrix<Dim>::Zero());
+}
+
+template <int Dim>
+void BondSprings<Dim>::add(const End& end, const Vector<Dim>& in_frame) {
+    const std::size_t here = here_[end.face];
+    if (here == nowhere) return;
+    face_gradient_[here] += in_frame;
+    cell_moment_[here] += in_frame * end.arm.transpose();
 }
 
 /// Where the points are in the middle of a step, springs pull with the mean of both ends.
 template <int Dim>
 void BondSprings<Dim>::collect() {
-    face_gradient_.assign(faces_.size(), Vector<Dim>::Zero());
-    cell_moment_.assign(faces_.size(), Matrix<Dim>::Zero());
+    begin_collecting();
     pushes_.assign(frames_.n_bodies(), {});
     for (std::size_t i = 0; i < springs_.size(); ++i) {
         const Vector<Dim> pull = 0.5 * share_[springs_[i].place] * springs_[i].stiffness *
@@ -80,9 +135,7 @@ void BondSprings<Dim>::collect() {
             const Vector<Dim> gradient = side == 0 ? Vector<Dim>(-pull) : pull;
             pushes_[end.body].add(gradient, 0.5 * (x_0_[i][side] - frames_.start()[end.body].centre + x_1_[i][side] -
                                                    frames_.end()[end.body].centre));
-            const Vector<Dim> in_frame = frames_.step(end.body).force_turn().transpose() * gradient;
-            face_gradient_[end.face] += in_frame;
-            cell_moment_[end.face] += in_frame * end.arm.transpose();
+            add(end, frames_.step(end.body).force_turn().transpose() * gradient);
         }
     }
 }
@@ -91,26 +144,24 @@ void BondSprings<Dim>::collect() {
 template <int Dim>
 FaceCorrections<Dim> BondSprings<Dim>::stiffness_of(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load) {
     if (!any()) return {};
-    ccg_.evaluate_tilted_faces(region_, u, load, displacement_, tilt_);
-    face_gradient_.assign(faces_.size(), Vector<Dim>::Zero());
-    cell_moment_.assign(faces_.size(), Matrix<Dim>::Zero());
+    evaluate_own(u, load, StepState::given, end_);
+    bring({&end_});
+    begin_collecting();
     for (const BondSpring& spring : springs_) {
-        const auto at = [&](const End& end) -> Vector<Dim> { return displacement_[end.face] + tilt_[end.face] * end.arm; };
+        const auto at = [&](const End& end) -> Vector<Dim> {
+            return end_.displacement[end.face] + end_.tilt[end.face] * end.arm;
+        };
         const Vector<Dim> pull = share_[spring.place] * spring.stiffness * (at(spring.ends[1]) - at(spring.ends[0]));
-        for (std::size_t side = 0; side < 2; ++side) {
-            const End& end = spring.ends[side];
-            const Vector<Dim> gradient = side == 0 ? Vector<Dim>(-pull) : pull;
-            face_gradient_[end.face] += gradient;
-            cell_moment_[end.face] += gradient * end.arm.transpose();
-        }
+        add(spring.ends[0], -pull);
+        add(spring.ends[1], pull);
     }
-    return {faces_, {}, face_gradient_, cell_moment_};
+    return own_corrections();
 }
 
 template <int Dim>
 FaceCorrections<Dim> BondSprings<Dim>::corrections(const FaceCorrections<Dim>& of_contact) {
     if (!any()) return of_contact;
-    return merged_.of(of_contact, {faces_, {}, face_gradient_, cell_moment_});
+    return merged_.of(of_contact, own_corrections());
 }
 
 template <int Dim>

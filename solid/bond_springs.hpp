@@ -2,11 +2,12 @@
 // Private to the sources of this layer.
 #include <array>
 #include <cstddef>
-#include <cstdint>
+#include <initializer_list>
 #include <span>
 #include <vector>
 
 #include "abut/solid/bodies.hpp"
+#include "abut/solid/bond_faces.hpp"
 #include "abut/solid/bond_places.hpp"
 #include "abut/solid/ccg/ccg.hpp"
 #include "abut/solid/kinematics/body_frames.hpp"
@@ -24,12 +25,15 @@ template <int Dim>
 class BondSprings {
 public:
     /// All but `of_springs` must outlive it; `frames` are led along each step before it. Of all places (n_places) those that are
-    /// springs, the faces in the bodies that deform, which nothing holds, and the share of the pull that a place has.
-    BondSprings(const Bodies<Dim>& bodies, Ccg<Dim>& ccg, const BodyFrames<Dim>& frames,
-                std::span<const BondPlace<Dim>> places, std::span<const std::array<BoundaryFace, 2>> faces,
-                std::span<const std::size_t> of_springs, const std::vector<double>& share);
+    /// springs, whose faces nothing holds, and the share of the pull that a place has. A call of all ranks.
+    BondSprings(const Bodies<Dim>& bodies, Ccg<Dim>& ccg, const BodyFrames<Dim>& frames, const RankPart<Dim>& part,
+                std::span<const BondPlace<Dim>> places, std::span<const std::size_t> of_springs,
+                const std::vector<double>& share);
 
     [[nodiscard]] bool any() const { return !springs_.empty(); }
+    [[nodiscard]] const BondFaces<Dim>& faces() const { return faces_; }
+
+    // Each rank evaluates the faces of its own cells; what brings them to all is a call of all ranks.
 
     /// Of points at q [m], where the frames stand.
     void stand_at(std::span<const Vector<Dim>> q, const BoundaryLoad<Dim>& load);
@@ -51,7 +55,8 @@ public:
             const BondSpring& spring = springs_[i];
             const BondPlace<Dim>& place = places_[spring.place];
             const End& end = spring.ends[0];
-            const Vector<Dim> in_frame = (Matrix<Dim>::Identity() + tilt_[end.face]).inverse().transpose() * place.normal;
+            const Vector<Dim> in_frame =
+                (Matrix<Dim>::Identity() + end_.tilt[end.face]).inverse().transpose() * place.normal;
             const double stiffness = spring.stiffness / place.area;
             visit(spring.place, Vector<Dim>(stiffness * (x_1_[i][1] - x_1_[i][0])), stiffness,
                   Vector<Dim>(frames_.end()[end.body].turn * in_frame));
@@ -76,25 +81,37 @@ private:
         std::size_t place;
     };
     using Positions = std::vector<std::array<Vector<Dim>, 2>>;
+    /// Of faces_, in their frames.
+    struct Tilted {
+        std::vector<Vector<Dim>> displacement;
+        std::vector<Matrix<Dim>> tilt;
+    };
 
+    void begin_collecting();
     void collect();
-    void place(std::span<const Vector<Dim>> q, std::span<const BodyFrame<Dim>> frames, const BoundaryLoad<Dim>& load,
-               StepState state, Positions& x);
+    void add(const End& end, const Vector<Dim>& in_frame);
+    void evaluate_own(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load, StepState state, Tilted& faces);
+    void bring(std::initializer_list<Tilted*> states);
+    void place(std::span<const BodyFrame<Dim>> frames, const Tilted& faces, Positions& x) const;
+    [[nodiscard]] FaceCorrections<Dim> own_corrections() const {
+        return {faces_.faces_here(), {}, face_gradient_, cell_moment_};
+    }
 
-    const mesh::Mesh<Dim>& mesh_;
     Ccg<Dim>& ccg_;
     const BodyFrames<Dim>& frames_;
     std::span<const BondPlace<Dim>> places_;
     const std::vector<double>& share_;
-    std::vector<BoundaryFace> faces_;  // increasing
+    BondFaces<Dim> faces_;
+    std::vector<std::size_t> here_;  // of each face its position among those here; `nowhere`: it is not
     std::vector<BondSpring> springs_;
-    Region<Dim> region_;
+    Region<Dim> region_;  // of own faces
     Positions x_0_, x_1_;
     std::vector<Vector<Dim>> u_;
-    std::vector<Vector<Dim>> displacement_;  // of faces_
-    std::vector<Matrix<Dim>> tilt_;
-    std::vector<Vector<Dim>> face_gradient_;  // [N]
-    std::vector<Matrix<Dim>> cell_moment_;    // [N m]
+    std::vector<Vector<Dim>> own_displacement_;
+    std::vector<Matrix<Dim>> own_tilt_;
+    Tilted start_, end_;
+    std::vector<Vector<Dim>> face_gradient_;  // of faces here [N]
+    std::vector<Matrix<Dim>> cell_moment_;    // of faces here [N m]
     std::vector<BodyPush<Dim>> pushes_, all_pushes_;
     MergedCorrections<Dim> merged_;
 };

@@ -1,8 +1,11 @@
 #include "abut/solid/bonds.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numeric>
 #include <string>
+#include <utility>
 
 #include "abut/base/decompositions.hpp"
 #include "abut/base/error.hpp"
@@ -30,34 +33,31 @@ std::size_t position_of(const FaceCorrections<Dim>& corrections, BoundaryFace fa
 }  // namespace
 
 template <int Dim>
-Bonds<Dim>::Bonds(const Bodies<Dim>& bodies, Ccg<Dim>& ccg, const BodyFrames<Dim>& frames)
+Bonds<Dim>::Bonds(const Bodies<Dim>& bodies, Ccg<Dim>& ccg, const BodyFrames<Dim>& frames, const RankPart<Dim>& part)
     : bodies_(bodies), mesh_(bodies.deformable()), ccg_(ccg), places_(bodies.bond_places()), share_(places_.size(), 1.0) {
     check_bodies();
-    const mesh::Mesh<Dim>& mesh = bodies.mesh();
-    std::vector<BoundaryFace> here;  // in the numbering of the bodies that deform
-    std::int32_t n_here = 0;
-    for (const BoundaryFace b : boundary_faces(mesh))
-        here.push_back(bodies.is_rigid(mesh.cell_body[cell_of(mesh, b)]) ? no_face : BoundaryFace{n_here++});
     std::vector<std::size_t> of_springs, of_joints;
-    std::vector<std::array<BoundaryFace, 2>> faces;
     for (std::size_t p = 0; p < places_.size(); ++p) {
-        bool turns = false;
-        for (std::size_t side = 0; side < 2; ++side) {
-            const BoundaryFace face = places_[p].faces[side];
-            turns = turns || bodies.turns(mesh.cell_body[cell_of(mesh, face)]);
-        }
-        faces.push_back(
-            {here[static_cast<std::size_t>(places_[p].faces[0])], here[static_cast<std::size_t>(places_[p].faces[1])]});
-        for (const BoundaryFace face : faces.back()) check(face);
-        (turns ? of_springs : of_joints).push_back(p);
+        const auto turns = [&](std::int32_t body) { return bodies.turns(body); };
+        (std::ranges::any_of(places_[p].bodies, turns) ? of_springs : of_joints).push_back(p);
     }
-    springs_ = std::make_unique<BondSprings<Dim>>(bodies, ccg, frames, places_, faces, of_springs, share_);
-    for (const std::size_t p : of_joints) face_numbers_.insert(face_numbers_.end(), faces[p].begin(), faces[p].end());
-    sort_unique(face_numbers_);
-    for (const BoundaryFace face : face_numbers_) faces_.push_back(bonded_face(face));
-    for (const std::size_t p : of_joints) append_joint(p, faces[p]);
+    springs_ = std::make_unique<BondSprings<Dim>>(bodies, ccg, frames, part, places_, of_springs, share_);
+    faces_.emplace(mesh_, part, places_, of_joints);
+    dynamics::agreed(part.ranks(), [&] {
+        for (const BondFaces<Dim>* faces : std::array<const BondFaces<Dim>*, 2>{&*faces_, &springs_->faces()})
+            for (const BoundaryFace face : faces->own_faces()) check(face);
+    });
+    if (!of_joints.empty()) take_faces();
+    for (const std::size_t p : of_joints) append_joint(p);
+    std::vector<std::size_t> own_sides;
+    for (std::size_t j = 0; j < joints_.size(); ++j)
+        for (std::size_t side = 0; side < 2; ++side)
+            if (faces_->is_own(joints_[j].face[side])) own_sides.push_back(2 * j + side);
+    sides_ = RankItems(part.ranks(), std::move(own_sides));
     for (auto* jump : {&jump_, &jump_0_, &jump_1_}) jump->resize(joints_.size());
-    for (auto* of_face : {&of_face_, &delta_, &gradient_}) of_face->resize(faces_.size());
+    for (auto* of_sides : {&of_side_0_, &of_side_1_}) of_sides->resize(2 * joints_.size());
+    for (auto* of_face : {&of_face_, &delta_, &excess_, &gradient_}) of_face->resize(faces_->size());
+    delta_here_.resize(faces_->here().size());
     check_fracture_energy();
 }
 
@@ -65,8 +65,7 @@ template <int Dim>
 void Bonds<Dim>::check_bodies() const {
     const mesh::Mesh<Dim>& mesh = bodies_.mesh();
     for (const BondPlace<Dim>& place : places_)
-        for (const BoundaryFace face : place.faces) {
-            const std::int32_t body = mesh.cell_body[cell_of(mesh, face)];
+        for (const std::int32_t body : place.bodies) {
             const std::string who = mesh.name + ": body '" + mesh.body_names[static_cast<std::size_t>(body)] + "' ";
             if (bodies_.is_rigid(body))
                 throw BadInput(who +
@@ -82,9 +81,8 @@ void Bonds<Dim>::check_bodies() const {
 }
 
 template <int Dim>
-auto Bonds<Dim>::bonded_face(BoundaryFace b) const -> BondedFace {
+Matrix<Dim> Bonds<Dim>::stiffness_of(BoundaryFace b) const {
     const std::int32_t face = mesh_face(mesh_, b), cell = cell_of(mesh_, b);
-    BondedFace bonded{b, cell, mesh_.face_measure[face], Matrix<Dim>::Zero(), boundary_of(cell)};
     const Material& material = bodies_.deformable_options().materials[static_cast<std::size_t>(mesh_.cell_body[cell])];
     const auto area_of = [&](std::int32_t f) -> Vector<Dim> { return mesh_.face_measure[f] * mesh_.face_normal[f]; };
     const auto with = [&](std::int32_t other) {
@@ -95,8 +93,24 @@ auto Bonds<Dim>::bonded_face(BoundaryFace b) const -> BondedFace {
     ccg_.boundary().for_each_answer(b, [&](BoundaryFace answering, const Matrix<Dim>& answer) {
         stiffness += with(mesh_face(mesh_, answering)) * answer;
     });
-    bonded.stiffness = 0.5 / bonded.measure * (stiffness + stiffness.transpose());
-    return bonded;
+    return 0.5 / mesh_.face_measure[face] * (stiffness + stiffness.transpose());
+}
+
+template <int Dim>
+void Bonds<Dim>::take_faces() {
+    const BondFaces<Dim>& faces = *faces_;
+    const std::vector<double> measure = faces.of_owners(
+        1, [&](std::size_t i) { return std::array{mesh_.face_measure[mesh_face(mesh_, faces[i])]}; });
+    const std::vector<double> stiffness = faces.of_owners(Dim * Dim, [&](std::size_t i) {
+        const Matrix<Dim> of_face = stiffness_of(faces[i]);
+        return std::vector<double>(of_face.data(), of_face.data() + Dim * Dim);
+    });
+    for (std::size_t i = 0; i < faces.size(); ++i)
+        of_faces_.push_back({.measure = measure[i],
+                             .stiffness = Eigen::Map<const Matrix<Dim>>(&stiffness[Dim * Dim * i]),
+                             .cell = faces[i] == no_face ? -1 : cell_of(mesh_, faces[i]),
+                             .neighbours = faces.is_own(i) ? boundary_of(cell_of(mesh_, faces[i]))
+                                                           : std::vector<BoundaryFace>{}});
 }
 
 template <int Dim>
@@ -133,18 +147,18 @@ void Bonds<Dim>::check(BoundaryFace face) const {
 }
 
 template <int Dim>
-void Bonds<Dim>::append_joint(std::size_t place, std::array<BoundaryFace, 2> faces) {
+void Bonds<Dim>::append_joint(std::size_t place) {
     Joint joint{};
     joint.place = place;
     joint.area = places_[place].area;
     for (std::size_t side = 0; side < 2; ++side) {
-        joint.face[side] =
-            static_cast<std::size_t>(std::ranges::lower_bound(face_numbers_, faces[side]) - face_numbers_.begin());
+        joint.face[side] = faces_->position_of(places_[place], side);
         joint.slope_of[side] = slope_.size();
-        append_slope(faces_[joint.face[side]], places_[place].position - ccg_.centroid(faces[side]));
+        if (const BoundaryFace here = (*faces_)[joint.face[side]]; here != no_face)
+            append_slope(joint.face[side], places_[place].position - ccg_.centroid(here));
         joint.slope_end[side] = slope_.size();
     }
-    const Matrix<Dim>&k_1 = faces_[joint.face[0]].stiffness, k_2 = faces_[joint.face[1]].stiffness;
+    const Matrix<Dim>&k_1 = of_faces_[joint.face[0]].stiffness, k_2 = of_faces_[joint.face[1]].stiffness;
     joint.share[0] = (made_firm<Dim>(k_1) + made_firm<Dim>(k_2)).inverse() * made_firm<Dim>(k_2);
     joint.share[1] = joint.share[0] - Matrix<Dim>::Identity();
     joint.stiffness = joint.share[0].transpose() * k_1 * joint.share[0] + joint.share[1].transpose() * k_2 * joint.share[1];
@@ -153,10 +167,10 @@ void Bonds<Dim>::append_joint(std::size_t place, std::array<BoundaryFace, 2> fac
 
 /// The gradient that fits the cells best on which the face depends, along `arm`: exact where they move affinely.
 template <int Dim>
-void Bonds<Dim>::append_slope(const BondedFace& face, const Vector<Dim>& arm) {
-    const auto of_row = ccg_.cells_of(face.face);
+void Bonds<Dim>::append_slope(std::size_t face, const Vector<Dim>& arm) {
+    const auto of_row = ccg_.cells_of((*faces_)[face]);
     std::vector<std::int32_t> cells(of_row.begin(), of_row.end());
-    cells.push_back(face.cell);
+    cells.push_back(of_faces_[face].cell);
     sort_unique(cells);
     Vector<Dim> centre = Vector<Dim>::Zero();
     for (const std::int32_t c : cells) centre += mesh_.cell_centroid[c] / static_cast<double>(cells.size());
@@ -186,7 +200,9 @@ void Bonds<Dim>::stand_at(std::span<const Vector<Dim>> q, const BoundaryLoad<Dim
 /// Cells of small bodies move as their points do.
 template <int Dim>
 void Bonds<Dim>::stand_linear(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load) {
-    take_jumps(u, load, jump_);
+    take_own_sides(u, load, of_side_1_);
+    sides_.bring({{as_values<Dim>(of_side_1_), Dim}});
+    take_jumps(of_side_1_, jump_);
     set_corrections();
 }
 
@@ -194,27 +210,34 @@ template <int Dim>
 void Bonds<Dim>::follow(std::span<const Vector<Dim>> q_0, const BoundaryLoad<Dim>& load_0, std::span<const Vector<Dim>> q_1,
                         const BoundaryLoad<Dim>& load_1) {
     if (!any()) return;
-    take_jumps(q_0, load_0, jump_0_);
-    take_jumps(q_1, load_1, jump_1_);
+    take_own_sides(q_0, load_0, of_side_0_);
+    take_own_sides(q_1, load_1, of_side_1_);
+    sides_.bring({{as_values<Dim>(of_side_0_), Dim}, {as_values<Dim>(of_side_1_), Dim}});
+    take_jumps(of_side_0_, jump_0_);
+    take_jumps(of_side_1_, jump_1_);
     for (std::size_t i = 0; i < joints_.size(); ++i) jump_[i] = 0.5 * (jump_0_[i] + jump_1_[i]);
     set_corrections();
     springs_->follow(q_0, load_0, q_1, load_1);
 }
 
 template <int Dim>
-void Bonds<Dim>::take_jumps(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load, std::vector<Vector<Dim>>& jump) {
-    for (std::size_t i = 0; i < faces_.size(); ++i) of_face_[i] = ccg_.face_displacement(faces_[i].face, u, load);
-    for (std::size_t p = 0; p < joints_.size(); ++p) {
-        const Joint& joint = joints_[p];
-        const auto at = [&](std::size_t side) {
-            const Vector<Dim>& origin = u[faces_[joint.face[side]].cell];
-            Vector<Dim> displacement = of_face_[joint.face[side]];
-            for (std::size_t i = joint.slope_of[side]; i < joint.slope_end[side]; ++i)
-                displacement += slope_[i].weight * (u[slope_[i].cell] - origin);
-            return displacement;
-        };
-        jump[p] = at(1) - at(0);
+void Bonds<Dim>::take_own_sides(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load,
+                                std::vector<Vector<Dim>>& of_sides) {
+    for (const std::size_t face : faces_->own()) of_face_[face] = ccg_.face_displacement((*faces_)[face], u, load);
+    for (const std::size_t i : sides_.own()) {
+        const Joint& joint = joints_[i / 2];
+        const std::size_t side = i % 2, face = joint.face[side];
+        const Vector<Dim>& origin = u[of_faces_[face].cell];
+        Vector<Dim> displacement = of_face_[face];
+        for (std::size_t k = joint.slope_of[side]; k < joint.slope_end[side]; ++k)
+            displacement += slope_[k].weight * (u[slope_[k].cell] - origin);
+        of_sides[i] = displacement;
     }
+}
+
+template <int Dim>
+void Bonds<Dim>::take_jumps(std::span<const Vector<Dim>> of_sides, std::vector<Vector<Dim>>& jump) const {
+    for (std::size_t p = 0; p < joints_.size(); ++p) jump[p] = of_sides[2 * p + 1] - of_sides[2 * p];
 }
 
 template <int Dim>
@@ -223,9 +246,10 @@ void Bonds<Dim>::set_corrections() {
     for (std::size_t p = 0; p < joints_.size(); ++p)
         for (std::size_t side = 0; side < 2; ++side) {
             const std::size_t face = joints_[p].face[side];
-            const double weight = share_of(joints_[p]) * joints_[p].area / faces_[face].measure;
+            const double weight = share_of(joints_[p]) * joints_[p].area / of_faces_[face].measure;
             delta_[face] += weight * (joints_[p].share[side] * jump_[p]);
         }
+    for (std::size_t i = 0; i < delta_here_.size(); ++i) delta_here_[i] = delta_[faces_->here()[i]];
 }
 
 template <int Dim>
@@ -246,8 +270,8 @@ double Bonds<Dim>::energy() const {
     double energy = springs_->energy();
     for (std::size_t p = 0; p < joints_.size(); ++p)
         energy += 0.5 * share_of(joints_[p]) * joints_[p].area * jump_[p].dot(joints_[p].stiffness * jump_[p]);
-    for (std::size_t i = 0; i < faces_.size(); ++i)
-        energy -= 0.5 * faces_[i].measure * delta_[i].dot(faces_[i].stiffness * delta_[i]);
+    for (std::size_t i = 0; i < of_faces_.size(); ++i)
+        energy -= 0.5 * of_faces_[i].measure * delta_[i].dot(of_faces_[i].stiffness * delta_[i]);
     return energy;
 }
 
@@ -266,23 +290,28 @@ Vector<Dim> Bonds<Dim>::bulk_gradient(const BondedFace& of_cell, BoundaryFace fa
 }
 
 template <int Dim>
-void Bonds<Dim>::add_gradient(std::span<Vector<Dim>> gradient) {
-    if (joints_.empty()) return;
-    std::vector<Vector<Dim>> excess(faces_.size());  // of the face's traction over that of its half cell alone [Pa]
-    for (std::size_t i = 0; i < faces_.size(); ++i) {
-        const BondedFace& face = faces_[i];
-        Vector<Dim> of_face = bulk_gradient(face, face.face);
-        ccg_.boundary().for_each_answer(face.face, [&](BoundaryFace answering, const Matrix<Dim>& answer) {
+void Bonds<Dim>::take_excess() {
+    for (const std::size_t i : faces_->own()) {
+        const BondedFace& face = of_faces_[i];
+        const BoundaryFace b = (*faces_)[i];
+        Vector<Dim> of_face = bulk_gradient(face, b);
+        ccg_.boundary().for_each_answer(b, [&](BoundaryFace answering, const Matrix<Dim>& answer) {
             of_face += answer.transpose() * bulk_gradient(face, answering);
         });
-        excess[i] = of_face / face.measure - face.stiffness * delta_[i];
-        gradient_[i].setZero();
+        excess_[i] = of_face / face.measure - face.stiffness * delta_[i];
     }
+    faces_->items().bring({{as_values<Dim>(excess_), Dim}});
+}
+
+/// Each place pushes both faces, and the cells on whose slope it depends beside that.
+template <int Dim>
+void Bonds<Dim>::push_faces(std::span<Vector<Dim>> gradient) {
+    for (Vector<Dim>& of_face : gradient_) of_face.setZero();
     for (std::size_t p = 0; p < joints_.size(); ++p) {
         const Joint& joint = joints_[p];
         const Vector<Dim> push = share_of(joint) * joint.area *
-                                 (joint.stiffness * jump_[p] + joint.share[0].transpose() * excess[joint.face[0]] +
-                                  joint.share[1].transpose() * excess[joint.face[1]]);
+                                 (joint.stiffness * jump_[p] + joint.share[0].transpose() * excess_[joint.face[0]] +
+                                  joint.share[1].transpose() * excess_[joint.face[1]]);
         for (std::size_t side = 0; side < 2; ++side) {
             const Vector<Dim> on_side = side == 0 ? Vector<Dim>(-push) : push;
             gradient_[joint.face[side]] += on_side;
@@ -290,9 +319,16 @@ void Bonds<Dim>::add_gradient(std::span<Vector<Dim>> gradient) {
                 gradient[static_cast<std::size_t>(slope_[i].cell)] += slope_[i].weight * on_side;
         }
     }
+}
+
+template <int Dim>
+void Bonds<Dim>::add_gradient(std::span<Vector<Dim>> gradient) {
+    if (joints_.empty()) return;
+    take_excess();
+    push_faces(gradient);
     const BoundaryReconstruction<Dim>& rows = ccg_.boundary();
-    for (std::size_t i = 0; i < faces_.size(); ++i) {
-        const std::int32_t b = number_of(faces_[i].face);
+    for (const std::size_t i : faces_->here()) {
+        const std::int32_t b = number_of((*faces_)[i]);
         for (std::int32_t k = rows.offsets[b]; k < rows.offsets[b + 1]; ++k)
             gradient[static_cast<std::size_t>(rows.cells[k])] += rows.weights[k].transpose() * gradient_[i];
     }
@@ -300,12 +336,11 @@ void Bonds<Dim>::add_gradient(std::span<Vector<Dim>> gradient) {
 
 template <int Dim>
 double Bonds<Dim>::work_of_loads(const BoundaryLoad<Dim>& start, const BoundaryLoad<Dim>& end) const {
-    double work = 0.0;
-    for (std::size_t i = 0; i < faces_.size(); ++i) {
-        const auto b = static_cast<std::size_t>(faces_[i].face);
-        work += gradient_[i].dot(end.displacement[b] - start.displacement[b]);
-    }
-    return work;
+    const std::vector<double> of_faces = faces_->of_owners(1, [&](std::size_t i) {
+        const auto b = static_cast<std::size_t>((*faces_)[i]);
+        return std::array{gradient_[i].dot(end.displacement[b] - start.displacement[b])};
+    });
+    return std::accumulate(of_faces.begin(), of_faces.end(), 0.0);
 }
 
 // Breaking -----------------------------------------------------------------------------------------------------------
@@ -352,10 +387,8 @@ void Bonds<Dim>::check_fracture_energy() const {
         if (bond.fracture_energy == 0.0) return;
         const double held = energy_at_strength(bond, stiffness);
         if (bond.fracture_energy > held) return;
-        const mesh::Mesh<Dim>& mesh = bodies_.mesh();
         const auto body_at = [&](std::size_t side) {
-            return "'" + mesh.body_names[static_cast<std::size_t>(mesh.cell_body[cell_of(mesh, places_[p].faces[side])])] +
-                   "'";
+            return "'" + bodies_.mesh().body_names[static_cast<std::size_t>(places_[p].bodies[side])] + "'";
         };
         throw BadInput(mesh_.name + ": the bond of " + body_at(0) + " and " + body_at(1) + " has a fracture energy of " +
                            number(bond.fracture_energy) + " J/m^2, but at its strength the half cells beside it hold " +

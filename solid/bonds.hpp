@@ -4,11 +4,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "abut/base/state_bytes.hpp"
 #include "abut/solid/bodies.hpp"
+#include "abut/solid/bond_faces.hpp"
 #include "abut/solid/bond_law.hpp"
 #include "abut/solid/bond_places.hpp"
 #include "abut/solid/bond_springs.hpp"
@@ -36,10 +38,10 @@ namespace abut::solid {
 template <int Dim>
 class Bonds {
 public:
-    /// All must outlive it; `frames` are led along each step before it. Throws BadInput as `find_bond_places`, for bodies that are
-    /// rigid, where a support holds a bonded face, a traction is on one, or a load from outside on one that answers to it, and for a
-    /// fracture energy that is less than what the half cells beside the bond hold at its strength.
-    Bonds(const Bodies<Dim>& bodies, Ccg<Dim>& ccg, const BodyFrames<Dim>& frames);
+    /// All must outlive it; `frames` are led along each step before it. Throws BadInput for bodies that are rigid, where a support
+    /// holds a bonded face, a traction is on one, or a load from outside on one that answers to it, and for a fracture energy that is
+    /// less than what the half cells beside the bond hold at its strength. A call of all ranks.
+    Bonds(const Bodies<Dim>& bodies, Ccg<Dim>& ccg, const BodyFrames<Dim>& frames, const RankPart<Dim>& part);
 
     [[nodiscard]] bool any() const { return !places_.empty(); }
     [[nodiscard]] std::span<const BondPlace<Dim>> places() const { return places_; }
@@ -47,7 +49,8 @@ public:
     /// Whether one has a strength.
     [[nodiscard]] bool any_breaks() const;
 
-    // In one state, or along a step
+    // In one state, or along a step. Each rank evaluates the faces of its own cells, and brings that to all: those that bring
+    // something are calls of all ranks.
 
     /// Of points at q [m] under these loads, where the frames stand.
     void stand_at(std::span<const Vector<Dim>> q, const BoundaryLoad<Dim>& load);
@@ -90,11 +93,10 @@ public:
 
 private:
     struct BondedFace {
-        BoundaryFace face;
-        std::int32_t cell;
         double measure;
         Matrix<Dim> stiffness;                 // K_f [Pa/m]
-        std::vector<BoundaryFace> neighbours;  // boundary faces of the cell, itself among them
+        std::int32_t cell;                     // where it is here; -1
+        std::vector<BoundaryFace> neighbours;  // of an own one: boundary faces of the cell, itself among them
     };
     struct Joint {
         std::size_t place;
@@ -102,7 +104,7 @@ private:
         double area;                          // A_p
         std::array<Matrix<Dim>, 2> share;     // theta_1, -theta_2
         Matrix<Dim> stiffness;                // K_12 [Pa/m]
-        std::array<std::size_t, 2> slope_of;  // the first entry of each side in slope_
+        std::array<std::size_t, 2> slope_of;  // the first entry of each side in slope_; none of faces that are not here
         std::array<std::size_t, 2> slope_end;
     };
     /// What the displacement of a cell adds to that of a place beside the centroid of its face.
@@ -114,18 +116,22 @@ private:
     void check_bodies() const;
     void check(BoundaryFace face) const;
     [[nodiscard]] std::vector<BoundaryFace> boundary_of(std::int32_t cell) const;
-    [[nodiscard]] BondedFace bonded_face(BoundaryFace face) const;
-    void append_joint(std::size_t place, std::array<BoundaryFace, 2> faces);
-    void append_slope(const BondedFace& face, const Vector<Dim>& arm);
+    [[nodiscard]] Matrix<Dim> stiffness_of(BoundaryFace face) const;
+    void take_faces();
+    void append_joint(std::size_t place);
+    void append_slope(std::size_t face, const Vector<Dim>& arm);
     void stand_linear(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load);
-    void take_jumps(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load, std::vector<Vector<Dim>>& jump);
+    void take_own_sides(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load, std::vector<Vector<Dim>>& of_sides);
+    void take_jumps(std::span<const Vector<Dim>> of_sides, std::vector<Vector<Dim>>& jump) const;
     void set_corrections();
     [[nodiscard]] double share_of(const Joint& joint) const { return share_[joint.place]; }
-    [[nodiscard]] FaceCorrections<Dim> own_corrections() const { return {face_numbers_, delta_, {}, {}}; }
+    [[nodiscard]] FaceCorrections<Dim> own_corrections() const { return {faces_->faces_here(), delta_here_, {}, {}}; }
     void check_fracture_energy() const;
     void append_change(std::size_t place, const Vector<Dim>& traction, double stiffness, const Vector<Dim>& normal,
                        std::vector<BondChange>& changes) const;
     [[nodiscard]] Vector<Dim> bulk_gradient(const BondedFace& of_cell, BoundaryFace face) const;
+    void take_excess();
+    void push_faces(std::span<Vector<Dim>> gradient);
 
     const Bodies<Dim>& bodies_;
     const mesh::Mesh<Dim>& mesh_;  // of the bodies that deform
@@ -133,13 +139,16 @@ private:
     std::vector<BondPlace<Dim>> places_;
     std::vector<double> share_;  // by place, from 1, whole, to 0, broken
     std::unique_ptr<BondSprings<Dim>> springs_;
-    std::vector<BondedFace> faces_;  // of small bodies, increasing
+    std::optional<BondFaces<Dim>> faces_;    // of small bodies
+    std::vector<BondedFace> of_faces_;       // of each
     std::vector<Joint> joints_;
     std::vector<Slope> slope_;
-    std::vector<BoundaryFace> face_numbers_;
+    RankItems sides_;                                  // of joints: 2 joint + side
+    std::vector<Vector<Dim>> of_side_0_, of_side_1_;   // y at the place, by side [m]
     std::vector<Vector<Dim>> jump_, jump_0_, jump_1_;  // Delta, by joint: as it counts, and at both ends of a step [m]
-    std::vector<Vector<Dim>> of_face_;                 // û, by bonded face [m]
-    std::vector<Vector<Dim>> delta_;                   // by bonded face [m]
+    std::vector<Vector<Dim>> of_face_;                 // û, by bonded face here [m]
+    std::vector<Vector<Dim>> delta_, delta_here_;      // by bonded face, by those here [m]
+    std::vector<Vector<Dim>> excess_;                  // of the face's traction over that of its half cell alone, by bonded face [Pa]
     std::vector<Vector<Dim>> gradient_;                // dV/dû through the corrections, by bonded face [N]
     FaceCorrections<Dim> of_others_;                   // of contact and springs
     MergedCorrections<Dim> merged_;

@@ -67,18 +67,9 @@ double CornerSurface<Dim>::amplification_of(BoundaryFace b) const {
     return largest;
 }
 
-/// The boundary faces of bodies that deform, in the numbering of the mesh of all bodies.
-template <int Dim>
-std::vector<BoundaryFace> CornerSurface<Dim>::deformable_in_mesh() const {
-    std::vector<BoundaryFace> in_mesh;
-    for (const BoundaryFace b : boundary_faces(bodies_.mesh()))
-        if (!bodies_.is_rigid(bodies_.mesh().cell_body[cell_of(bodies_.mesh(), b)])) in_mesh.push_back(b);
-    return in_mesh;
-}
-
 template <int Dim>
 void CornerSurface<Dim>::append_deformable() {
-    const std::vector<BoundaryFace> in_mesh = deformable_in_mesh();
+    const std::vector<BoundaryFace> in_mesh = bodies_.boundary_in_mesh();
     std::vector<double> own;
     for (std::size_t i = 0; i < shared_->size(); ++i) {
         const auto face = shared_->rest(i);

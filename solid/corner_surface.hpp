@@ -99,7 +99,6 @@ public:
     [[nodiscard]] const std::vector<RigidPlace<Dim>>& rigid_places() const { return places_; }
 
 private:
-    [[nodiscard]] std::vector<BoundaryFace> deformable_in_mesh() const;
     void append_deformable();
     void add_face(std::span<const Vector<Dim>> corners, double depth, std::int32_t body, double stiffness);
     [[nodiscard]] double amplification_of(BoundaryFace face) const;

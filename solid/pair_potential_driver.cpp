@@ -38,31 +38,28 @@ std::vector<std::array<std::int32_t, 2>> ignored_pairs(const Bodies<Dim>& bodies
     return pairs;
 }
 
-/// All pairs of faces but those of which one is bonded to the body of the other, as the bonds are when it is asked.
+/// All pairs of faces but those of which one is bonded to the body of the other, as the bonds are when it is asked. The faces of bodies
+/// that deform come first in contact, in the order of the whole mesh.
 template <int Dim>
-std::function<bool(contact::Face, contact::Face)> wanted_beside(const Bodies<Dim>& bodies, const CornerSurface<Dim>& corners,
-                                                                const Bonds<Dim>& bonds) {
+std::function<bool(contact::Face, contact::Face)> wanted_beside(const CornerSurface<Dim>& corners, const Bonds<Dim>& bonds) {
     if (!bonds.any()) return {};
-    using Bonded = std::tuple<BoundaryFace, std::int32_t, std::size_t>;  // a face, a body that it is bonded to, and where
+    using Bonded = std::tuple<std::size_t, std::int32_t, std::size_t>;  // a face, a body that it is bonded to, and where
     std::vector<Bonded> bonded;
-    const mesh::Mesh<Dim>& mesh = bodies.mesh();
     for (std::size_t place = 0; place < bonds.places().size(); ++place)
-        for (std::size_t side = 0; side < 2; ++side) {
-            const auto& faces = bonds.places()[place].faces;
-            bonded.emplace_back(faces[side], mesh.cell_body[cell_of(mesh, faces[1 - side])], place);
-        }
+        for (std::size_t side = 0; side < 2; ++side)
+            bonded.emplace_back(bonds.places()[place].numbers[side], bonds.places()[place].bodies[1 - side], place);
     std::ranges::sort(bonded);
-    return [bonded = std::move(bonded), &corners, &mesh, &bonds](contact::Face face_1, contact::Face face_2) {
-        const BoundaryFace b_1 = corners.mesh_boundary(face_1), b_2 = corners.mesh_boundary(face_2);
-        if (b_1 == no_face || b_2 == no_face) return true;
-        const auto is_bonded_to = [&](BoundaryFace face, BoundaryFace other) {
-            const std::int32_t body = mesh.cell_body[cell_of(mesh, other)];
+    return [bonded = std::move(bonded), body_of = corners.bodies_of_faces(), &bonds](contact::Face face_1,
+                                                                                    contact::Face face_2) {
+        const auto is_bonded_to = [&](contact::Face of, contact::Face other) {
+            const auto face = static_cast<std::size_t>(of);
+            const std::int32_t body = body_of[static_cast<std::size_t>(other)];
             for (auto at = std::ranges::lower_bound(bonded, Bonded(face, body, 0));
                  at != bonded.end() && std::get<0>(*at) == face && std::get<1>(*at) == body; ++at)
                 if (!bonds.is_broken(std::get<2>(*at))) return true;
             return false;
         };
-        return !is_bonded_to(b_1, b_2) && !is_bonded_to(b_2, b_1);
+        return !is_bonded_to(face_1, face_2) && !is_bonded_to(face_2, face_1);
     };
 }
 
@@ -80,7 +77,7 @@ contact::NodalOptions nodal_options(const Bodies<Dim>& bodies, const CornerSurfa
             .compression_limit = contact.compression_limit,
             .friction = friction_between(options, bodies.mesh().n_bodies(), corners.bodies_of_faces(), faces_of),
             .interference = interference_between(options, bodies.mesh().n_bodies(), corners.bodies_of_faces(), faces_of),
-            .wanted = wanted_beside(bodies, corners, bonds)};
+            .wanted = wanted_beside(corners, bonds)};
 }
 
 }  // namespace

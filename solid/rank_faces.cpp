@@ -5,37 +5,13 @@
 #include <utility>
 
 #include "abut/base/sort_unique.hpp"
+#include "abut/solid/value_reader.hpp"
 #include "abut/solid/contact_faces.hpp"
 #include "abut/solid/contact_patches.hpp"
 #include "abut/solid/rank_sharing.hpp"
 
 namespace abut::solid {
 namespace {
-
-/// Reads numbers one after the other.
-class Reader {
-public:
-    explicit Reader(std::span<const double> values) : values_(values) {}
-    [[nodiscard]] bool is_done() const { return values_.empty(); }
-    double next() {
-        const double value = values_.front();
-        values_ = values_.subspan(1);
-        return value;
-    }
-    template <class Integer>
-    Integer next_as() {
-        return static_cast<Integer>(next());
-    }
-    template <class Array>
-    Array next_array() {
-        Array array;
-        for (double& value : array.reshaped()) value = next();
-        return array;
-    }
-
-private:
-    std::span<const double> values_;
-};
 
 template <class Array>
 void append(std::vector<double>& values, const Array& array) {
@@ -176,7 +152,7 @@ void RankFaces<Dim>::append_own(const mesh::Mesh<Dim>& mesh, const Ccg<Dim>& ccg
 
 template <int Dim>
 void RankFaces<Dim>::take_all(std::span<const double> values) {
-    Reader reader(values);
+    ValueReader reader(values);
     for (int rank = 0; !reader.is_done(); ++rank)
         for (auto left = reader.next_as<std::int64_t>(); left > 0; --left) {
             Face& face = faces_.emplace_back();
@@ -211,7 +187,7 @@ void RankFaces<Dim>::gather_holds(const mesh::Mesh<Dim>& mesh, const Ccg<Dim>& c
             append(mine, hold.direction);
         }
     const std::vector<double> all = part_.ranks().gather(mine);
-    for (Reader reader(all); !reader.is_done();) {
+    for (ValueReader reader(all); !reader.is_done();) {
         const auto cell = reader.next_as<std::int32_t>();
         const auto position = reader.next_array<Vector<Dim>>(), direction = reader.next_array<Vector<Dim>>();
         holds_.emplace_back(cell, dynamics::Hold<Dim>{position, direction});
@@ -260,7 +236,7 @@ void RankFaces<Dim>::bring_displacement(std::span<const Vector<Dim>> of_boundary
     for (std::size_t i = 0; i < faces_.size(); ++i)
         if (is_own(i)) append(mine, of_boundary[static_cast<std::size_t>(here_[i])]);
     const std::vector<double> all = part_.ranks().gather(mine);
-    Reader reader(all);
+    ValueReader reader(all);
     for (const std::size_t i : all_as_brought_) of_surface[i] = reader.next_array<Vector<Dim>>();
 }
 
@@ -289,7 +265,7 @@ void RankFaces<Dim>::evaluate_listed(Ccg<Dim>& ccg, const Region<Dim>& region, s
         append(mine, own_gradient_[i]);
     }
     const std::vector<double> all = part_.ranks().gather(mine);
-    Reader reader(all);
+    ValueReader reader(all);
     for (const std::size_t i : listed_as_brought_) {
         displacement[i] = reader.next_array<Vector<Dim>>();
         gradient[i] = reader.next_array<Vector<Dim>>();
@@ -317,7 +293,7 @@ contact::FaceCoupling<Dim> RankFaces<Dim>::coupling_of_all(contact::FaceCoupling
     };
     std::vector<Row> rows(listed_.size());
     const std::vector<double> all = part_.ranks().gather(mine);
-    Reader reader(all);
+    ValueReader reader(all);
     for (const std::size_t i : listed_as_brought_)
         for (auto left = reader.next_as<std::int32_t>(); left > 0; --left) {
             rows[i].columns.push_back(reader.next_as<std::int32_t>());

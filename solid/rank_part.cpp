@@ -122,15 +122,22 @@ void RankPart<Dim>::order_faces() {
     const std::vector<double> keys = ranks_.gather(std::vector<double>(face_keys_.begin(), face_keys_.end()));
     all_face_keys_.assign(keys.begin(), keys.end());
     std::ranges::sort(all_face_keys_);
-    for (const double key : keys) gathered_position_.push_back(position_of(static_cast<std::int64_t>(key)));
+    for (const double key : keys) gathered_position_.push_back(face_number(static_cast<std::int64_t>(key)));
 }
 
-/// Among the boundary faces of the whole mesh; their number where it does not have this one.
 template <int Dim>
-std::size_t RankPart<Dim>::position_of(std::int64_t key) const {
+std::size_t RankPart<Dim>::face_number(std::int64_t key) const {
     const auto found = std::ranges::lower_bound(all_face_keys_, key);
     return found != all_face_keys_.end() && *found == key ? static_cast<std::size_t>(found - all_face_keys_.begin())
                                                           : all_face_keys_.size();
+}
+
+template <int Dim>
+std::vector<BoundaryFace> RankPart<Dim>::faces_by_number(const mesh::Mesh<Dim>& mesh) const {
+    std::vector<BoundaryFace> faces(n_all_faces(), no_face);
+    for (const BoundaryFace face : boundary_faces(mesh))
+        if (const std::size_t number = face_number(key_of(mesh, face)); number < faces.size()) faces[number] = face;
+    return faces;
 }
 
 template <int Dim>
@@ -149,7 +156,7 @@ template <int Dim>
 std::vector<Vector<Dim>> RankPart<Dim>::faces_here(const mesh::Mesh<Dim>& mesh, std::span<const Vector<Dim>> of_all) const {
     std::vector<Vector<Dim>> values;
     for (const BoundaryFace face : boundary_faces(mesh)) {
-        const std::size_t position = position_of(key_of(mesh, face));
+        const std::size_t position = face_number(key_of(mesh, face));
         values.push_back(position < of_all.size() ? of_all[position] : Vector<Dim>(Vector<Dim>::Zero()));
     }
     return values;

@@ -50,6 +50,10 @@ public:
     [[nodiscard]] std::int64_t key_of(const mesh::Mesh<Dim>& mesh, BoundaryFace face) const;
     /// Of the face at a position of a cell that deforms.
     [[nodiscard]] std::int64_t key_of(std::int32_t cell, std::ptrdiff_t position) const;
+    /// The number of a boundary face of the whole mesh among all of them, from its key; `n_all_faces` of another one.
+    [[nodiscard]] std::size_t face_number(std::int64_t key) const;
+    /// Of each boundary face of the whole mesh the one here, `no_face` where it is on other ranks alone (n_all_faces).
+    [[nodiscard]] std::vector<BoundaryFace> faces_by_number(const mesh::Mesh<Dim>& mesh) const;
     /// The numbers of the cells here that deform among all that do, increasing (n_cells).
     [[nodiscard]] std::span<const double> cell_numbers() const { return cell_numbers_; }
     /// Values of all boundary faces of the whole mesh, in their order, from those of the boundary faces here. A call of all ranks.
@@ -165,7 +169,6 @@ private:
     void find_own_rigid(const RigidBodies<Dim>& rigid);
     void check_rigid(const Bodies<Dim>& bodies) const;
     void order_faces();
-    [[nodiscard]] std::size_t position_of(std::int64_t key) const;
 
     bool is_whole_;
     dynamics::OneRank one_;  // of a whole: it numbers the points

@@ -37,7 +37,6 @@ void check_for_ranks(const dynamics::Ranks& ranks, const mesh::Mesh<Dim>& mesh, 
                            " has no cells in the part of a rank. Give each rank the whole of it (solid::part_of).");
     const bool from_outside = std::ranges::any_of(options.boundary.traction, &TractionCondition<Dim>::from_outside);
     dynamics::refuse_ranks(ranks, {{"a load from outside", from_outside},
-                                   {"bonds", !options.bonds.empty()},
                                    {"a bulk in single precision", options.precision == Precision::single_precision},
                                    {"a bulk on a device", options.device != StepDevice::host}});
 }
@@ -57,6 +56,7 @@ std::unique_ptr<RankPart<Dim>> part_of_rank(const dynamics::Ranks& ranks, Bodies
     bodies.place_cell_points(*part);
     part->take_rest(bodies);
     bodies.take_part(*part);
+    bodies.find_bonds(*part);
     return part;
 }
 
@@ -102,7 +102,7 @@ Solid<Dim>::Solid(const mesh::Mesh<Dim>& mesh, SolidOptions<Dim> options, const 
     const MeanForce mean_force = options_.finite.mean_force;
     if (bodies_->any_finite() && (mean_force == MeanForce::closed_trapezoid || mean_force == MeanForce::automatic))
         closure_ = std::make_unique<TrapezoidClosure<Dim>>(*bodies_, *part_, ccg_);
-    bonds_ = std::make_unique<Bonds<Dim>>(*bodies_, ccg_, *frames_);
+    bonds_ = std::make_unique<Bonds<Dim>>(*bodies_, ccg_, *frames_, *part_);
     if (!options_.contact) return;
     const ContactLaw law = bodies_->law();
     refuse_choices_of_other_law(law, options_);
@@ -306,7 +306,7 @@ void Solid<Dim>::end_force_on(std::span<const std::int32_t> points, std::span<co
     const auto u = state_here(q);
     frames_->stand_at_end();
     if (contact_) contact_->evaluate_last_end(u);
-    if (!cells.empty()) evaluate_patch(cells, u, force);
+    if (!cells.empty() || bonds_->any()) evaluate_patch(cells, u, force);
     for (std::size_t i = 0; i < cells.size(); ++i)
         force[i] = loads_->force_on(cells[i], frames_->point_to_space(cells[i], force[i]));
     if (cells.size() == here.size() && !point_loads_->any()) return;
