@@ -82,6 +82,21 @@ void add_laws(const abut_options& given, std::int32_t index_base, contact::Frict
     };
 }
 
+void add_interference(const abut_options& given, std::int32_t index_base, contact::InterferenceOptions& interference) {
+    if (given.interference_time == 0.0) {
+        if (given.interferes != nullptr)
+            throw BadInput("abut_options: `interferes` is given, but no `interference_time`. Give it, or leave both out.");
+        return;
+    }
+    interference.times = {given.interference_time};
+    if (given.interferes == nullptr) return;
+    interference.of = [given, index_base](contact::Face face_1, contact::Face face_2) {
+        return call_host([&] {
+            return given.interferes(number_of(face_1) + index_base, number_of(face_2) + index_base, given.user) != 0 ? 0 : -1;
+        });
+    };
+}
+
 contact::NodalOptions nodal_options(const abut_options& given, std::int32_t index_base) {
     contact::NodalOptions options;
     const contact::NodalOptions plain;
@@ -92,6 +107,7 @@ contact::NodalOptions nodal_options(const abut_options& given, std::int32_t inde
         option.set(options, value);
     }
     add_laws(given, index_base, options.friction);
+    add_interference(given, index_base, options.interference);
     if (given.wanted != nullptr)
         options.wanted = [given, index_base](contact::Face face_1, contact::Face face_2) {
             return call_host([&] {
@@ -242,7 +258,8 @@ int abut_step(abut_contact* handle, double dt, abut_array x_0, abut_array x_1, i
                            step.report.friction.energy,
                            step.report.friction.dissipated,
                            step.report.friction.sticking,
-                           step.report.friction.sliding};
+                           step.report.friction.sliding,
+                           step.interference_work};
             tell_after_step<Dim>(*handle, contact);
         });
     });

@@ -138,6 +138,11 @@ typedef struct abut_options {
     /* In place of `friction` and the three after it: the coefficient of faces that slide with `speed` [m/s], have `slid` so far [m] and
        are under `pressure` [Pa]; finite, >= 0, and of these alone. NULL: those are taken. Asked in steps. */
     double (*own_coefficient)(double speed, double slid, double pressure, void* user);
+    /* Time over which faces that overlap at the start on purpose (press fits) come to push each other [s], from the first step on; 0:
+       none do. docs/method.md, Interference. */
+    double interference_time;
+    /* Which two faces may overlap so; NULL: all. Asked at searches; it must always tell the same. */
+    int (*interferes)(int32_t face_1, int32_t face_2, void* user);
     /* Asked at the begin of each step; not 0: the step is cancelled. NULL: never. */
     int (*cancel)(void* user);
     /* Told what a user of the host ought to know and that is no error; NULL: nobody. */
@@ -168,8 +173,9 @@ typedef struct abut_step_result {
     double dissipated;      /* D in this step */
     int64_t sticking_faces;
     int64_t sliding_faces;
+    double interference_work; /* by how much W grows with the interference in this step, from outside: H~ less the sum of it stays */
 } abut_step_result;
-#define ABUT_STEP_RESULT_INIT {sizeof(abut_step_result), 0.0, 0.0, 0.0, 0, 0, 0.0, 0.0, 0.0, 0.0, 0, 0}
+#define ABUT_STEP_RESULT_INIT {sizeof(abut_step_result), 0.0, 0.0, 0.0, 0, 0, 0.0, 0.0, 0.0, 0.0, 0, 0, 0.0}
 
 /* Vectors have three components everywhere, the last one 0 in 2D; moments of 2D are in the last one. */
 typedef struct abut_pair {

@@ -48,6 +48,12 @@ ABUT_API int abut_solid_roller(abut_solid* solid, const char* group, abut_error*
 /* A group is loaded from outside; `traction` acts until the first is set, NULL: 0. */
 ABUT_API int abut_solid_load(abut_solid* solid, const char* group, const double* traction, abut_error* error);
 
+/* Two sides, each a body or a group by its name, are glued where they lie on each other, whether their meshes match or not: until a
+   traction of `strength` [Pa] pulls them apart, INFINITY: for ever. `fracture_energy` [J/m^2]: what a place takes as it opens, 0: it breaks
+   at once. Glued faces do not touch the body that they are glued to. docs/method.md, Bonds. */
+ABUT_API int abut_solid_bond(abut_solid* solid, const char* side_1, const char* side_2, double strength,
+                             double fracture_energy, abut_error* error);
+
 typedef struct abut_solid_options {
     size_t struct_size;
     double dt;      /* 0: cfl times the stable step */
@@ -105,13 +111,14 @@ typedef struct abut_solid_state {
     double parasitic;        /* largest |e|/m: the alternating mode, as a velocity */
     int64_t active_pairs;    /* of contact, in the last step */
     int64_t missed_contacts; /* must stay 0 */
-    double dissipated;       /* by friction so far */
+    double dissipated;       /* by friction and bonds that open, so far */
     double friction_energy;  /* held by faces that stick, a part of H~ and H */
     int64_t sticking_faces;  /* in the last step */
     int64_t sliding_faces;
+    double broken_bonds; /* the part of the area of all bonds that is broken; 0 without bonds */
 } abut_solid_state;
 #define ABUT_SOLID_STATE_INIT \
-    {sizeof(abut_solid_state), 0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0, 0, 0.0, 0.0, 0, 0}
+    {sizeof(abut_solid_state), 0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0, 0, 0.0, 0.0, 0, 0, 0.0}
 /* Costs about two forces. */
 ABUT_API int abut_solid_get_state(abut_solid* solid, abut_solid_state* state, abut_error* error);
 

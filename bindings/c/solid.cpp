@@ -50,6 +50,9 @@ public:
     void load(const char* group, const double* traction) {
         options_.boundary.traction.push_back({.group = group, .value = vector_of(traction), .from_outside = true});
     }
+    void bond(const char* side_1, const char* side_2, double strength, double fracture_energy) {
+        bonds_.push_back({{side_1, side_2}, strength, fracture_energy});
+    }
     void begin(const abut_solid_options& given);
     void write_faces(const std::string& group, const abut_solid_face_arrays& faces);
     void set_traction(const std::string& group, const abut_array& traction) {
@@ -68,7 +71,14 @@ private:
         return given == nullptr ? Vector<Dim>(Vector<Dim>::Zero()) : Vector<Dim>(Eigen::Map<const Vector<Dim>>(given));
     }
 
+    struct NamedBond {
+        std::array<std::string, 2> sides;
+        double strength, fracture_energy;
+    };
+    [[nodiscard]] std::int32_t side_of_bond(const std::string& name) const;
+
     std::vector<mesh::Mesh<Dim>> meshes_;
+    std::vector<NamedBond> bonds_;
     solid::SolidOptions<Dim> options_;
     std::vector<Vector<Dim>> velocity_;
     mesh::Mesh<Dim> mesh_;
@@ -78,6 +88,17 @@ private:
     std::optional<dynamics::NeutralRestart<solid::Solid<Dim>>> restart_;
     double stable_dt_ = 0.0;
 };
+
+template <int Dim>
+std::int32_t SolidRun<Dim>::side_of_bond(const std::string& name) const {
+    if (const auto body = std::ranges::find(mesh_.body_names, name); body != mesh_.body_names.end())
+        return static_cast<std::int32_t>(body - mesh_.body_names.begin());
+    const auto group = std::ranges::find(mesh_.groups, name, &mesh::BoundaryGroup::name);
+    if (group == mesh_.groups.end())
+        throw BadInput("abut_solid_bond: there is no body and no group '" + name +
+                       "'. Give one that was added, with its body in front where several have it.");
+    return mesh_.n_bodies() + static_cast<std::int32_t>(group - mesh_.groups.begin());
+}
 
 template <int Dim>
 void SolidRun<Dim>::begin(const abut_solid_options& given) {
@@ -91,6 +112,10 @@ void SolidRun<Dim>::begin(const abut_solid_options& given) {
     mesh_ = mesh::combine<Dim>(std::span<const mesh::Mesh<Dim>>(meshes_));
     solid::SolidOptions<Dim> options = options_;
     options.friction.coefficient = given.friction;
+    for (const NamedBond& bond : bonds_)
+        options.bonds.push_back({.sides = {side_of_bond(bond.sides[0]), side_of_bond(bond.sides[1])},
+                                 .strength = bond.strength,
+                                 .fracture_energy = bond.fracture_energy});
     if (given.contact != 0) {
         options.contact = contact::ContactOptions{};
         mesh::check_apart(mesh_, "", options.contact->search.broad_phase);
@@ -155,7 +180,8 @@ void SolidRun<Dim>::write_state(abut_solid_state& state) {
              .dissipated = entry.dissipated,
              .friction_energy = entry.friction_energy,
              .sticking_faces = entry.sticking_faces,
-             .sliding_faces = entry.sliding_faces};
+             .sliding_faces = entry.sliding_faces,
+             .broken_bonds = solid_->broken_share()};
 }
 
 template <int Dim>
@@ -247,6 +273,15 @@ int abut_solid_load(abut_solid* solid, const char* group, const double* traction
     return with_run(solid, false, error, [&](auto& run, auto) {
         check_pointer(group, "group");
         run.load(group, traction);
+    });
+}
+
+int abut_solid_bond(abut_solid* solid, const char* side_1, const char* side_2, double strength, double fracture_energy,
+                    abut_error* error) {
+    return with_run(solid, false, error, [&](auto& run, auto) {
+        check_pointer(side_1, "side_1");
+        check_pointer(side_2, "side_2");
+        run.bond(side_1, side_2, strength, fracture_energy);
     });
 }
 

@@ -57,7 +57,9 @@ module abut
     type(c_funptr) :: wanted, law_of
     type(c_ptr) :: laws
     integer(c_int64_t) :: n_laws
-    type(c_funptr) :: own_coefficient, cancel, log
+    type(c_funptr) :: own_coefficient
+    real(c_double) :: interference_time
+    type(c_funptr) :: interferes, cancel, log
     type(c_ptr) :: user
   end type
 
@@ -67,6 +69,7 @@ module abut
     integer(c_int64_t) :: active_pairs, events
     real(c_double) :: compression, correction, friction_energy, dissipated
     integer(c_int64_t) :: sticking_faces, sliding_faces
+    real(c_double) :: interference_work
   end type
 
   type, bind(c), public :: abut_pair
@@ -116,13 +119,18 @@ module abut
   public :: abut_options_init, abut_limit_threads, abut_skin_stiffness, abut_create, abut_destroy, abut_step, abut_evaluate, &
     abut_pairs, abut_bodies, abut_body_pairs, abut_friction, abut_get_report, abut_stable_step, abut_save, abut_restore, &
     abut_replace_surface, abut_find_overlaps, abut_surface_of, abut_surface_faces, abut_surface_destroy
-  public :: abut_version, abut_wanted, abut_law_of, abut_own_coefficient, abut_cancel, abut_log, abut_columns
+  public :: abut_version, abut_wanted, abut_interferes, abut_law_of, abut_own_coefficient, abut_cancel, abut_log, abut_columns
   public :: abut_points, abut_nothing, abut_faces_of, abut_cells_of, abut_new_error, abut_new_result, abut_new_report, &
     abut_new_stable, abut_message
 
   ! What the callbacks of abut_options look like: options%wanted = c_funloc(mine), options%user = c_loc(my_data).
   abstract interface
     integer(c_int) function abut_wanted(face_1, face_2, user) bind(c)
+      import
+      integer(c_int32_t), value :: face_1, face_2
+      type(c_ptr), value :: user
+    end function
+    integer(c_int) function abut_interferes(face_1, face_2, user) bind(c)
       import
       integer(c_int32_t), value :: face_1, face_2
       type(c_ptr), value :: user
@@ -416,7 +424,7 @@ contains
   function abut_new_result() result(empty)
     type(abut_step_result) :: empty
     integer(c_int64_t), parameter :: zero = 0
-    empty = abut_step_result(c_sizeof(empty), 0d0, 0d0, 0d0, zero, zero, 0d0, 0d0, 0d0, 0d0, zero, zero)
+    empty = abut_step_result(c_sizeof(empty), 0d0, 0d0, 0d0, zero, zero, 0d0, 0d0, 0d0, 0d0, zero, zero, 0d0)
   end function
 
   function abut_new_report() result(report)

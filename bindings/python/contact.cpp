@@ -68,7 +68,7 @@ void take_option(abut_options& options, const std::string& name, const py::handl
         return;
     }
     throw py::type_error("there is no option '" + name + "'; there are " + names +
-                         ", wanted, law_of, laws, own_coefficient, cancel, log");
+                         ", wanted, law_of, laws, own_coefficient, interference_time, interferes, cancel, log");
 }
 
 /// A law of friction from a dict with the names of the options; what is not there is as the defaults have it.
@@ -109,13 +109,14 @@ public:
     NodalContact(const py::array& nodes, const py::object& faces, const py::object& body, const Packed<double>& depth,
                  const Packed<double>& stiffness, const py::object& offsets, const py::object& shear_stiffness,
                  py::object wanted, py::object cancel, py::object log, py::object law_of, const std::vector<py::dict>& laws,
-                 py::object own_coefficient, const py::kwargs& given)
+                 py::object own_coefficient, double interference_time, py::object interferes, const py::kwargs& given)
         : dim_(dimension_of(nodes)),
           callbacks_(new Callbacks{std::move(wanted),
                                    std::move(cancel),
                                    std::move(log),
                                    std::move(law_of),
                                    std::move(own_coefficient),
+                                   std::move(interferes),
                                    std::nullopt,
                                    {}}) {
         const Faces of_host(faces, body, depth, stiffness, offsets, shear_stiffness, dim_);
@@ -126,6 +127,7 @@ public:
         for (const py::dict& law : laws) more_laws.push_back(law_from(law));
         options.laws = more_laws.data();
         options.n_laws = std::ssize(more_laws);
+        options.interference_time = interference_time;
         callbacks_->put_into(options);
         const abut_array rest = view_of(nodes, dim_, "nodes");
         abut_contact* handle = nullptr;
@@ -148,7 +150,8 @@ public:
                         "active_pairs"_a = result.active_pairs, "events"_a = result.events,
                         "compression"_a = result.compression, "correction"_a = result.correction,
                         "friction_energy"_a = result.friction_energy, "dissipated"_a = result.dissipated,
-                        "sticking_faces"_a = result.sticking_faces, "sliding_faces"_a = result.sliding_faces);
+                        "sticking_faces"_a = result.sticking_faces, "sliding_faces"_a = result.sliding_faces,
+                        "interference_work"_a = result.interference_work);
     }
 
     double evaluate(const py::array& x, const py::object& out) {
@@ -377,6 +380,8 @@ PYBIND11_MODULE(_contact, module) {
         "lambda + 2 mu, needed with friction; wanted(face_1, face_2): whether they may touch; "
         "law_of(face_1, face_2): their law of friction, 0 that of the options, i the i-th of laws, below 0 none; "
         "laws: dicts with the names of these options; own_coefficient(speed, slid, pressure): in place of friction; "
+        "interference_time: [s] over which faces that overlap at the start on purpose come to push each other, 0 none do; "
+        "interferes(face_1, face_2): whether they may overlap so, without it all; "
         "cancel(): asked at the begin of each step, true cancels it; log(severity, text): told what ought to be known and "
         "is no error; without it warnings.warn tells. They must call nothing of the contact, and nothing that holds it is "
         "ever freed while they refer to "
@@ -385,17 +390,18 @@ PYBIND11_MODULE(_contact, module) {
     py::class_<NodalContact>(module, "NodalContact", contact_text.c_str())
         .def(py::init<const py::array&, const py::object&, const py::object&, const Packed<double>&, const Packed<double>&,
                       const py::object&, const py::object&, py::object, py::object, py::object, py::object,
-                      const std::vector<py::dict>&, py::object, const py::kwargs&>(),
+                      const std::vector<py::dict>&, py::object, double, py::object, const py::kwargs&>(),
              "nodes"_a, "faces"_a, "body"_a, "depth"_a, "stiffness"_a, "offsets"_a = py::none(), py::kw_only(),
              "shear_stiffness"_a = py::none(), "wanted"_a = py::none(), "cancel"_a = py::none(), "log"_a = py::none(),
-             "law_of"_a = py::none(), "laws"_a = std::vector<py::dict>(), "own_coefficient"_a = py::none())
+             "law_of"_a = py::none(), "laws"_a = std::vector<py::dict>(), "own_coefficient"_a = py::none(),
+             "interference_time"_a = 0.0, "interferes"_a = py::none())
         .def("step", &NodalContact::step, "dt"_a, "x_0"_a, "x_1"_a, "out"_a = py::none(), "mode"_a = "mean",
              "From x_0 to x_1 within dt [s], > 0 (without friction nothing depends on it); adds the forces to out, which "
              "may end before the nodes of obstacles do. mode: 'mean' of the "
              "step, exact for energy, or 'end', for central differences. Returns energy_0, energy (W [J] at both ends), "
              "work, active_pairs, "
              "events, compression and correction; of friction friction_energy (E [J] at the end), dissipated (D [J] in the "
-             "step), sticking_faces and sliding_faces.")
+             "step), sticking_faces and sliding_faces; interference_work [J] from outside.")
         .def("evaluate", &NodalContact::evaluate, "x"_a, "out"_a = py::none(),
              "W at x, without a step; adds its forces to out.")
         .def_property_readonly(

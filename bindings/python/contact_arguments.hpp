@@ -144,7 +144,7 @@ struct Faces {
 
 /// Functions of Python behind callbacks of C; None for those that there are not.
 struct Callbacks {
-    py::object wanted, cancel, log, law_of, own_coefficient;
+    py::object wanted, cancel, log, law_of, own_coefficient, interferes;
     std::optional<py::error_already_set> of_log;  // raised once the call is over, which has happened all the same
     std::vector<std::string> untold;              // warnings for which there is no log
 
@@ -154,6 +154,7 @@ struct Callbacks {
         if (!cancel.is_none()) options.cancel = ask_cancel;
         if (!law_of.is_none()) options.law_of = ask_law;
         if (!own_coefficient.is_none()) options.own_coefficient = ask_coefficient;
+        if (!interferes.is_none()) options.interferes = ask_interferes;
         options.log = log.is_none() ? keep : tell;
     }
     /// Raises what the log raised; without a log, tells by warnings.warn, which raises where the host wants that.
@@ -188,6 +189,9 @@ private:
     }
     static int ask_wanted(std::int32_t face_1, std::int32_t face_2, void* user) {
         return ask(is_true, static_cast<Callbacks*>(user)->wanted, face_1, face_2);
+    }
+    static int ask_interferes(std::int32_t face_1, std::int32_t face_2, void* user) {
+        return ask(is_true, static_cast<Callbacks*>(user)->interferes, face_1, face_2);
     }
     static int ask_cancel(void* user) { return ask(is_true, static_cast<Callbacks*>(user)->cancel); }
     static std::int32_t ask_law(std::int32_t face_1, std::int32_t face_2, void* user) {

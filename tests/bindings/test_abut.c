@@ -60,6 +60,36 @@ static abut_contact* made(const abut_options* options) {
     return contact;
 }
 
+static int upper_on_lower(int32_t face_1, int32_t face_2, void* user) {
+    ++*(int*)user;
+    return face_1 + face_2 == 2 + 4;
+}
+
+/* Overlapping by d at the start on purpose: W grows from 0 to k/2 d^2 0.8, which is work from outside. */
+static void an_overlap_on_purpose_comes_to_act(void) {
+    abut_options options;
+    abut_options_init(&options);
+    int asked = 0;
+    options.interference_time = 0.5, options.interferes = upper_on_lower, options.user = &asked;
+    abut_contact* contact = made(&options);
+    abut_error error = ABUT_ERROR_INIT;
+    abut_step_result result = ABUT_STEP_RESULT_INIT;
+    double x[2 * n_nodes], work = 0.0;
+    const double d = 0.05, k = 2.0;
+    lowered(0.1 + d, x);
+    for (int i = 0; i < 6; ++i) {
+        CHECK(abut_step(contact, 0.1, packed(x), packed(x), ABUT_MEAN, nothing, &result, &error) == ABUT_OK);
+        work += result.interference_work;
+        CHECK(fabs(work - result.energy) < 1e-15);
+    }
+    CHECK(asked > 0 && result.interference_work == 0.0 && fabs(result.energy - 0.5 * k * d * d * 0.8) < 1e-15);
+    abut_destroy(contact);
+    const abut_faces faces = faces_from(0, corners, body);
+    options.interference_time = 0.0;
+    CHECK(abut_create(2, packed(x), &faces, &options, &contact, &error) == ABUT_BAD_INPUT);
+    CHECK(strstr(error.message, "no `interference_time`") != NULL);
+}
+
 /* Pressed in by d over a width of 0.8: W = k/2 d^2 0.8, and the force is k d 0.8. */
 static void presses_by_the_spring_in_series(void) {
     abut_contact* contact = made(NULL);
@@ -629,6 +659,7 @@ static void small_things(void) {
 }
 
 int main(void) {
+    an_overlap_on_purpose_comes_to_act();
     presses_by_the_spring_in_series();
     mean_force_is_exact_for_energy();
     any_strides_and_bases();

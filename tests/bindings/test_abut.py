@@ -54,6 +54,22 @@ class Contact(unittest.TestCase):
         self.assertGreater(step["energy"], 1e-4)
         self.assertAlmostEqual((force * (x - REST)).sum(), step["energy_0"] - step["energy"], delta=1e-16)
 
+    def test_faces_that_overlap_on_purpose_come_to_push_each_other(self):
+        d, k, asked = 0.05, 2.0, []
+        contact = made(interference_time=1.0, interferes=lambda a, b: asked.append((a, b)) or True)
+        x, work = lowered(0.1 + d), 0.0
+        for i in range(10):
+            step = contact.step(0.1, x, x)
+            work += step["interference_work"]
+            y = (i + 1) / 10
+            self.assertAlmostEqual(step["energy"], 0.5 * k * (d * y * y * (3 - 2 * y))**2 * 0.8, delta=1e-15)
+            self.assertAlmostEqual(work, step["energy"], delta=1e-15)
+        self.assertIn((2, 4), asked)
+        with self.assertRaisesRegex(abut.BadInput, "no `interference_time`"):
+            made(interferes=lambda a, b: True)
+        with self.assertRaisesRegex(abut.BadInput, "must be finite and > 0"):
+            made(interference_time=-1.0)
+
     def test_any_strides_are_read_and_written_in_place(self):
         packed, x = np.zeros((8, 2)), lowered(0.14)
         plain = made()

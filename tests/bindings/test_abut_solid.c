@@ -183,6 +183,50 @@ static void write_square(FILE* file) {
     fputs("$EndElements\n", file);
 }
 
+/* Two pieces on rollers whose meshes do not match, glued: the wave of a pressed end goes on behind the bond as in one bar; glued weakly they part. */
+static void glued_pieces_are_one_until_they_part(void) {
+    for (int parts = 0; parts < 2; ++parts) {
+        abut_error error = ABUT_ERROR_INIT;
+        abut_solid* solid = NULL;
+        const double lower[2] = {0.0, 0.0}, middle[2] = {1.0, 0.05}, behind[2] = {1.0, 0.0}, end[2] = {2.0, 0.05};
+        const double left[2] = {-0.1, 0.0}, right[2] = {0.1, 0.0};
+        const int32_t counts[2] = {40, 2}, others[2] = {60, 3};
+        CHECK(abut_solid_create(2, &solid, &error) == ABUT_OK);
+        CHECK(abut_solid_add_box(solid, "first", lower, middle, counts, material, parts ? left : NULL, &error) == ABUT_OK);
+        CHECK(abut_solid_add_box(solid, "second", behind, end, others, material, parts ? right : NULL, &error) == ABUT_OK);
+        const char* const sides[] = {"first.ymin", "first.ymax", "second.ymin", "second.ymax"};
+        for (int i = 0; i < 4; ++i) CHECK(abut_solid_roller(solid, sides[i], &error) == ABUT_OK);
+        CHECK(abut_solid_load(solid, "second.xmax", NULL, &error) == ABUT_OK);
+        CHECK(abut_solid_load(solid, "first.xmin", NULL, &error) == ABUT_OK);
+        CHECK(abut_solid_bond(solid, "first", "second.xmin", parts ? 0.02 : INFINITY, 0.0, &error) == ABUT_OK);
+        CHECK(abut_solid_begin(solid, NULL, &error) == ABUT_OK);
+        if (error.status != ABUT_OK) printf("%s\n", error.message);
+        abut_solid_state start = ABUT_SOLID_STATE_INIT, state = ABUT_SOLID_STATE_INIT;
+        CHECK(abut_solid_get_state(solid, &start, &error) == ABUT_OK);
+        double traction[2][2] = {{pressure, 0.0}, {pressure, 0.0}}, speed[3][2] = {{0.0}};
+        if (!parts) CHECK(abut_solid_set_traction(solid, "first.xmin", packed(traction, 2), &error) == ABUT_OK);
+        for (state = start; state.time < (parts ? 1.0 : 2.6);) {
+            CHECK(abut_solid_step(solid, &error) == ABUT_OK);
+            CHECK(abut_solid_get_state(solid, &state, &error) == ABUT_OK);
+        }
+        const double scale = parts ? start.kinetic : state.work_steps;
+        CHECK(fabs(state.pseudo_energy + state.work_held + state.dissipated - start.pseudo_energy - state.work_steps -
+                   state.work_changes) < 1e-12 * scale);
+        CHECK(state.broken_bonds == (parts ? 1.0 : 0.0) && (state.dissipated > 0.0) == parts && state.missed_contacts == 0);
+        abut_solid_face_arrays faces = ABUT_SOLID_FACE_ARRAYS_INIT;
+        faces.n_faces = 3, faces.velocity = packed(speed, 3);
+        CHECK(abut_solid_faces(solid, "second.xmax", &faces, &error) == ABUT_OK);
+        /* a wave that comes to a free end moves it with 2 p/(rho c), c = 1 */
+        if (!parts) CHECK(fabs(speed[1][0] - 2.0 * pressure) < 0.05 * pressure);
+        abut_solid_destroy(solid);
+    }
+    abut_error error = ABUT_ERROR_INIT;
+    abut_solid* solid = two_bars();
+    CHECK(abut_solid_bond(solid, "bar", "nothing", INFINITY, 0.0, &error) == ABUT_OK);
+    CHECK(abut_solid_begin(solid, NULL, &error) == ABUT_BAD_INPUT && strstr(error.message, "no body and no group 'nothing'"));
+    abut_solid_destroy(solid);
+}
+
 static void a_file_brings_bodies_and_groups(const char* folder) {
     char path[4096];
     snprintf(path, sizeof(path), "%s/abut_solid_square.msh", folder);
@@ -218,6 +262,7 @@ int main(int argc, char** argv) {
     a_pressed_bar_gives_way_and_gets_the_work();
     numbers_outside_the_limits_of_runs_are_refused();
     friction_takes_what_the_balance_says();
+    glued_pieces_are_one_until_they_part();
     what_cannot_be_is_refused();
     a_file_brings_bodies_and_groups(argc > 1 ? argv[1] : ".");
     return failures == 0 ? EXIT_SUCCESS : EXIT_FAILURE;

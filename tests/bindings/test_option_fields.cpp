@@ -61,6 +61,8 @@ TEST_CASE("abut_options_init sets the defaults of the table", "[bindings][option
     CHECK(options.laws == nullptr);
     CHECK(options.n_laws == 0);
     CHECK(options.own_coefficient == nullptr);
+    CHECK(options.interference_time == 0.0);
+    CHECK(options.interferes == nullptr);
     CHECK(options.cancel == nullptr);
     CHECK(options.log == nullptr);
     CHECK(options.user == nullptr);
