@@ -89,6 +89,12 @@ std::optional<std::vector<solid::HardeningPoint>> read_hardening(Reader& reader,
     return table;
 }
 
+std::optional<std::array<double, 3>> read_axis(Reader& reader, const Node& node, const std::string& key) {
+    const auto axis = reader.vector(node, key, {});
+    if (!axis) return std::nullopt;
+    return std::array<double, 3>{(*axis)[0], (*axis)[1], (*axis)[2]};
+}
+
 /// Of a material by itself, and of a body that has one of its own.
 template <class Section>
 Keys<Section> material_values() {
@@ -100,11 +106,12 @@ Keys<Section> material_values() {
         keys.push_back(number.required ? required(std::move(key)) : std::move(key));
     }
     const auto behind = std::ranges::find(keys, std::string("eta"), &Key<Section>::name) + 1;
-    keys.insert(behind,
-                From::word(
-                    "law", [](Section& section) -> solid::MaterialLaw& { return section.material.law; }, material_laws(),
-                    "what it does beyond small strains: st_venant_kirchhoff up to 0.1, in finite bodies neo_hookean and "
-                    "mooney_rivlin (rubber) beyond, j2: metal that yields"));
+    keys.insert(
+        behind,
+        From::word(
+            "law", [](Section& section) -> solid::MaterialLaw& { return section.material.law; }, material_laws(),
+            "what it does beyond small strains: st_venant_kirchhoff up to 0.1, in finite bodies neo_hookean and "
+            "mooney_rivlin (rubber) beyond, j2: metal that yields, orthotropic: other moduli along axes of its own"));
     const auto behind_hardening = std::ranges::find(keys, std::string("power_exponent"), &Key<Section>::name) + 1;
     keys.insert(behind_hardening,
                 key_of<Section>(
@@ -113,6 +120,20 @@ Keys<Section> material_values() {
                     "on, straight between rows and constant behind the last [Pa]",
                     [](Section& section) -> std::vector<solid::HardeningPoint>& { return section.material.hardening_table; },
                     read_hardening));
+    const auto behind_angle = std::ranges::find(keys, std::string("axis_angle"), &Key<Section>::name) + 1;
+    const auto axis = [](const char* name, std::array<double, 3> solid::Material::*member, const char* by_default,
+                         const char* help) {
+        Key<Section> key = key_of<Section>(
+            name, "list of 3 numbers", help,
+            [member](Section& section) -> std::array<double, 3>& { return section.material.*member; }, read_axis);
+        key.by_default = by_default;
+        return key;
+    };
+    keys.insert(behind_angle,
+                {axis("axis_1", &solid::Material::axis_1, "[1, 0, 0]",
+                      "of orthotropic in 3D: direction of axis 1 at rest, of any length"),
+                 axis("axis_2", &solid::Material::axis_2, "[0, 1, 0]",
+                      "of orthotropic in 3D: direction of axis 2, at a right angle to it; axis 3 completes both")});
     return keys;
 }
 

@@ -78,9 +78,8 @@ template <int Dim>
 double crossing_time(const mesh::Mesh<Dim>& mesh, std::int32_t cell, const solid::Material& material) {
     double surface = 0.0;
     for (const std::int32_t face : mesh.cell_faces[cell]) surface += mesh.face_measure[static_cast<std::size_t>(face)];
-    const double nu = material.poisson;
-    const double modulus = material.young * (1.0 - nu) / ((1.0 + nu) * (1.0 - 2.0 * nu));
-    return 2.0 * Dim * mesh.cell_measure[static_cast<std::size_t>(cell)] / surface * std::sqrt(material.density / modulus);
+    return 2.0 * Dim * mesh.cell_measure[static_cast<std::size_t>(cell)] / surface *
+           std::sqrt(material.density / material.wave_modulus());
 }
 
 /// Of all cells that deform, the one with the shortest time, and that over the median; empty where all are rigid.

@@ -44,8 +44,8 @@ std::vector<RestBody<Dim>> bodies_at_rest(const Scene<Dim>& scene) {
     for (std::size_t i = 0; i < bodies.size(); ++i) {
         const solid::Material& material = scene.solid.materials.at(i);
         bodies[i].size = std::pow(measure[i], 1.0 / Dim);
-        bodies[i].compliance = 1.0 / (material.young * std::pow(bodies[i].size, Dim - 2));
-        bodies[i].wave_speed = std::sqrt(material.young / material.density);
+        bodies[i].compliance = 1.0 / (material.mean_young() * std::pow(bodies[i].size, Dim - 2));
+        bodies[i].wave_speed = std::sqrt(material.mean_young() / material.density);
     }
     return bodies;
 }

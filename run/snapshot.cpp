@@ -107,7 +107,8 @@ SnapshotMaker<Dim>::SnapshotMaker(const Scene<Dim>& scene, const RunResult<Dim>&
         polygons_.least_end = std::numeric_limits<double>::infinity();
         for (std::size_t body = 0; body < is_rigid_.size(); ++body)
             if (is_rigid_[body] == 0)
-                polygons_.least_end = std::min(polygons_.least_end, strain_of_rounding * scene.solid.materials[body].young);
+                polygons_.least_end =
+                    std::min(polygons_.least_end, strain_of_rounding * scene.solid.materials[body].mean_young());
     }
     PolygonMaker<Dim> maker(scene.mesh, edges_of_faces<Dim>(scene.mesh, scene.solid.boundary), polygons_);
     polygons_.marks = marks_of<Dim>(scene, [&](std::int32_t vertex) { return maker.number(vertex); });

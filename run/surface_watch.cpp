@@ -329,7 +329,7 @@ void SurfaceWatch<Dim>::look_at_pressure(const dynamics::RunView<Dim>& run, cons
         sum->slip += pair.area * (relative - relative.dot(pair.normal) * pair.normal).norm();
     }
     for (const Sum& sum : sums) {
-        const auto young = [&](std::int32_t i) { return scene_.solid.materials[static_cast<std::size_t>(i)].young; };
+        const auto young = [&](std::int32_t i) { return scene_.solid.materials[static_cast<std::size_t>(i)].mean_young(); };
         const double ratio = sum.force / sum.area / std::min(young(sum.bodies[0]), young(sum.bodies[1]));
         if (ratio > looks_.pressed.ratio && sum.slip / sum.area > sliding_share * speed)
             looks_.pressed = {quoted_name(scene_, sum.bodies[0]), quoted_name(scene_, sum.bodies[1]), 0.0, ratio, run.time};

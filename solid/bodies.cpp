@@ -184,7 +184,8 @@ void Bodies<Dim>::set_laws() {
     for (std::size_t i = 0; i < stored.size(); ++i) {
         const Material& material = part_options_.materials[i];
         if (!stored[i] && !inelastic[i]) {
-            stored[i] = stored_energy<Dim>(material);
+            const bool is_linear = !material.is_isotropic() && !is_finite(deformable_bodies_[i]);  // the operators know it
+            if (!is_linear) stored[i] = stored_energy<Dim>(material);
             if (is_finite(deformable_bodies_[i])) inelastic[i] = inelastic_law<Dim>(material);
         }
         if (!stored[i] && !inelastic[i]) continue;

@@ -54,6 +54,7 @@ void Bodies<Dim>::check_material(std::int32_t body) const {
         throw BadInput(who +
                        "is of Kinematics::finite, whose plastic flow knows no kinematic_hardening. Take hardening, or "
                        "kinematics \"floating\".");
+    if (!material.is_isotropic()) check_directions(material, body, who);
     if (!material.is_damped()) return;
     if (!has(kinematics(body), Capability::damping))
         throw BadInput(who +
@@ -63,6 +64,25 @@ void Bodies<Dim>::check_material(std::int32_t body) const {
         throw BadInput(who +
                        "has a damped or viscous material, for which there is no MeanForce::discrete_gradient. Take "
                        "MeanForce::closed_trapezoid (--mean-force closed_trapezoid).");
+}
+
+template <int Dim>
+void Bodies<Dim>::check_directions(const Material& material, std::int32_t body, const std::string& who) const {
+    const Material plain;
+    if (Dim == 2 && (material.axis_1 != plain.axis_1 || material.axis_2 != plain.axis_2))
+        throw BadInput(
+            who + "is in the plane, where axis_angle says how the axes of its material lie. Leave axis_1 and axis_2 out.");
+    if (Dim == 3 && material.axis_angle != 0.0)
+        throw BadInput(
+            who + "is in space, where axis_1 and axis_2 say how the axes of its material lie. Leave axis_angle out.",
+            {.value = material.axis_angle});
+    const bool has_stress_of_rate =
+        material.stiffness_damping > 0.0 || material.linear_viscosity > 0.0 || material.quadratic_viscosity > 0.0;
+    if (has_stress_of_rate && is_finite(body))
+        throw BadInput(
+            who +
+            "is of Kinematics::finite and of an orthotropic material, of which stiffness_damping and viscosity are "
+            "not made. Take mass_damping, or kinematics \"floating\".");
 }
 
 /// Friction and contact of pairs that are named by number.

@@ -11,6 +11,7 @@
 #include "abut/base/error.hpp"
 #include "abut/base/messages.hpp"
 #include "abut/base/sort_unique.hpp"
+#include "abut/solid/material/orthotropic.hpp"
 
 namespace abut::solid {
 namespace {
@@ -86,8 +87,12 @@ Matrix<Dim> Bonds<Dim>::stiffness_of(BoundaryFace b) const {
     const Material& material = bodies_.deformable_options().materials[static_cast<std::size_t>(mesh_.cell_body[cell])];
     const auto area_of = [&](std::int32_t f) -> Vector<Dim> { return mesh_.face_measure[f] * mesh_.face_normal[f]; };
     const auto with = [&](std::int32_t other) {
-        return face_stiffness<Dim>(material.lambda(), material.mu(), mesh_.cell_measure[cell], area_of(face),
-                                   area_of(other));
+        const double measure = mesh_.cell_measure[cell];
+        Matrix<Dim> stiffness =
+            face_stiffness<Dim>(material.lambda(), material.mu(), measure, area_of(face), area_of(other));
+        if (!material.is_isotropic())
+            stiffness += DirectedStiffness<Dim>(material).between(area_of(face), area_of(other)) / measure;
+        return stiffness;
     };
     Matrix<Dim> stiffness = with(face);
     ccg_.boundary().for_each_answer(b, [&](BoundaryFace answering, const Matrix<Dim>& answer) {

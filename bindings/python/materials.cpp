@@ -3,6 +3,7 @@
 #include <pybind11/stl.h>
 
 #include <algorithm>
+#include <array>
 #include <optional>
 #include <string>
 #include <utility>
@@ -70,6 +71,10 @@ solid::Material material_of(const std::optional<std::string>& name, const py::kw
             material.law = material_law(py::cast<std::string>(value));
         else if (word == "hardening_table")
             material.hardening_table = hardening_table(value);
+        else if (word == "axis_1")
+            material.axis_1 = py::cast<std::array<double, 3>>(value);
+        else if (word == "axis_2")
+            material.axis_2 = py::cast<std::array<double, 3>>(value);
         else if (number != solid::material_numbers.end())
             material.*(number->member) = material_value(*number, value);
         else
@@ -97,7 +102,8 @@ py::dict all_known() {
 void add_materials(py::module_& module) {
     py::class_<solid::Material> of_material(
         module, "Material",
-        "Isotropic; plane strain in 2D. Values are given by name, and may be texts with units, young=\"210 GPa\"; with a "
+        "Elasticity, and plasticity where the law has it; plane strain in 2D. Values are given by name, and may be texts "
+        "with units, young=\"210 GPa\"; with a "
         "name in "
         "front, Material(\"steel S235\", law=\"j2\"), those of known_materials() stand where none is given.");
     of_material.def(py::init(&material_of), "material"_a = py::none());
@@ -115,7 +121,12 @@ void add_materials(py::module_& module) {
         "law", [](const solid::Material& material) { return word_of(solid::material_law_words, material.law); },
         [](solid::Material& material, const std::string& law) { material.law = material_law(law); },
         "beyond small strains: 'st_venant_kirchhoff', of finite bodies 'neo_hookean' or 'mooney_rivlin', or 'j2', which "
-        "yields");
+        "yields, or 'orthotropic', which has other moduli along axes of its own");
+    of_material.def_readwrite("axis_1", &solid::Material::axis_1,
+                              "of orthotropic in 3D: direction of axis 1 at rest (3), of any length");
+    of_material.def_readwrite(
+        "axis_2", &solid::Material::axis_2,
+        "of orthotropic in 3D: direction of axis 2 (3), at a right angle to it; axis 3 completes both");
     of_material.def_property(
         "hardening_table",
         [](const solid::Material& material) {

@@ -113,9 +113,14 @@ Markup bodies_part(const Figures& figures, const Scene<Dim>& scene, const RunRes
 /// Figures of a material, and its law where the body has it.
 std::vector<std::string> said_of(const solid::Material& material, bool is_finite) {
     const bool yields = material.law == solid::MaterialLaw::j2;
-    std::string law = is_finite || yields ? word_of(solid::material_law_words, material.law) : "";
+    std::string law =
+        is_finite || yields || !material.is_isotropic() ? word_of(solid::material_law_words, material.law) : "";
     if (is_finite && material.law == solid::MaterialLaw::mooney_rivlin)
         law += fmt::format(", share {:g}", material.second_share);
+    if (!material.is_isotropic())
+        law += fmt::format(", E {:g}, {:g}, {:g}, nu {:g}, {:g}, {:g}, G {:g}, {:g}, {:g}", material.young, material.young_2,
+                           material.young_3, material.poisson, material.poisson_13, material.poisson_23, material.shear_12,
+                           material.shear_13, material.shear_23);
     if (yields)
         law += fmt::format(", yields at {:g} Pa{}", material.yield_stress,
                            material.knows_rates() ? ", faster flow at more" : "");

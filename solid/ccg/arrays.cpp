@@ -40,7 +40,8 @@ CcgArrays<Dim>::CcgArrays(const mesh::Mesh<Dim>& mesh, std::span<const Material>
                           std::span<const Kinematics> kinematics, CellForm form) {
     set_faces(mesh, materials);
     set_cells(mesh, materials);
-    if (form == CellForm::automatic) simplices = Simplices<Dim>(mesh, conditions, rule, kinematics);
+    if (form == CellForm::automatic) simplices = Simplices<Dim>(mesh, materials, conditions, rule, kinematics);
+    directed = DirectedCells<Dim>(mesh, materials);
     set_boundary(mesh, materials, conditions, rule, corner_rule, kinematics);
 }
 

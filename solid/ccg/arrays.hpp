@@ -8,6 +8,7 @@
 #include "abut/solid/ccg/boundary_reconstruction.hpp"
 #include "abut/solid/ccg/cell_form.hpp"
 #include "abut/solid/ccg/coefficients.hpp"
+#include "abut/solid/ccg/directed_cells.hpp"
 #include "abut/solid/ccg/simplices.hpp"
 
 namespace abut::solid {
@@ -66,6 +67,7 @@ struct CcgArrays : CcgCoefficients<Dim, double> {
     Occurrences<std::int32_t> of_cell;     // interior stencils that use a cell
     std::vector<std::int32_t> body_begin;  // first cell of each body, one more at the end
     Simplices<Dim> simplices;
+    DirectedCells<Dim> directed;
     // Boundary faces.
     std::vector<std::int32_t> boundary_faces;
     std::vector<BoundaryFace> boundary_index;  // of a face; none inside

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "abut/base/decompositions.hpp"
+#include "abut/solid/ccg/directed_cells.hpp"
 
 namespace abut::solid {
 namespace {
@@ -55,6 +56,7 @@ public:
         : mesh_(mesh),
           interior_(interior),
           materials_(materials),
+          directed_(mesh, materials),
           conditions_(conditions),
           rule_(rule),
           corner_rule_(corner_rule),
@@ -101,6 +103,11 @@ private:
         return moved.dot(among * moved) / (along_normal * along_normal * measure);
     }
 
+    double wave_modulus(std::int32_t cell, const Vector<Dim>& along) const {
+        const Material& material = materials_[mesh_.cell_body[cell]];
+        return directed_.any() ? wave_modulus_along(material, directed_[cell], along) : material.wave_modulus();
+    }
+
     FreeFaceRule rule_of(std::int32_t cell) const {
         const bool finite = !kinematics_.empty() && kinematics_[mesh_.cell_body[cell]] == Kinematics::finite;
         return finite ? FreeFaceRule::extrapolate : rule_;
@@ -129,8 +136,8 @@ private:
         if (boundary.empty()) return;
         for (const BoundaryFace b : boundary) {
             Row<Dim>::add(rows_[b].displacement, b, conditions_.prescribed[b]);
-            rows_[b].normal_stiffness = materials_[mesh_.cell_body[cell]].wave_modulus() *
-                                        mesh_.face_measure[mesh_face(mesh_, b)] / mesh_.cell_measure[cell];
+            rows_[b].normal_stiffness =
+                wave_modulus(cell, normal_of(b)) * mesh_.face_measure[mesh_face(mesh_, b)] / mesh_.cell_measure[cell];
             if (!conditions_.prescribed[b].isZero(0.0)) hold(cell, b);
         }
         const FreeFaceRule rule = rule_of(cell);
@@ -169,7 +176,10 @@ private:
             return (mesh_.face_cells[face][0] == cell ? 1.0 : -1.0) * mesh_.face_measure[face] * mesh_.face_normal[face];
         };
         const Material& material = materials_[mesh_.cell_body[cell]];
-        return face_stiffness<Dim>(material.lambda(), material.mu(), mesh_.cell_measure[cell], outward(f), outward(g));
+        const double measure = mesh_.cell_measure[cell];
+        Matrix<Dim> between = face_stiffness<Dim>(material.lambda(), material.mu(), measure, outward(f), outward(g));
+        if (directed_.contains(cell)) between += directed_[cell].between(outward(f), outward(g)) / measure;
+        return between;
     }
 
     Matrix<Dim> stiffness(std::int32_t cell, BoundaryFace f, BoundaryFace g) const {
@@ -214,7 +224,7 @@ private:
         const Eigen::MatrixXd answers = -pseudo_inverse(of_corners.among, null_space_cut) * of_corners.with_b;
         const Matrix<Dim> relaxed = stiffness(cell, b, b) + of_corners.with_b.transpose() * answers;
         const double left = normal_stiffness(b, relaxed), measure = mesh_.face_measure[mesh_face(mesh_, b)];
-        const double young = materials_[mesh_.cell_body[cell]].young;
+        const double young = materials_[mesh_.cell_body[cell]].mean_young();
         if (left < least_stiffness * young * measure / mesh_.cell_measure[cell]) return;
         for (std::size_t i = 0; i < corners.size(); ++i)
             Row<Dim>::add(rows_[b].answers, corners[i], answers.block<Dim, Dim>(first_row(i), 0));
@@ -294,6 +304,7 @@ private:
     const mesh::Mesh<Dim>& mesh_;
     std::span<const FaceStencil<Dim>> interior_;
     std::span<const Material> materials_;
+    DirectedCells<Dim> directed_;
     const FaceConditions<Dim>& conditions_;
     FreeFaceRule rule_;
     CornerRule corner_rule_;

@@ -44,14 +44,14 @@ void refuse_finite(const mesh::Mesh<Dim>& mesh, std::span<const Kinematics> kine
 }
 
 template <int Dim>
-void refuse_memory(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials) {
+void refuse_materials(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials) {
     for (std::size_t body = 0; body < materials.size(); ++body)
-        if (materials[body].remembers())
-            throw BadInput(
-                mesh.name + ": body '" + mesh.body_names[body] +
-                "' is of a material that flows or is damped, whose steps are made in double precision on the host "
-                "alone. Take Precision::double_precision (--precision double) and StepDevice::host (--device "
-                "host), or another material.");
+        if (materials[body].remembers() || !materials[body].is_isotropic())
+            throw BadInput(mesh.name + ": body '" + mesh.body_names[body] +
+                           "' is of a material that flows, is damped or orthotropic, whose steps are made in double "
+                           "precision on the host "
+                           "alone. Take Precision::double_precision (--precision double) and StepDevice::host (--device "
+                           "host), or another material.");
 }
 
 /// Null where steps are made in double precision on the host.
@@ -61,7 +61,7 @@ std::unique_ptr<StepSweeps<Dim>> step_sweeps(const mesh::Mesh<Dim>& mesh, std::s
                                              const FiniteCells<Dim>& finite, const CcgSweeps<Dim>& sweeps,
                                              Precision precision, StepDevice device) {
     const bool is_single = precision == Precision::single_precision;
-    if (is_single || device != StepDevice::host) refuse_memory(mesh, materials);
+    if (is_single || device != StepDevice::host) refuse_materials(mesh, materials);
     if (is_single)
         refuse_finite(mesh, kinematics, "in single precision", "Precision::double_precision (--precision double)");
     if (device == StepDevice::host) return is_single ? std::make_unique<SingleSweeps<Dim>>(arrays, finite) : nullptr;
@@ -347,6 +347,7 @@ template <int Dim>
 std::optional<double> Ccg<Dim>::out_of_plane_stress(std::int32_t cell) const {
     const std::int32_t inelastic = impl_->finite.inelastic(cell);
     if (impl_->plastic.contains(cell)) return impl_->plastic.out_of_plane_stress(cell, displacement_gradient(cell));
+    if (impl_->arrays.directed.contains(cell)) return impl_->sweeps.directed_out_of_plane_stress(cell);
     if (inelastic < 0) return std::nullopt;
     return impl_->finite.inelastic_cell(inelastic).law->out_of_plane_stress(impl_->sweeps.law_gradient(cell),
                                                                             impl_->sweeps.memory_of(inelastic));

@@ -181,7 +181,7 @@ public:
     [[nodiscard]] dynamics::Losses step_loss(std::int32_t cell) const;
     /// Equivalent plastic strain of a cell [-]; 0 where its material has none.
     [[nodiscard]] double plastic_strain(std::int32_t cell) const;
-    /// In the plane, of a cell of an inelastic material as of the last call: its stress out of the plane [Pa].
+    /// In the plane, of a cell of an inelastic or orthotropic material as of the last call: its stress out of the plane [Pa].
     [[nodiscard]] std::optional<double> out_of_plane_stress(std::int32_t cell) const;
     /// How many numbers a cell remembers, 0 where its material is elastic and not damped (n_cells).
     [[nodiscard]] std::vector<std::int32_t> memory_sizes() const;

@@ -33,10 +33,18 @@ void CcgSweeps<Dim, Real>::set_any_stress(std::int32_t c) {
         set_finite_stress(c);
     else
         element_.set_any_stress(c);
+    if constexpr (takes_finite)
+        if (!finite_.contains(c)) add_directed_stress(c);
     if (plastic_ && plastic_->contains(c)) {
         add_stress(c, -plastic_->stress(c));
         if (capped_ && capped_->contains(c)) add_lasting_jumps(c);
     }
+}
+
+/// Of a cell whose strains are linear what its material has beyond lambda and mu.
+template <int Dim, class Real>
+void CcgSweeps<Dim, Real>::add_directed_stress(std::int32_t c) {
+    if (arrays_.directed.contains(c)) add_stress(c, arrays_.directed[c].stress(unload(load_tensor<Dim>(g_, c))));
 }
 
 /// What contact adds to the stress of a cell, and what its free face does.
@@ -64,6 +72,7 @@ double CcgSweeps<Dim, Real>::energy(std::ptrdiff_t c) const {
     const LaneTensor<Dim, Real> sigma = finite ? finite_stress(c, strain) : elastic_stress(cell, g);
     double density = 0.0;
     for (int j = 0; j < Dim; ++j) density += dot(sigma.col[j], strain.col[j]);
+    if (arrays_.directed.contains(c)) density += arrays_.directed[c].stress(unload(g)).cwiseProduct(unload(g)).sum();
     if (plastic_ && plastic_->contains(c)) density += 2.0 * plastic_->energy(c, unload(g));
     if (has_law) density = 2.0 * law_response(static_cast<std::int32_t>(c), unload(g)).energy;
     double twice = density / cell.inverse_measure;
@@ -83,6 +92,10 @@ Matrix<Dim> CcgSweeps<Dim, Real>::stress(std::int32_t c) const {
     if constexpr (takes_finite)
         if (plastic_ && plastic_->contains(c))
             return unload(elastic_stress(coefficients_.cells[c], present_gradient(c))) - plastic_->stress(c);
+    if constexpr (takes_finite)
+        if (arrays_.directed.contains(c))
+            return unload(elastic_stress(coefficients_.cells[c], present_gradient(c))) +
+                   arrays_.directed[c].stress(displacement_gradient(c));
     return element_.units.in_pascals(unload(elastic_stress(coefficients_.cells[c], present_gradient(c))));
 }
 
@@ -139,7 +152,10 @@ void CcgSweeps<Dim, Real>::stresses_of_chunk(std::int32_t k) {
         for_runs(cells, [&](std::int32_t c) { set_finite_stress(c); });
     }
     if constexpr (takes_finite)
-        if ((steps_ || plastic_) && !chunks_[k].has_finite) for_runs(cells, [&](std::int32_t c) { add_linear_stress(c); });
+        if (!chunks_[k].has_finite) {
+            if (arrays_.directed.any()) for_runs(cells, [&](std::int32_t c) { add_directed_stress(c); });
+            if (steps_ || plastic_) for_runs(cells, [&](std::int32_t c) { add_linear_stress(c); });
+        }
     for (const Run& run : cells) add_moments(run.begin, run.end);
     for (const CondensedCell& condensed : wanted_.condensed_stresses[k]) element_.condense(condensed);
 }
@@ -180,6 +196,7 @@ ABUT_INSTANTIATE(3, float)
     template Lanes<Dim> CcgSweeps<Dim>::any_boundary_displacement(const double*, BoundaryFace) const; \
     template void CcgSweeps<Dim>::set_any_displacement_gradient(std::int32_t);                        \
     template void CcgSweeps<Dim>::set_any_stress(std::int32_t);                                       \
+    template void CcgSweeps<Dim>::add_directed_stress(std::int32_t);                                  \
     template void CcgSweeps<Dim>::answer_to_corrections(std::int32_t);                                \
     template double CcgSweeps<Dim>::energy(std::ptrdiff_t) const;                                     \
     template void CcgSweeps<Dim>::load_displacement(std::span<const Vector<Dim>>);

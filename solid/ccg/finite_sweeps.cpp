@@ -445,6 +445,21 @@ Matrix<Dim> CcgSweeps<Dim, Real>::cauchy_stress(std::int32_t c) const {
     return f * stress * f.transpose() / f.determinant();
 }
 
+template <int Dim, class Real>
+double CcgSweeps<Dim, Real>::directed_out_of_plane_stress(std::int32_t c) const {
+    const CellGeometry<Dim, Real>& cell = coefficients_.cells[c];
+    Matrix<Dim> strain = displacement_gradient(c);
+    double volume = 1.0;
+    if (finite_.contains(c)) {
+        const std::int32_t position = finite_.free_position(c);
+        if (position >= 0 && finite_.free()[static_cast<std::size_t>(position)].n_tangents == 0) return 0.0;
+        const Matrix<Dim> g = law_gradient(c);
+        strain = g + 0.5 * g.transpose() * g;
+        volume = (Matrix<Dim>::Identity() + g).determinant();
+    }
+    return (cell.lambda * strain.trace() + arrays_.directed[c].out_of_plane_stress(strain)) / volume;
+}
+
 #define ABUT_INSTANTIATE(Dim)                                                                             \
     template Matrix<Dim> CcgSweeps<Dim>::linear_change(std::int32_t) const;                               \
     template void CcgSweeps<Dim>::add_stress(std::int32_t, const Matrix<Dim>&);                           \
@@ -463,7 +478,8 @@ Matrix<Dim> CcgSweeps<Dim, Real>::cauchy_stress(std::int32_t c) const {
     template std::pair<Vector<Dim>, Matrix<Dim>> CcgSweeps<Dim>::tilted_face(BoundaryFace) const;         \
     template FiniteExtremes CcgSweeps<Dim>::finite_extremes(std::span<const std::int32_t>) const;         \
     template Matrix<Dim> CcgSweeps<Dim>::law_gradient(std::int32_t) const;                                \
-    template Matrix<Dim> CcgSweeps<Dim>::cauchy_stress(std::int32_t) const;
+    template Matrix<Dim> CcgSweeps<Dim>::cauchy_stress(std::int32_t) const;                               \
+    template double CcgSweeps<Dim>::directed_out_of_plane_stress(std::int32_t) const;
 ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)
 #undef ABUT_INSTANTIATE

@@ -92,6 +92,9 @@ Matrix<Dim> coupling_block(const CcgArrays<Dim>& arrays, BoundaryFace b, Boundar
         const auto& [inverse_measure, lambda, mu] = arrays.cells[cell];
         block = face_stiffness<Dim>(lambda, mu, 1.0 / inverse_measure, boundary_area_vector(arrays, b),
                                     boundary_area_vector(arrays, other));
+        if (arrays.directed.contains(cell))
+            block += inverse_measure *
+                     arrays.directed[cell].between(boundary_area_vector(arrays, b), boundary_area_vector(arrays, other));
     }
     for (std::int32_t i = arrays.half_face_offsets[cell]; i < arrays.half_face_offsets[cell + 1]; ++i) {
         const HalfFace& half_face = arrays.half_faces[i];

@@ -3,11 +3,12 @@
 namespace abut::solid {
 
 template <int Dim>
-Simplices<Dim>::Simplices(const mesh::Mesh<Dim>& mesh, const FaceConditions<Dim>& conditions, FreeFaceRule rule,
-                          std::span<const Kinematics> kinematics) {
+Simplices<Dim>::Simplices(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials,
+                          const FaceConditions<Dim>& conditions, FreeFaceRule rule, std::span<const Kinematics> kinematics) {
     std::vector<bool> suits;
     for (std::int32_t body = 0; body < mesh.n_bodies(); ++body)
-        suits.push_back(kinematics.empty() || kinematics[static_cast<std::size_t>(body)] != Kinematics::finite);
+        suits.push_back(materials[static_cast<std::size_t>(body)].is_isotropic() &&
+                        (kinematics.empty() || kinematics[static_cast<std::size_t>(body)] != Kinematics::finite));
     for (std::int32_t c = 0; c < mesh.n_cells(); ++c)
         if (mesh.cell_faces[c].size() != Dim + 1) suits[static_cast<std::size_t>(mesh.cell_body[c])] = false;
     all_ = true;

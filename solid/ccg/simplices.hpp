@@ -9,6 +9,7 @@
 #include "abut/mesh/mesh.hpp"
 #include "abut/solid/boundary_conditions.hpp"
 #include "abut/solid/kinematics/kinematics.hpp"
+#include "abut/solid/material/material.hpp"
 
 namespace abut::solid {
 
@@ -26,7 +27,7 @@ struct CondensedCell {
     BoundaryFace face;
 };
 
-/// The bodies of linear elasticity that are made of simplices throughout. Their face displacements are affine in each cell,
+/// The bodies of linear, isotropic elasticity that are made of simplices throughout. Their face displacements are affine in each cell,
 /// which saves most of what other shapes need. docs/method.md, Space.
 template <int Dim>
 class Simplices {
@@ -34,8 +35,8 @@ public:
     /// None.
     Simplices() = default;
     /// `kinematics`: one per body; all that are not `finite` are linear, as all are where none are given.
-    Simplices(const mesh::Mesh<Dim>& mesh, const FaceConditions<Dim>& conditions, FreeFaceRule rule,
-              std::span<const Kinematics> kinematics);
+    Simplices(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials, const FaceConditions<Dim>& conditions,
+              FreeFaceRule rule, std::span<const Kinematics> kinematics);
 
     [[nodiscard]] bool contains(std::ptrdiff_t cell) const {
         return !cells_.empty() && cells_[static_cast<std::size_t>(cell)].faces[0] >= 0;

@@ -104,6 +104,8 @@ public:
     }
     [[nodiscard]] Matrix<Dim> displacement_gradient(std::int32_t c) const { return unload(present_gradient(c)); }
     [[nodiscard]] Matrix<Dim> stress(std::int32_t c) const;
+    /// Of a cell of DirectedCells in the plane: Cauchy's stress out of it.
+    [[nodiscard]] double directed_out_of_plane_stress(std::int32_t c) const;
 
     /// What they work on.
     [[nodiscard]] const SweepTables<Dim, Real>& tables() const { return element_.tables; }
@@ -127,6 +129,7 @@ private:
     [[nodiscard]] Vectors any_boundary_displacement(const double* u, BoundaryFace b) const;
     void set_any_displacement_gradient(std::int32_t c);
     void set_any_stress(std::int32_t c);
+    void add_directed_stress(std::int32_t c);
     void answer_to_corrections(std::int32_t c);
 
     // One element of a finite body

@@ -46,7 +46,7 @@ void add_lagged(dynamics::Losses& loss, double work, double dissipated) {
 
 template <int Dim>
 ViscousCells<Dim>::ViscousCells(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials)
-    : materials_(materials.begin(), materials.end()) {
+    : materials_(materials.begin(), materials.end()), directed_(mesh, materials) {
     any_ = std::ranges::any_of(materials_, &Material::is_damped);
     if (!any_) return;
     index_.assign(static_cast<std::size_t>(mesh.n_cells()), -1);
@@ -74,7 +74,8 @@ Matrix<Dim> ViscousCells<Dim>::stress(std::ptrdiff_t cell, const Matrix<Dim>& g,
     if (material.stiffness_damping > 0.0) {
         const Matrix<Dim> before = of.before.deforms_known ? of.before.strain : of.now.strain;
         const Matrix<Dim> mean = 0.5 * (of.now.strain + before);
-        const Matrix<Dim> of_mean = material.stiffness_damping * stress_of_rate<Dim>(material, free, mean);
+        Matrix<Dim> of_mean = material.stiffness_damping * stress_of_rate<Dim>(material, free, mean);
+        if (directed_.contains(cell)) of_mean += material.stiffness_damping * directed_[cell].stress(mean);
         const double measure = dt * of.measure;
         const double lost = measure * of_mean.cwiseProduct(mean).sum();  // dt/4 c (now + before)^2
         const double work = measure * of_mean.cwiseProduct(of.now.strain).sum();

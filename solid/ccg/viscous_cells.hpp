@@ -6,6 +6,7 @@
 
 #include "abut/mesh/mesh.hpp"
 #include "abut/solid/ccg/ccg.hpp"
+#include "abut/solid/ccg/directed_cells.hpp"
 #include "abut/solid/ccg/finite_cell.hpp"
 #include "abut/solid/material/material.hpp"
 
@@ -71,6 +72,7 @@ private:
     }
 
     std::vector<Material> materials_;
+    DirectedCells<Dim> directed_;
     bool any_ = false;                 // known from materials alone: this rank may have no cell of them
     std::vector<std::int32_t> index_;  // of each cell; empty where no body is damped
     std::vector<Cell> cells_;

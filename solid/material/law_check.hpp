@@ -8,6 +8,7 @@
 #include "abut/base/error.hpp"
 #include "abut/base/messages.hpp"
 #include "abut/solid/material/material.hpp"
+#include "abut/solid/material/orthotropic.hpp"
 
 namespace abut::solid {
 
@@ -34,8 +35,9 @@ public:
         require(std::abs(law.at(zero).energy) + law.at(zero).stress.norm(), "has energy or stress at rest");
         require_slope([&](const Matrix<Dim>& g) { return law.at(g); }, "has a stress that is not the slope of its energy");
         require_same_when_turned(law, "has an energy that knows how it is turned");
-        const Matrix<Dim> hooke =
-            material_.mu() * (along_ + along_.transpose()) + material_.lambda() * along_.trace() * Matrix<Dim>::Identity();
+        const Matrix<Dim> hooke = material_.mu() * (along_ + along_.transpose()) +
+                                  material_.lambda() * along_.trace() * Matrix<Dim>::Identity() +
+                                  DirectedStiffness<Dim>(material_).stress(along_);
         require((law.stress_change(zero, along_) - hooke).norm(), "has other moduli at small strains than its material");
     }
     /// Throws BadInput.

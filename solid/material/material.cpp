@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <string>
+#include <tuple>
 #include <utility>
 
 #include "abut/base/error.hpp"
@@ -11,6 +12,7 @@
 #include "abut/solid/material/j2_plasticity.hpp"
 #include "abut/solid/material/material_numbers.hpp"
 #include "abut/solid/material/mooney_rivlin.hpp"
+#include "abut/solid/material/orthotropic.hpp"
 
 namespace abut::solid {
 namespace {
@@ -73,6 +75,17 @@ void check_table(const Material& material, int body) {
             refuse(body, other.name, material.*other.member, "it must be 0 beside hardening_table, which says all of it.");
 }
 
+/// Of materials that have none.
+void check_axes(const Material& material, int body) {
+    const Material plain;
+    for (const auto& [name, axis, other] :
+         {std::tuple{"axis_1", material.axis_1, plain.axis_1}, std::tuple{"axis_2", material.axis_2, plain.axis_2}})
+        if (axis != other)
+            throw BadInput("material of body " + std::to_string(body) + ": it has " + name + ", but its law " +
+                           word_of(material_law_words, material.law) +
+                           " is the same in all directions. Take law = \"orthotropic\", or leave the axis out.");
+}
+
 }  // namespace
 
 void check(const Material& material, int body) {
@@ -87,6 +100,8 @@ void check(const Material& material, int body) {
     if (material.cowper_symonds_rate > 0.0 && material.johnson_cook_rate > 0.0)
         refuse(body, "johnson_cook_rate", material.johnson_cook_rate,
                "it must be 0, as the rate counts by cowper_symonds_rate already. Take one law of rates.");
+    if (material.law == MaterialLaw::orthotropic) return check_orthotropic(material, body);
+    check_axes(material, body);
     if (material.law != MaterialLaw::neo_hookean && material.law != MaterialLaw::mooney_rivlin) return;
     if (material.poisson < 0.0)
         refuse(body, "poisson", material.poisson,
@@ -102,8 +117,15 @@ double Material::damping_ratio(double omega, double size) const {
     return 0.5 * (mass_damping / omega + (stiffness_damping + of_viscosity) * omega);
 }
 
+double Material::mean_lambda() const { return mean_moduli(*this).lambda; }
+
+double Material::mean_mu() const { return mean_moduli(*this).mu; }
+
+double Material::largest_of_axes() const { return largest_wave_modulus(*this); }
+
 template <int Dim>
 std::shared_ptr<const StoredEnergy<Dim>> stored_energy(const Material& material) {
+    if (material.law == MaterialLaw::orthotropic) return std::make_shared<OrthotropicEnergy<Dim>>(material);
     if (material.law != MaterialLaw::neo_hookean && material.law != MaterialLaw::mooney_rivlin) return nullptr;
     return std::make_shared<MooneyRivlin<Dim>>(material.lambda(), material.mu(), material.second_share);
 }

@@ -359,6 +359,10 @@ class Runs(unittest.TestCase):
         with self.assertRaisesRegex(TypeError, "rows"):
             solid.Material(law="j2", hardening_table=[1, 2])
         self.assertEqual(solid.Material("steel S235", density="8 g/cm^3").density, 8000.0)
+        ply = solid.Material(young="140 GPa", density=1600, law="orthotropic", young_2="10 GPa", shear_12="5 GPa", axis_1=[1, 1, 0],
+                             axis_angle="30 deg")
+        self.assertEqual((ply.law, ply.young_2, ply.shear_12, ply.axis_1), ("orthotropic", 1e10, 5e9, [1.0, 1.0, 0.0]))
+        self.assertAlmostEqual(ply.axis_angle, np.pi / 6.0)
         rubber = solid.Material(young="1 MPa", density=1000, stiffness_damping="0.2 ms")
         self.assertEqual((rubber.young, rubber.density, rubber.stiffness_damping), (1e6, 1000.0, 0.0002))
         rubber.young = "2 MPa"

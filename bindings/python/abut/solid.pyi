@@ -18,6 +18,16 @@ class Material:
     eta: float
     law: str
     second_share: float
+    young_2: float
+    young_3: float
+    poisson_13: float
+    poisson_23: float
+    shear_12: float
+    shear_13: float
+    shear_23: float
+    axis_angle: float
+    axis_1: list[float]
+    axis_2: list[float]
     yield_stress: float
     hardening: float
     saturation: float
