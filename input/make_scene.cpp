@@ -33,13 +33,24 @@ void append_body(run::Scene<Dim>& scene, const BodySettings& body, const Vector<
     if (!gravity.isZero(0.0)) scene.solid.acceleration.push_back(head<Dim>(gravity));
 }
 
+bool is_warm(const BodySettings& body) { return body.temperature_rise || std::ranges::any_of(body.parts, is_warm); }
+
+template <int Dim>
+solid::TemperatureRise<Dim> temperature_of(const BodySettings& body) {
+    if (!body.temperature_rise) return {};
+    return {
+        .value = [rise = *body.temperature_rise](double time, const Vector<Dim>& x) { return rise(time, in_space<Dim>(x)); },
+        .varies = body.temperature_rise->varies()};
+}
+
 bool spins(const BodySettings& body) { return !body.spin.isZero(0.0) || std::ranges::any_of(body.parts, spins); }
 
 /// Appends what belongs to the bodies of one table, of which a file may hold several, some with tables of their own.
 template <int Dim>
 void append_bodies(run::Scene<Dim>& scene, const BodySettings& body, const std::vector<std::string>& names,
                    const Settings& settings, std::vector<Fault>& faults) {
-    const bool any_spins = std::ranges::any_of(settings.bodies, spins);
+    const bool any_spins = std::ranges::any_of(settings.bodies, spins),
+               any_warm = std::ranges::any_of(settings.bodies, is_warm);
     for (const std::string& name : names) {
         const BodySettings& own = settings_of(body, name);
         if (!own.has_material)
@@ -52,6 +63,7 @@ void append_bodies(run::Scene<Dim>& scene, const BodySettings& body, const std::
         }
         append_body(scene, own, settings.gravity);
         if (any_spins) scene.spin.push_back(axial<Dim>(own.spin));
+        if (any_warm) scene.solid.temperature_rise.push_back(temperature_of<Dim>(own));
     }
 }
 

@@ -80,15 +80,16 @@ struct BodySettings : Named {
     std::string material_name;            ///< empty: all values are its own
     solid::Material material;
     solid::Kinematics kinematics = solid::Kinematics::small;
-    Vector<3> velocity = Vector<3>::Zero();  ///< [m/s]
-    Vector<3> spin = Vector<3>::Zero();      ///< [rad/s]
-    bool has_material = false;               ///< Young's modulus and density are given
-    std::optional<bool> self;                ///< whether it touches itself; not given: as Settings::self says
-    std::vector<BodySettings> parts;         ///< bodies of `mesh` or regions with a table of their own, by their names
-    std::optional<Formula> region;           ///< of a part: not 0 where its cells have their centroids, in x, y, z [m]
-    std::string pattern;                     ///< PatternSettings::path of that which made it; empty: none did
-    std::string pattern_where;               ///< Fault::where
-    double n_copies = 1.0;                   ///< that `pattern` makes
+    Vector<3> velocity = Vector<3>::Zero();   ///< [m/s]
+    Vector<3> spin = Vector<3>::Zero();       ///< [rad/s]
+    std::optional<Formula> temperature_rise;  ///< of t, x, y, z [K]
+    bool has_material = false;                ///< Young's modulus and density are given
+    std::optional<bool> self;                 ///< whether it touches itself; not given: as Settings::self says
+    std::vector<BodySettings> parts;          ///< bodies of `mesh` or regions with a table of their own, by their names
+    std::optional<Formula> region;            ///< of a part: not 0 where its cells have their centroids, in x, y, z [m]
+    std::string pattern;                      ///< PatternSettings::path of that which made it; empty: none did
+    std::string pattern_where;                ///< Fault::where
+    double n_copies = 1.0;                    ///< that `pattern` makes
 };
 
 /// Copies of a body in a row, a grid, a ring or at places.

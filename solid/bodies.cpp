@@ -56,6 +56,7 @@ Bodies<Dim>::Bodies(const mesh::Mesh<Dim>& mesh, const SolidOptions<Dim>& option
     part_options_.materials = chosen(options.materials, deformable_bodies_);
     part_options_.kinematics = chosen(options.kinematics, deformable_bodies_);
     part_options_.acceleration = chosen(options.acceleration, deformable_bodies_);
+    part_options_.temperature_rise = chosen(options.temperature_rise, deformable_bodies_);
     set_laws();
     part_options_.boundary.traction.clear();
     for (std::size_t i = 0; i < options.boundary.traction.size(); ++i)

@@ -120,6 +120,7 @@ public:
 private:
     void check() const;
     void check_material(std::int32_t body) const;
+    void check_temperature(std::int32_t body) const;
     void check_directions(const Material& material, std::int32_t body, const std::string& who) const;
     void check_pairs() const;
     void keep_groups();

@@ -24,6 +24,10 @@ void Bodies<Dim>::check() const {
     for (std::size_t body = 0; body < n_bodies; ++body) check_material(static_cast<std::int32_t>(body));
     if (!options_.acceleration.empty()) require_one_each(options_.acceleration.size(), "accelerations");
     if (!options_.kinematics.empty()) require_one_each(options_.kinematics.size(), "kinematics");
+    if (!options_.temperature_rise.empty()) {
+        require_one_each(options_.temperature_rise.size(), "temperatures");
+        for (std::size_t body = 0; body < n_bodies; ++body) check_temperature(static_cast<std::int32_t>(body));
+    }
     for (std::size_t body = 0; body < options_.acceleration.size(); ++body)
         if (!options_.acceleration[body].allFinite())
             throw BadInput(mesh_.name + ": the acceleration of body " + std::to_string(body) + " ('" +
@@ -64,6 +68,23 @@ void Bodies<Dim>::check_material(std::int32_t body) const {
         throw BadInput(who +
                        "has a damped or viscous material, for which there is no MeanForce::discrete_gradient. Take "
                        "MeanForce::closed_trapezoid (--mean-force closed_trapezoid).");
+}
+
+template <int Dim>
+void Bodies<Dim>::check_temperature(std::int32_t body) const {
+    if (!options_.temperature_rise[static_cast<std::size_t>(body)].value) return;
+    const std::string who = mesh_.name + ": body '" + mesh_.body_names[static_cast<std::size_t>(body)] + "' ";
+    if (is_rigid(body) || is_finite(body))
+        throw BadInput(who +
+                       "is given a temperature, which only bodies of Kinematics::small and ::floating can have. Take one of "
+                       "these, or leave SolidOptions::temperature_rise out.");
+    if (!options_.materials[static_cast<std::size_t>(body)].expands())
+        throw BadInput(who +
+                       "is given a temperature, and its material has a thermal_expansion of 0. Give one, or leave "
+                       "SolidOptions::temperature_rise out.");
+    if (std::ranges::any_of(options_.boundary.traction, &TractionCondition<Dim>::from_outside))
+        throw BadInput(who +
+                       "is given a temperature, which is not made beside tractions from outside. Leave one of both out.");
 }
 
 template <int Dim>

@@ -35,7 +35,8 @@ Loads<Dim>::Loads(const mesh::Mesh<Dim>& mesh, const SolidOptions<Dim>& options,
     : mesh_(mesh),
       ccg_(ccg),
       part_(part),
-      has_conditions_(!options.boundary.dirichlet.empty() || !options.boundary.traction.empty()),
+      has_conditions_(!options.boundary.dirichlet.empty() || !options.boundary.traction.empty() ||
+                      !options.temperature_rise.empty()),
       has_body_force_(!options.acceleration.empty() || options.body_load),
       body_force_(body_forces(mesh, options, masses)),
       start_(ccg.load_at(0.0, 0.0)),
@@ -56,7 +57,8 @@ bool Loads<Dim>::begin_step(double time, double dt, const std::function<double()
         dynamics::agreed(part_.ranks(), [&] { return std::pair(ccg_.load_at(time, time), ccg_.load_at(time + dt, time)); });
     is_half_done_ = true;
     start_ = end_;
-    const bool jumps = part_.any(changed.traction != end_.traction);
+    traction_time_ = time;
+    const bool jumps = part_.any(changed.traction != end_.traction || changed.temperature != end_.temperature);
     if (jumps) {
         const double before = potential();
         end_ = std::move(changed);

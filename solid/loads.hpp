@@ -14,7 +14,8 @@
 namespace abut::solid {
 
 /// What acts on the bodies from outside, contact with obstacles left out: body forces, prescribed displacements and tractions,
-/// at both ends of a step. Displacements are linear within a step, tractions are constant and change where it begins.
+/// at both ends of a step. Displacements are linear within a step, tractions and
+/// temperatures are constant and change where it begins.
 template <int Dim>
 class Loads {
 public:
@@ -32,7 +33,7 @@ public:
     /// With the mean of the displacements of both.
     [[nodiscard]] BoundaryLoad<Dim> mean() const;
 
-    /// For loads that vary: a step begins, and both ends are set. Where tractions jump at its start, the jump of `potential`,
+    /// For loads that vary: a step begins, and both ends are set. Where tractions or temperatures jump at its start, the jump of `potential`,
     /// evaluated with the loads `end()`, is added to `work` [J]; in between `follow_jump` is called, with the loads from
     /// before the jump in `start()` and those after it in `end()`. Returns whether they jumped.
     bool begin_step(double time, double dt, const std::function<double()>& potential,
@@ -66,6 +67,7 @@ private:
     const Ccg<Dim>& ccg_;
     const RankPart<Dim>& part_;
     bool has_conditions_;                  // on the boundary, of all ranks
+    double traction_time_ = 0.0;           // of tractions and temperatures now
     bool has_body_force_;                  // of all ranks
     std::vector<Vector<Dim>> body_force_;  // by cell; empty: none
     BoundaryLoad<Dim> start_;

@@ -16,6 +16,7 @@
 #include "abut/solid/ccg/step_device.hpp"
 #include "abut/solid/kinematics/kinematics.hpp"
 #include "abut/solid/material/material.hpp"
+#include "abut/solid/temperature.hpp"
 
 namespace abut::solid {
 
@@ -45,6 +46,8 @@ struct SolidOptions {
     std::vector<Vector<Dim>> acceleration;  ///< of gravity, one per body [m/s^2]; empty: none
     std::function<Vector<Dim>(const Vector<Dim>& position)>
         body_load;  ///< force density [N/m^3], constant in time; empty: none
+    /// One per body, of those that are small or floating; empty: none
+    std::vector<TemperatureRise<Dim>> temperature_rise = {};
     std::vector<Spring<Dim>> springs;
     std::vector<BodyMoment<Dim>> moments;
     std::vector<Bond> bonds;

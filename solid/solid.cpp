@@ -37,6 +37,7 @@ void check_for_ranks(const dynamics::Ranks& ranks, const mesh::Mesh<Dim>& mesh, 
                            " has no cells in the part of a rank. Give each rank the whole of it (solid::part_of).");
     const bool from_outside = std::ranges::any_of(options.boundary.traction, &TractionCondition<Dim>::from_outside);
     dynamics::refuse_ranks(ranks, {{"a load from outside", from_outside},
+                                    {"a temperature", !options.temperature_rise.empty()},
                                    {"a bulk in single precision", options.precision == Precision::single_precision},
                                    {"a bulk on a device", options.device != StepDevice::host}});
 }
@@ -92,6 +93,8 @@ Solid<Dim>::Solid(const mesh::Mesh<Dim>& mesh, SolidOptions<Dim> options, const 
     std::iota(all_cells_.begin(), all_cells_.end(), 0);
     bodies_->rigid().constrain_only(part_->own_rigid());
     if (!part_->is_whole()) meet_other_ranks();
+    if (const SolidOptions<Dim>& deformable = bodies_->deformable_options(); !deformable.temperature_rise.empty())
+        ccg_.set_temperature(bodies_->deformable(), deformable.materials, deformable.temperature_rise);
     loads_ = dynamics::agreed(ranks, [&] {
         return std::make_unique<Loads<Dim>>(bodies_->deformable(), bodies_->deformable_options(), bodies_->masses(), ccg_,
                                             *part_);

@@ -218,6 +218,7 @@ void Loads<Dim>::save(StateWriter& state) const {
         put_all<Dim>(state, part_.gather_faces(end_.displacement));
         put_all<Dim>(state, part_.gather_faces(end_.traction));
     }
+    if (ccg_.is_warm()) state.put(traction_time_);
 }
 
 template <int Dim>
@@ -231,6 +232,10 @@ void Loads<Dim>::restore(StateReader& state) {
         end_.displacement = part_.faces_here(mesh_, of_all);
         take_all<Dim>(state, of_all);
         end_.traction = part_.faces_here(mesh_, of_all);
+    }
+    if (ccg_.is_warm()) {
+        traction_time_ = state.get<double>();
+        end_.temperature = ccg_.load_at(traction_time_, traction_time_).temperature;
     }
     start_ = end_;
 }

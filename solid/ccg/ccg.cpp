@@ -16,6 +16,7 @@
 #include "abut/solid/ccg/region.hpp"
 #include "abut/solid/ccg/single_sweeps.hpp"
 #include "abut/solid/ccg/sweeps.hpp"
+#include "abut/solid/ccg/thermal_cells.hpp"
 #include "abut/solid/ccg/viscous_cells.hpp"
 #include "abut/solid/motion_bound.hpp"
 
@@ -84,6 +85,7 @@ struct Ccg<Dim>::Impl {
     ViscousCells<Dim> viscous;
     PlasticCells<Dim> plastic;
     CappedJumps<Dim> capped;
+    ThermalCells<Dim> thermal;
     CcgSweeps<Dim> sweeps;
     std::unique_ptr<StepSweeps<Dim>> steps;  // null: `sweeps` make them
     bool steps_were_last = false;            // to compute gradients
@@ -97,6 +99,17 @@ struct Ccg<Dim>::Impl {
     Impl(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials,
          const BoundaryConditions<Dim>& boundary_conditions, std::span<const Kinematics> kinematics, CellForm form,
          Precision precision, StepDevice device, const FiniteOptions<Dim>& finite_options, FreeFaces free_faces);
+
+    /// Free faces bear the thermal stress of their cell as if it were a traction.
+    [[nodiscard]] Vector<Dim> moved_by_heat(BoundaryFace b, std::span<const double> temperature) const {
+        const std::int32_t cell = arrays.cell_of(b);
+        const Matrix<Dim> stress = temperature[static_cast<std::size_t>(cell)] * thermal.stress(cell);
+        Vector<Dim> sum = Vector<Dim>::Zero();
+        for (std::int32_t i = arrays.boundary.load_offsets[number_of(b)]; i < arrays.boundary.load_offsets[number_of(b) + 1];
+             ++i)
+            sum += arrays.boundary.from_traction[i] * (stress * arrays.normal_of(arrays.boundary.load_faces[i]));
+        return sum;
+    }
 
     /// evaluate(sweeps) of those that make steps.
     template <class Evaluate>
@@ -120,7 +133,7 @@ Ccg<Dim>::Impl::Impl(const mesh::Mesh<Dim>& mesh, std::span<const Material> mate
       viscous(mesh, materials),
       plastic(mesh, materials, kinematics, face_conditions, conditions.free_face_rule),
       capped(mesh, materials, kinematics, face_conditions, free_faces, arrays),
-      sweeps(arrays, arrays, finite, &viscous, &plastic, &capped),
+      sweeps(arrays, arrays, finite, &viscous, &plastic, &capped, &thermal),
       steps(step_sweeps(mesh, kinematics, materials, arrays, finite, sweeps, precision, device)) {
     const auto all = solid::boundary_faces(mesh);
     motion_bound.emplace(arrays, std::vector<BoundaryFace>(all.begin(), all.end()));
@@ -165,6 +178,22 @@ bool Ccg<Dim>::load_varies() const {
 }
 
 template <int Dim>
+void Ccg<Dim>::set_temperature(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials,
+                               std::span<const TemperatureRise<Dim>> temperature) {
+    if (impl_->steps)
+        throw BadInput(mesh.name +
+                       ": a temperature is given, with which steps are made in double precision on the host alone. Take "
+                       "Precision::double_precision (--precision double) and StepDevice::host (--device host).");
+    impl_->thermal = ThermalCells<Dim>(mesh, materials, temperature);
+    impl_->varies = impl_->varies || impl_->thermal.varies();
+}
+
+template <int Dim>
+bool Ccg<Dim>::is_warm() const {
+    return impl_->thermal.any();
+}
+
+template <int Dim>
 void Ccg<Dim>::set_traction(const std::string& group, std::span<const Vector<Dim>> traction) {
     for (std::size_t i = 0; i < impl_->outside.size(); ++i)
         if (impl_->conditions.traction[i].group == group && impl_->conditions.traction[i].from_outside)
@@ -187,7 +216,8 @@ template <int Dim>
 BoundaryLoad<Dim> Ccg<Dim>::load_at(double displacement_time, double traction_time) const {
     const Impl& m = *impl_;
     BoundaryLoad<Dim> load;
-    if (m.conditions.dirichlet.empty() && m.conditions.traction.empty()) return load;
+    if (m.conditions.dirichlet.empty() && m.conditions.traction.empty() && !m.thermal.any()) return load;
+    if (m.thermal.any()) load.temperature = m.thermal.rise_at(traction_time);
     const BoundaryReconstruction<Dim>& boundary = m.arrays.boundary;
     const auto n = static_cast<std::size_t>(boundary.size());
     IdVector<BoundaryFace, Vector<Dim>> prescribed(n, Vector<Dim>::Zero());
@@ -217,6 +247,7 @@ BoundaryLoad<Dim> Ccg<Dim>::load_at(double displacement_time, double traction_ti
         for (std::int32_t i = boundary.load_offsets[b]; i < boundary.load_offsets[b + 1]; ++i)
             load.displacement[b] += boundary.from_displacement[i] * prescribed[boundary.load_faces[i]] +
                                     boundary.from_traction[i] * traction[boundary.load_faces[i]];
+        if (m.thermal.any()) load.displacement[b] += m.moved_by_heat(static_cast<BoundaryFace>(b), load.temperature);
     }
     return load;
 }
@@ -225,7 +256,7 @@ template <int Dim>
 BoundaryLoad<Dim> Ccg<Dim>::load_free() const {
     if (impl_->conditions.dirichlet.empty() && impl_->conditions.traction.empty()) return {};
     const std::vector<Vector<Dim>> zero(static_cast<std::size_t>(impl_->arrays.n_boundary()), Vector<Dim>::Zero());
-    return {zero, zero};
+    return {zero, zero, {}};
 }
 
 template <int Dim>
@@ -345,12 +376,15 @@ double Ccg<Dim>::plastic_strain(std::int32_t cell) const {
 
 template <int Dim>
 std::optional<double> Ccg<Dim>::out_of_plane_stress(std::int32_t cell) const {
-    const std::int32_t inelastic = impl_->finite.inelastic(cell);
-    if (impl_->plastic.contains(cell)) return impl_->plastic.out_of_plane_stress(cell, displacement_gradient(cell));
-    if (impl_->arrays.directed.contains(cell)) return impl_->sweeps.directed_out_of_plane_stress(cell);
-    if (inelastic < 0) return std::nullopt;
-    return impl_->finite.inelastic_cell(inelastic).law->out_of_plane_stress(impl_->sweeps.law_gradient(cell),
-                                                                            impl_->sweeps.memory_of(inelastic));
+    if (impl_->plastic.contains(cell))
+        return impl_->plastic.out_of_plane_stress(cell, displacement_gradient(cell)) - impl_->sweeps.heat_out_of_plane(cell);
+    if (impl_->arrays.directed.contains(cell))
+        return impl_->sweeps.directed_out_of_plane_stress(cell) - impl_->sweeps.heat_out_of_plane(cell);
+    if (const std::int32_t inelastic = impl_->finite.inelastic(cell); inelastic >= 0)
+        return impl_->finite.inelastic_cell(inelastic).law->out_of_plane_stress(impl_->sweeps.law_gradient(cell),
+                                                                                impl_->sweeps.memory_of(inelastic));
+    if (!impl_->thermal.any() || impl_->finite.contains(cell)) return std::nullopt;
+    return impl_->arrays.cells[cell].lambda * displacement_gradient(cell).trace() - impl_->sweeps.heat_out_of_plane(cell);
 }
 
 template <int Dim>

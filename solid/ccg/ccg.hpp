@@ -15,15 +15,17 @@
 #include "abut/solid/ccg/finite_options.hpp"
 #include "abut/solid/ccg/precision.hpp"
 #include "abut/solid/ccg/step_device.hpp"
+#include "abut/solid/temperature.hpp"
 
 namespace abut::solid {
 
-/// What boundary conditions give at a time.
+/// What boundary conditions, and temperatures, give at a time.
 template <int Dim>
 struct BoundaryLoad {
     std::vector<Vector<Dim>>
-        displacement;                   ///< B u_D + L t, the part of û that does not come from the cells (n_boundary) [m]
+        displacement;  ///< B u_D + L t and what heat adds, the part of û that is not of the cells (n_boundary) [m]
     std::vector<Vector<Dim>> traction;  ///< |f| t_f (n_boundary) [N]
+    std::vector<double> temperature;    ///< rise of that of each cell (n_cells) [K]; empty: none is warm
 };
 
 /// Changes of some boundary faces: what contact adds. Other free faces of their cells answer (CornerRule). Empty where there
@@ -125,9 +127,13 @@ public:
     [[nodiscard]] std::int32_t n_boundary() const;
     [[nodiscard]] auto boundary_faces() const { return all_ids<BoundaryFace>(n_boundary()); }
 
-    /// u_D and t at their times, brought to the boundary faces; empty where no condition is given.
+    /// From now on cells are warm: one field per body. Throws BadInput where steps are made in single precision or on a device.
+    void set_temperature(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials,
+                         std::span<const TemperatureRise<Dim>> temperature);
+    [[nodiscard]] bool is_warm() const;
+    /// u_D and t at their times, brought to the boundary faces, and temperatures at the second; empty where no condition is given.
     [[nodiscard]] BoundaryLoad<Dim> load_at(double displacement_time, double traction_time) const;
-    /// The same with u_D = 0 and t = 0.
+    /// The same with u_D = 0, t = 0 and without heat.
     [[nodiscard]] BoundaryLoad<Dim> load_free() const;
     [[nodiscard]] bool load_varies() const;
     /// From now on `load_at` gives these tractions on the faces of the conditions of this group that are from outside, in the
@@ -181,7 +187,7 @@ public:
     [[nodiscard]] dynamics::Losses step_loss(std::int32_t cell) const;
     /// Equivalent plastic strain of a cell [-]; 0 where its material has none.
     [[nodiscard]] double plastic_strain(std::int32_t cell) const;
-    /// In the plane, of a cell of an inelastic or orthotropic material as of the last call: its stress out of the plane [Pa].
+    /// In the plane, of a cell of an inelastic or orthotropic material, or a warm one, as of the last call: its stress out of the plane [Pa].
     [[nodiscard]] std::optional<double> out_of_plane_stress(std::int32_t cell) const;
     /// How many numbers a cell remembers, 0 where its material is elastic and not damped (n_cells).
     [[nodiscard]] std::vector<std::int32_t> memory_sizes() const;

@@ -34,17 +34,26 @@ void CcgSweeps<Dim, Real>::set_any_stress(std::int32_t c) {
     else
         element_.set_any_stress(c);
     if constexpr (takes_finite)
-        if (!finite_.contains(c)) add_directed_stress(c);
+        if (has_stress_beside() && !finite_.contains(c)) add_stress_of_material(c);
     if (plastic_ && plastic_->contains(c)) {
         add_stress(c, -plastic_->stress(c));
         if (capped_ && capped_->contains(c)) add_lasting_jumps(c);
     }
 }
 
-/// Of a cell whose strains are linear what its material has beyond lambda and mu.
+/// Of a cell whose strains are linear what its stress has beside lambda and mu of its strain: other moduli, less thermal stress.
 template <int Dim, class Real>
-void CcgSweeps<Dim, Real>::add_directed_stress(std::int32_t c) {
-    if (arrays_.directed.contains(c)) add_stress(c, arrays_.directed[c].stress(unload(load_tensor<Dim>(g_, c))));
+Matrix<Dim> CcgSweeps<Dim, Real>::stress_beside(std::int32_t c, const Matrix<Dim>& g) const {
+    Matrix<Dim> stress = Matrix<Dim>::Zero();
+    if (arrays_.directed.contains(c)) stress += arrays_.directed[c].stress(g);
+    if (!temperature_.empty()) stress -= temperature_[static_cast<std::size_t>(c)] * thermal_->stress(c);
+    return stress;
+}
+
+template <int Dim, class Real>
+void CcgSweeps<Dim, Real>::add_stress_of_material(std::int32_t c) {
+    const bool is_directed = arrays_.directed.contains(c);
+    add_stress(c, stress_beside(c, is_directed ? unload(load_tensor<Dim>(g_, c)) : Matrix<Dim>(Matrix<Dim>::Zero())));
 }
 
 /// What contact adds to the stress of a cell, and what its free face does.
@@ -72,7 +81,9 @@ double CcgSweeps<Dim, Real>::energy(std::ptrdiff_t c) const {
     const LaneTensor<Dim, Real> sigma = finite ? finite_stress(c, strain) : elastic_stress(cell, g);
     double density = 0.0;
     for (int j = 0; j < Dim; ++j) density += dot(sigma.col[j], strain.col[j]);
-    if (arrays_.directed.contains(c)) density += arrays_.directed[c].stress(unload(g)).cwiseProduct(unload(g)).sum();
+    if (!finite && arrays_.directed.contains(c))
+        density += arrays_.directed[c].stress(unload(g)).cwiseProduct(unload(g)).sum();
+    if (!temperature_.empty()) density += thermal_->twice_energy(c, temperature_[static_cast<std::size_t>(c)], unload(g));
     if (plastic_ && plastic_->contains(c)) density += 2.0 * plastic_->energy(c, unload(g));
     if (has_law) density = 2.0 * law_response(static_cast<std::int32_t>(c), unload(g)).energy;
     double twice = density / cell.inverse_measure;
@@ -90,12 +101,12 @@ Matrix<Dim> CcgSweeps<Dim, Real>::stress(std::int32_t c) const {
     if constexpr (takes_finite)
         if (finite_.contains(c)) return cauchy_stress(c);
     if constexpr (takes_finite)
-        if (plastic_ && plastic_->contains(c))
-            return unload(elastic_stress(coefficients_.cells[c], present_gradient(c))) - plastic_->stress(c);
-    if constexpr (takes_finite)
-        if (arrays_.directed.contains(c))
-            return unload(elastic_stress(coefficients_.cells[c], present_gradient(c))) +
-                   arrays_.directed[c].stress(displacement_gradient(c));
+        if (has_stress_beside() || plastic_) {
+            const Matrix<Dim> g = displacement_gradient(c);
+            Matrix<Dim> stress = unload(elastic_stress(coefficients_.cells[c], present_gradient(c))) + stress_beside(c, g);
+            if (plastic_ && plastic_->contains(c)) stress -= plastic_->stress(c);
+            return stress;
+        }
     return element_.units.in_pascals(unload(elastic_stress(coefficients_.cells[c], present_gradient(c))));
 }
 
@@ -153,7 +164,7 @@ void CcgSweeps<Dim, Real>::stresses_of_chunk(std::int32_t k) {
     }
     if constexpr (takes_finite)
         if (!chunks_[k].has_finite) {
-            if (arrays_.directed.any()) for_runs(cells, [&](std::int32_t c) { add_directed_stress(c); });
+            if (has_stress_beside()) for_runs(cells, [&](std::int32_t c) { add_stress_of_material(c); });
             if (steps_ || plastic_) for_runs(cells, [&](std::int32_t c) { add_linear_stress(c); });
         }
     for (const Run& run : cells) add_moments(run.begin, run.end);
@@ -196,7 +207,8 @@ ABUT_INSTANTIATE(3, float)
     template Lanes<Dim> CcgSweeps<Dim>::any_boundary_displacement(const double*, BoundaryFace) const; \
     template void CcgSweeps<Dim>::set_any_displacement_gradient(std::int32_t);                        \
     template void CcgSweeps<Dim>::set_any_stress(std::int32_t);                                       \
-    template void CcgSweeps<Dim>::add_directed_stress(std::int32_t);                                  \
+    template void CcgSweeps<Dim>::add_stress_of_material(std::int32_t);                               \
+    template Matrix<Dim> CcgSweeps<Dim>::stress_beside(std::int32_t, const Matrix<Dim>&) const;       \
     template void CcgSweeps<Dim>::answer_to_corrections(std::int32_t);                                \
     template double CcgSweeps<Dim>::energy(std::ptrdiff_t) const;                                     \
     template void CcgSweeps<Dim>::load_displacement(std::span<const Vector<Dim>>);

@@ -25,14 +25,15 @@ void for_all(const std::vector<Id>& list, const Body& body) {
 template <int Dim, class Real>
 CcgSweeps<Dim, Real>::CcgSweeps(const CcgArrays<Dim>& arrays, const CcgCoefficients<Dim, Real>& coefficients,
                                 const FiniteCells<Dim>& finite, ViscousCells<Dim>* viscous, PlasticCells<Dim>* plastic,
-                                CappedJumps<Dim>* capped)
+                                CappedJumps<Dim>* capped, const ThermalCells<Dim>* thermal)
     : arrays_(arrays),
       coefficients_(coefficients),
       finite_(finite),
       kept_(arrays, finite),
       viscous_(viscous && viscous->any() ? viscous : nullptr),
       plastic_(plastic && plastic->any() ? plastic : nullptr),
-      capped_(capped && capped->any() ? capped : nullptr) {
+      capped_(capped && capped->any() ? capped : nullptr),
+      thermal_(thermal) {
     constexpr std::size_t width = lane_width<Dim>;
     u_.resize(width * arrays.cells.size());
     of_face_.resize(width * arrays.faces.size());
@@ -77,6 +78,7 @@ template <int Dim, class Real>
 void CcgSweeps<Dim, Real>::set_load(const BoundaryLoad<Dim>& load) {
     element_.tables.load_displacement = plain<double>(load.displacement);
     element_.tables.traction = plain<double>(load.traction);
+    temperature_ = load.temperature;
 }
 
 template <int Dim, class Real>
@@ -262,7 +264,7 @@ template class CcgSweeps<3>;
 #define ABUT_INSTANTIATE(Dim)                                                                                    \
     template CcgSweeps<Dim, float>::CcgSweeps(const CcgArrays<Dim>&, const CcgCoefficients<Dim, float>&,         \
                                               const FiniteCells<Dim>&, ViscousCells<Dim>*, PlasticCells<Dim>*,   \
-                                              CappedJumps<Dim>*);                                                \
+                                              CappedJumps<Dim>*, const ThermalCells<Dim>*);                      \
     template void CcgSweeps<Dim, float>::gradient(std::span<const Vector<Dim>>, const BoundaryLoad<Dim>&,        \
                                                   const FaceCorrections<Dim>&, std::span<Vector<Dim>>);          \
     template void CcgSweeps<Dim, float>::mean_gradient(const StepEnds<Dim>&, const BoundaryLoad<Dim>&,           \

@@ -19,6 +19,7 @@
 #include "abut/solid/ccg/sweep_elements.hpp"
 #include "abut/solid/ccg/sweep_lists.hpp"
 #include "abut/solid/ccg/sweep_schedule.hpp"
+#include "abut/solid/ccg/thermal_cells.hpp"
 #include "abut/solid/ccg/viscous_cells.hpp"
 
 namespace abut::solid {
@@ -46,10 +47,10 @@ namespace abut::solid {
 template <int Dim, class Real = double>
 class CcgSweeps {
 public:
-    /// All must outlive the sweeps. Without `viscous`, `plastic` or `capped` no cell is.
+    /// All must outlive the sweeps. Without `viscous`, `plastic`, `capped` or `thermal` no cell is.
     CcgSweeps(const CcgArrays<Dim>& arrays, const CcgCoefficients<Dim, Real>& coefficients, const FiniteCells<Dim>& finite,
-              ViscousCells<Dim>* viscous = nullptr, PlasticCells<Dim>* plastic = nullptr,
-              CappedJumps<Dim>* capped = nullptr);
+              ViscousCells<Dim>* viscous = nullptr, PlasticCells<Dim>* plastic = nullptr, CappedJumps<Dim>* capped = nullptr,
+              const ThermalCells<Dim>* thermal = nullptr);
     CcgSweeps(const CcgSweeps&) = delete;
     CcgSweeps& operator=(const CcgSweeps&) = delete;
 
@@ -106,6 +107,10 @@ public:
     [[nodiscard]] Matrix<Dim> stress(std::int32_t c) const;
     /// Of a cell of DirectedCells in the plane: Cauchy's stress out of it.
     [[nodiscard]] double directed_out_of_plane_stress(std::int32_t c) const;
+    /// Of any cell in the plane: what heat takes of the stress out of it.
+    [[nodiscard]] double heat_out_of_plane(std::int32_t c) const {
+        return temperature_.empty() ? 0.0 : temperature_[static_cast<std::size_t>(c)] * thermal_->out_of_plane_stress(c);
+    }
 
     /// What they work on.
     [[nodiscard]] const SweepTables<Dim, Real>& tables() const { return element_.tables; }
@@ -129,7 +134,10 @@ private:
     [[nodiscard]] Vectors any_boundary_displacement(const double* u, BoundaryFace b) const;
     void set_any_displacement_gradient(std::int32_t c);
     void set_any_stress(std::int32_t c);
-    void add_directed_stress(std::int32_t c);
+    void add_stress_of_material(std::int32_t c);
+    [[nodiscard]] Matrix<Dim> stress_beside(std::int32_t c, const Matrix<Dim>& g) const;
+    /// Whether a cell may have a stress beside lambda and mu of its strain.
+    [[nodiscard]] bool has_stress_beside() const { return arrays_.directed.any() || !temperature_.empty(); }
     void answer_to_corrections(std::int32_t c);
 
     // One element of a finite body
@@ -228,6 +236,8 @@ private:
     ViscousCells<Dim>* viscous_;
     PlasticCells<Dim>* plastic_;
     CappedJumps<Dim>* capped_;
+    const ThermalCells<Dim>* thermal_;
+    std::vector<double> temperature_;       // BoundaryLoad::temperature of the last call
     bool steps_ = false;                    // while the sweeps make a step of theirs
     bool follows_ = false;                  // that step begins where the last one ended
     bool last_ended_ = false;               // u_end_ is where a step has ended

@@ -70,6 +70,11 @@ struct Material {
     /// simplices and 0.3 elsewhere, none in finite bodies that contact may push.
     double jump_cap = 0.0;
 
+    // Of small and floating bodies whose temperature is given (SolidOptions::temperature_rise).
+    double thermal_expansion = 0.0;    ///< alpha [1/K]; of MaterialLaw::orthotropic along axis 1
+    double thermal_expansion_2 = 0.0;  ///< of MaterialLaw::orthotropic along axis 2 [1/K]
+    double thermal_expansion_3 = 0.0;  ///< the same along axis 3, in 2D out of the plane
+
     // Of bodies that deform, with schemes that take mean forces.
     double mass_damping = 0.0;         ///< Rayleigh's alpha: a force alpha M v against the motion [1/s], >= 0
     double stiffness_damping = 0.0;    ///< Rayleigh's beta: a stress beta C : (rate of strain) [s], >= 0
@@ -95,6 +100,9 @@ struct Material {
     /// E [Pa]; of MaterialLaw::orthotropic that of its mean lambda and mu.
     [[nodiscard]] double mean_young() const {
         return is_isotropic() ? young : mu() * (3.0 * lambda() + 2.0 * mu()) / (lambda() + mu());
+    }
+    [[nodiscard]] bool expands() const {
+        return thermal_expansion != 0.0 || thermal_expansion_2 != 0.0 || thermal_expansion_3 != 0.0;
     }
     [[nodiscard]] bool is_isotropic() const { return law != MaterialLaw::orthotropic; }
     /// Shear over normal stiffness of half a cell, mu / (lambda + 2 mu) [-].

@@ -113,6 +113,13 @@ double largest_wave_modulus(const Material& material) {
     return std::max(stiffness.diagonal().head<3>().maxCoeff(), 0.5 * stiffness.diagonal().tail<3>().maxCoeff());
 }
 
+Matrix<3> thermal_strain(const Material& material) {
+    if (material.is_isotropic()) return material.thermal_expansion * Matrix<3>::Identity();
+    const Vector<3> along(material.thermal_expansion, material.thermal_expansion_2, material.thermal_expansion_3);
+    const Matrix<3> axes = axes_of(material);
+    return axes * along.asDiagonal() * axes.transpose();
+}
+
 void check_orthotropic(const Material& material, int body) {
     for (const auto& [name, value] : {std::pair{"young_2", material.young_2}, std::pair{"young_3", material.young_3},
                                       std::pair{"shear_12", material.shear_12}, std::pair{"shear_13", material.shear_13},

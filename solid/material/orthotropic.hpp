@@ -15,6 +15,8 @@ struct Lame {
 [[nodiscard]] Lame mean_moduli(const Material& material);
 /// Of MaterialLaw::orthotropic: the largest modulus of a plane wave along one of the axes of the material [Pa].
 [[nodiscard]] double largest_wave_modulus(const Material& material);
+/// Thermal strain per kelvin of any material, in the axes of space [1/K].
+[[nodiscard]] Matrix<3> thermal_strain(const Material& material);
 /// Throws BadInput naming the body where constants of MaterialLaw::orthotropic have no positive energy, or axes are not at right angles.
 void check_orthotropic(const Material& material, int body);
 
