@@ -7,6 +7,7 @@
 #include "abut/base/error.hpp"
 #include "abut/mesh/part.hpp"
 #include "abut/mesh/shapes/shapes.hpp"
+#include "abut/mesh/without_cells.hpp"
 
 using namespace abut;
 using namespace abut::mesh;
@@ -128,4 +129,55 @@ TEST_CASE("parts of unusable input are refused", "[mesh][part]") {
     soup.body_names = {"body"};
     const Mesh<2> mixed = build_mesh<2>(soup);
     CHECK_THROWS_AS(part_of<2>(mixed, std::vector<int>{0, 1}, 0), BadInput);
+}
+
+TEMPLATE_TEST_CASE_SIG("a mesh without some cells has the others, and closes where they were", "[mesh][part]",
+                       ((int Dim), Dim), 2, 3) {
+    const Mesh<Dim> whole = two_boxes<Dim>();
+    const std::vector<std::int32_t> gone{whole.n_cells() - 1, 7, 0};
+    const auto [mesh, old_cells] = without_cells<Dim>(whole, gone);
+    REQUIRE(mesh.n_cells() == whole.n_cells() - 3);
+    CHECK(mesh.body_names == whole.body_names);
+    double volume = 0.0, lost = 0.0;
+    for (std::int32_t c = 0; c < mesh.n_cells(); ++c) {
+        const std::int32_t old = old_cells[static_cast<std::size_t>(c)];
+        CHECK(std::ranges::find(gone, old) == gone.end());
+        CHECK(mesh.cell_label[c] == whole.cell_label[old]);
+        CHECK(mesh.cell_centroid[c] == whole.cell_centroid[old]);
+        volume += mesh.cell_measure[c];
+        for (std::size_t k = 0; k < mesh.cell_vertices[c].size(); ++k)
+            CHECK(mesh.vertices[mesh.cell_vertices[c][k]] == whole.vertices[whole.cell_vertices[old][k]]);
+    }
+    for (const std::int32_t c : gone) lost += whole.cell_measure[c];
+    double before = 0.0;
+    for (const double measure : whole.cell_measure) before += measure;
+    CHECK(volume + lost == Approx(before).epsilon(1e-13));
+    // By Gauss, of the surface alone: the volume, and area vectors that sum to zero.
+    double enclosed = 0.0;
+    Vector<Dim> sum = Vector<Dim>::Zero();
+    std::size_t in_groups = 0, known = 0;
+    for (const std::int32_t f : mesh.boundary_faces) {
+        const Vector<Dim> area = mesh.face_measure[f] * mesh.face_normal[f];
+        enclosed += mesh.face_centroid[f].dot(area) / Dim;
+        sum += area;
+    }
+    CHECK(enclosed == Approx(volume).epsilon(1e-12));
+    CHECK(sum.norm() < 1e-12);
+    // Groups have lost the faces of these cells, and have got none.
+    for (const BoundaryGroup& group : mesh.groups) in_groups += group.faces.size();
+    for (const BoundaryGroup& group : whole.groups)
+        for (const std::int32_t f : group.faces)
+            known += std::ranges::find(gone, whole.face_cells[f][0]) == gone.end() ? 1 : 0;
+    CHECK(in_groups == known);
+    CHECK(mesh.groups.size() == whole.groups.size());
+}
+
+TEST_CASE("cells that cannot be taken out are refused", "[mesh][part]") {
+    const Mesh<2> mesh = two_boxes<2>();
+    CHECK_THROWS_WITH(without_cells<2>(mesh, std::vector{mesh.n_cells()}), Catch::Contains("does not exist"));
+    CHECK_THROWS_WITH(without_cells<2>(mesh, std::vector{3, 3}), Catch::Contains("given twice"));
+    std::vector<std::int32_t> body;
+    for (std::int32_t c = 0; c < mesh.n_cells(); ++c)
+        if (mesh.cell_body[c] == 0) body.push_back(c);
+    CHECK_THROWS_WITH(without_cells<2>(mesh, body), Catch::Contains("all cells of body 'low'"));
 }
