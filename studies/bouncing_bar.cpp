@@ -9,11 +9,12 @@
 
 #include <array>
 #include <cmath>
+#include <type_traits>
 
 #include "abut/base/error.hpp"
+#include "abut/dynamics/remedies.hpp"
 #include "abut/run/options.hpp"
 #include "apps/support/comparison.hpp"
-#include "studies/cases/remedies.hpp"
 #include "studies/program/entry.hpp"
 #include "studies/scenes/bar_host.hpp"
 #include "studies/scenes/bars.hpp"
@@ -218,10 +219,12 @@ void check(const BounceOptions& options) {
 apps::SchemeRun run_scheme(apps::Scheme scheme, const BounceOptions& options, const apps::Start& start,
                            const apps::Schedule& schedule) {
     BarHost bar({.gap = height, .gravity = options.gravity}, options.cells, options.patch);
-    Remedies remedies(bar, options.filter, options.restart);
+    dynamics::Remedies remedies(bar, options.filter, options.restart);
     Impacts impacts(options.gravity);
-    apps::SchemeRun run = apps::follow(scheme, bar, start, options.schemes, schedule, impacts,
-                                       [&](auto& integrator) { remedies.prepare(integrator); });
+    apps::SchemeRun run = apps::follow(scheme, bar, start, options.schemes, schedule, impacts, [&](auto& integrator) {
+        using Integrator = std::remove_reference_t<decltype(integrator)>;
+        if constexpr (Integrator::takes_node_restart) remedies.prepare(integrator);
+    });
     const auto& [restarts, shortened, skipped, paid] = remedies.report();
     if (restarts > 0)
         run.findings.insert(run.findings.end(), {{"restarts", "neutral restarts", restarts},

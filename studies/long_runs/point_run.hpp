@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "abut/dynamics/memm.hpp"
-#include "studies/cases/remedies.hpp"
+#include "abut/dynamics/remedies.hpp"
 #include "studies/long_runs/outcome.hpp"
 
 namespace abut::studies::long_runs {
@@ -24,7 +24,7 @@ template <class Host>
 Outcome run_points(Host& host, const PointStart& start, const Remedy& remedy, std::int64_t steps) {
     constexpr int Dim = Host::dimension;
     dynamics::Memm memm(host, start.q, start.p, start.dt);
-    Remedies remedies(host, remedy.filter, remedy.restart);
+    dynamics::Remedies remedies(host, remedy.filter, remedy.restart);
     remedies.prepare(memm);
 
     const ProcessorTime time;

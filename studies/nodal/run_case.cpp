@@ -5,12 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <type_traits>
 
 #include "abut/base/error.hpp"
 #include "abut/base/stopwatch.hpp"
 #include "abut/dynamics/leapfrog.hpp"
 #include "abut/dynamics/memm.hpp"
-#include "studies/cases/remedies.hpp"
+#include "abut/dynamics/remedies.hpp"
 #include "studies/nodal/case_files.hpp"
 
 namespace abut::studies::nodal {
@@ -142,8 +143,8 @@ CaseResult<Dim> run_case(const Case<Dim>& one, const std::filesystem::path& fold
                         edges->edge_1.body, edges->edge_2.body, -edges->facing());
     Account<Dim> account(one, folder, bodies, steps, records);
     const auto run = [&](auto& scheme) {
-        Remedies remedies(bodies, options.filter, options.restart);
-        remedies.prepare(scheme);
+        dynamics::Remedies remedies(bodies, options.filter, options.restart);
+        if constexpr (std::remove_cvref_t<decltype(scheme)>::takes_node_restart) remedies.prepare(scheme);
         follow<Dim>(scheme, account, steps, watch, figures);
         result.velocity = velocities<Dim>(scheme, bodies);
     };
