@@ -13,8 +13,7 @@
 #include "abut/base/stopwatch.hpp"
 #include "abut/base/throw_again.hpp"
 #include "abut/contact/nodal_contact.hpp"
-#include "abut/dynamics/filter.hpp"
-#include "abut/dynamics/neutral_restart.hpp"
+#include "abut/dynamics/remedies.hpp"
 #include "abut/dynamics/with_scheme.hpp"
 #include "abut/run/divergence.hpp"
 #include "abut/run/frame_piece.hpp"
@@ -29,6 +28,7 @@
 #include "abut/run/surface_watch.hpp"
 #include "abut/run/wanted.hpp"
 #include "abut/run/whole_run.hpp"
+#include "abut/solid/change.hpp"
 
 namespace abut::run {
 namespace {
@@ -55,7 +55,7 @@ public:
           solid_(*start.solid),
           result_(start.result),
           whole_(start),
-          filter_(solid_),
+          remedies_(solid_, options_.filter, options_.restart),
           obstacle_watch_(scene_),
           self_watch_(scene_, whole_.seen()),
           make_(std::move(make)),
@@ -63,8 +63,7 @@ public:
           times_of_setup_(solid_.times()),
           balance_(start.first_share.again ? options_.rebalance : 0, options_.rebalance_above),
           watch_(start.scene) {
-        set_filter();
-        make_restart({.period = options_.restart, .report_before = {}});
+        remedies_.prepare(*integrator_);
     }
 
     void run(const Checkpoint* from) {
@@ -171,28 +170,19 @@ private:
         const std::vector<std::int32_t> before(ranks.numbers().begin(), ranks.numbers().end());
         {
             const Stopwatch watch(seconds);
-            const dynamics::IntegratorState motion = gathered<Dim>(ranks, integrator_->state());
-            const dynamics::IntegratorState sound = gathered<Dim>(ranks, sound_.state());
-            const std::vector<std::byte> memory = solid_.state();
+            const solid::RunState state = solid::run_state(solid_, *integrator_);
+            const dynamics::IntegratorState sound = dynamics::gathered<Dim>(ranks, sound_.state());
             times_before_ = added(times_before_, solid_.times(), times_of_setup_);
             start_.take_part(start_.first_share.again(weights));
             integrator_.emplace(make_(start_));
-            go_on_from(motion, memory);
-            set_filter();
-            if (restart_)
-                make_restart(
-                    {.period = options_.restart, .steps_before = integrator_->steps(), .report_before = restart_->report()});
-            sound_.replace(own_of<Dim>(solid_.ranks(), sound));
+            solid::go_on_from(state, solid_, *integrator_);
+            remedies_.go_on_from(integrator_->steps(), remedies_.report());
+            remedies_.prepare(*integrator_);
+            sound_.replace(dynamics::own_of<Dim>(solid_.ranks(), sound));
             times_of_setup_ = solid_.times();
             own_seconds_before_ = times_of_setup_.own_cells;
         }
         balance_.shared_out(integrator_->steps(), before, solid_.ranks(), seconds);
-    }
-
-    /// From a state of the whole.
-    void go_on_from(const dynamics::IntegratorState& motion, std::span<const std::byte> memory) {
-        dynamics::agreed(solid_.ranks(), [&] { integrator_->restore(own_of<Dim>(solid_.ranks(), motion)); });
-        solid_.restore(memory, integrator_->q());
     }
 
     void begin() {
@@ -215,7 +205,7 @@ private:
                               .motion = whole_.of(integrator_->state()),
                               .solid = solid_.state(),
                               .ledger = {},
-                              .restarts = restart_ ? restart_->report() : dynamics::RestartReport{},
+                              .restarts = remedies_.report(),
                               .inadmissible_overlaps_max = result_.inadmissible_overlaps_max,
                               .looks = {},
                               .observers = {}};
@@ -244,8 +234,8 @@ private:
                 "the run is to end at step {}, t = {:.6g} s, and the checkpoint is of step {}, t = {:.6g} s. "
                 "Give a later end.",
                 result_.steps, static_cast<double>(result_.steps) * result_.dt, from.motion.steps, from.motion.time));
-        go_on_from(from.motion, from.solid);
-        make_restart({.period = options_.restart, .steps_before = integrator_->steps(), .report_before = from.restarts});
+        solid::go_on_from({from.motion, from.solid}, solid_, *integrator_);
+        remedies_.go_on_from(integrator_->steps(), from.restarts);
         const std::size_t n = dynamics::ledger_columns<Dim>().size();
         for (std::span<const double> left(from.ledger); !left.empty(); left = left.subspan(n))
             result_.ledger.record(dynamics::ledger_entry<Dim>(left.first(std::min(n, left.size()))));
@@ -265,22 +255,6 @@ private:
             observer_.resume(scene_, result_, state);
             state.finish();
         });
-    }
-
-    void set_filter() {
-        if constexpr (Integrator::takes_after_step)
-            if (options_.filter)
-                integrator_->set_after_step(
-                    [this](auto q, double dt, auto before, auto after) { filter_(q, dt, before, after); });
-    }
-
-    void make_restart(const dynamics::RestartOptions& options) {
-        if constexpr (Integrator::takes_node_restart) {
-            if (options.period == 0) return;
-            restart_.emplace(solid_, options);
-            integrator_->set_node_restart(
-                [this](auto q, double dt, auto before, auto after) { (*restart_)(q, dt, before, after); });
-        }
     }
 
     /// Where a step has no end.
@@ -310,8 +284,7 @@ private:
         const double excess_before = result_.ledger.energy_excess();
         {
             const Stopwatch watch(result_.seconds.ledger);
-            result_.ledger.record(
-                dynamics::measure(*integrator_, solid_, restart_ ? restart_->report() : dynamics::RestartReport{}));
+            result_.ledger.record(dynamics::measure(*integrator_, solid_, remedies_.report()));
             const dynamics::RunView<Dim> now(*integrator_);
             result_.accounts.record(result_.ledger.entries().back(), largest_speed(now, solid_),
                                     momentum_from_outside(integrator_->time(), scene_.mesh.n_bodies(), solid_));
@@ -372,8 +345,7 @@ private:
     solid::Solid<Dim>& solid_;  // Start::solid, which may change its part
     RunResult<Dim>& result_;
     WholeRun<Dim> whole_;
-    dynamics::NeutralFilter<solid::Solid<Dim>> filter_;
-    std::optional<dynamics::NeutralRestart<solid::Solid<Dim>>> restart_;
+    dynamics::Remedies<solid::Solid<Dim>> remedies_;
     ObstacleWatch<Dim> obstacle_watch_;
     SelfWatch<Dim> self_watch_;
     std::function<Integrator(Start<Dim>&)> make_;

@@ -90,6 +90,9 @@ public:
 
     void save(StateWriter& state) const;
     void restore(StateReader& state);
+    /// `old_boundary`: of each boundary face of the mesh its index in that of `before`, -1: it was not there. Throws BadInput for a
+    /// bond that `before` does not have.
+    void take_over(const Bonds& before, std::span<const std::int32_t> old_boundary);
 
 private:
     struct BondedFace {

@@ -61,6 +61,9 @@ public:
 
     void save(StateWriter& state) const;  ///< between two steps
     void restore(StateReader& state);
+    /// As `before` ended at `time`: of each boundary face its old index is given, -1 for one that was not there, which has what its
+    /// conditions give then.
+    void take_over(const Loads& before, std::span<const std::int32_t> old_boundary, double time);
 
 private:
     const mesh::Mesh<Dim>& mesh_;

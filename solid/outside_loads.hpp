@@ -58,6 +58,8 @@ public:
 
     void save(StateWriter& state) const;  ///< between two steps
     void restore(StateReader& state);
+    /// `old_faces`: of each face of the mesh its number in that of `before`.
+    void take_over(const OutsideLoads& before, std::span<const std::int32_t> old_faces);
 
 private:
     [[nodiscard]] std::vector<Vector<Dim>> displacement_under(const Group& group, std::span<const Vector<Dim>> q,

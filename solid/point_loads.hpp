@@ -51,6 +51,8 @@ public:
 
     void save(StateWriter& state) const;  ///< between two steps
     void restore(StateReader& state);
+    /// Throws BadInput where `before` has other springs or moments.
+    void take_over(const PointLoads& before);
     /// Where the tractions of a condition act, one place per face of its group, with numbers of points of the system; empty
     /// where the bodies do not turn.
     [[nodiscard]] std::vector<HeldPlace<Dim>> traction_places(std::size_t condition) const;

@@ -38,6 +38,7 @@ public:
     void end_step() override;
     [[nodiscard]] std::vector<std::byte> state() const override;
     void restore(std::span<const std::byte> state, std::span<const Vector<Dim>> q, double time) override;
+    void take_over(const ContactDriver<Dim>& before, std::span<const std::int32_t> old_boundary) override;
 
     // Contact on that path
 

@@ -33,6 +33,7 @@ class NodalContact;
 
 namespace abut::dynamics {
 struct ContactCounts;
+struct IntegratorState;
 template <int Dim>
 struct ContactPatch;
 }  // namespace abut::dynamics
@@ -47,6 +48,8 @@ struct OwnCells {
 
 template <int Dim>
 class Bodies;
+template <int Dim>
+struct Change;
 struct BondChange;
 template <int Dim>
 struct BondPlace;
@@ -71,7 +74,13 @@ class PointLoads;
 template <int Dim>
 class RankPart;
 template <int Dim>
+class Solid;
+template <int Dim>
 class TrapezoidClosure;
+
+template <int Dim>
+[[nodiscard]] Change<Dim> change(Solid<Dim>& before, const dynamics::IntegratorState& motion, Solid<Dim>& after,
+                                 std::span<const std::int32_t> old_cells);
 
 /// Deformable bodies on one mesh, in contact with each other and with rigid obstacles: a System. With contact or with loads
 /// that vary it is for one run, beginning at t = 0: loads, work and contacts go on from one `mean_force` to the next.
@@ -179,6 +188,9 @@ public:
     /// A run begins in the present state: time, work and all counts are 0 from here on, while loads, dashpots, pairs and faces
     /// remember what they do. For loads and obstacles whose paths are the same at all times.
     void begin_run();
+    /// Goes on with a solid of another mesh, which has fewer cells or other numbers. change.hpp.
+    friend Change<Dim> change<Dim>(Solid<Dim>& before, const dynamics::IntegratorState& motion, Solid<Dim>& after,
+                                   std::span<const std::int32_t> old_cells);
 
     /// Largest |g|/D of a pair in contact, in the last step or in the state that was evaluated since; 0 without contact [-].
     [[nodiscard]] double compression() const;
@@ -323,6 +335,11 @@ private:
     void save_memory(StateWriter& state) const;
     void restore_memory(StateReader& state);
     void refuse_memory(const char* why) const;
+    [[nodiscard]] dynamics::IntegratorState take_over(const Solid& before, const dynamics::IntegratorState& motion,
+                                                      std::span<const std::int32_t> old_cells);
+    void check_old_cells(const Solid& before, std::span<const std::int32_t> old_cells) const;
+    [[nodiscard]] dynamics::IntegratorState motion_of(const Solid& before, const dynamics::IntegratorState& motion,
+                                                      std::span<const std::int32_t> old_cells) const;
     [[nodiscard]] StepEnds<Dim> step_ends(const Ends& ends, const BoundaryLoad<Dim>& start_load, double dt);
     void add_drag(const Ends& ends, double dt, std::span<Vector<Dim>> force);
     void add_contact_impulse(const dynamics::FreeFlight& flight, double time, double dt, std::span<Vector<Dim>> impulse);

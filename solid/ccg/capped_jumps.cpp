@@ -180,6 +180,13 @@ std::int32_t CappedJumps<Dim>::memory_size(std::ptrdiff_t cell) const {
 }
 
 template <int Dim>
+Vector<Dim> CappedJumps<Dim>::lasting_on(std::ptrdiff_t cell, std::int32_t face) const {
+    for (std::int32_t i = arrays_.half_face_offsets[cell]; i < arrays_.half_face_offsets[cell + 1]; ++i)
+        if (arrays_.half_faces[i].face == face) return lasting(i);
+    return Vector<Dim>::Zero();
+}
+
+template <int Dim>
 void CappedJumps<Dim>::put_memory(std::ptrdiff_t cell, std::vector<double>& values) const {
     if (!contains(cell)) return;
     for (std::int32_t i = arrays_.half_face_offsets[cell]; i < arrays_.half_face_offsets[cell + 1]; ++i)

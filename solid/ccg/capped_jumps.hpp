@@ -38,6 +38,9 @@ public:
         return memory_[static_cast<std::size_t>(half_face)];
     }
 
+    /// Of a face of a cell; 0 where it has none of that number.
+    [[nodiscard]] Vector<Dim> lasting_on(std::ptrdiff_t cell, std::int32_t face) const;
+
     /// Nothing is dissipated in this step so far.
     void begin(std::ptrdiff_t cell) { loss_[static_cast<std::size_t>(cell)] = 0.0; }
     /// Whether a half-face can yield at all.

@@ -437,6 +437,46 @@ void Ccg<Dim>::set_memory(std::span<const double> values) {
 }
 
 template <int Dim>
+void Ccg<Dim>::take_memory(const Ccg& before, std::span<const std::int32_t> old_cells,
+                           std::span<const std::int32_t> old_faces) {
+    const Impl& from = *before.impl_;
+    std::vector<double> of_laws(impl_->sweeps.memory().begin(), impl_->sweeps.memory().end()), values;
+    for (std::int32_t c = 0; c < n_cells(); ++c) {
+        const std::int32_t old = old_cells[static_cast<std::size_t>(c)];
+        const std::int32_t inelastic = impl_->finite.inelastic(c), old_inelastic = from.finite.inelastic(old);
+        if (impl_->viscous.contains(c) != from.viscous.contains(old) ||
+            impl_->plastic.contains(c) != from.plastic.contains(old) ||
+            impl_->capped.contains(c) != from.capped.contains(old) || (inelastic < 0) != (old_inelastic < 0))
+            throw BadInput("cell " + std::to_string(c) +
+                               ", counted from 0 among those of bodies that deform, is of a "
+                               "material that remembers other things than before. Keep the laws of materials.",
+                           {.cell = c});
+        if (inelastic >= 0) {
+            const auto &cell = impl_->finite.inelastic_cell(inelastic),
+                       &old_cell = from.finite.inelastic_cell(old_inelastic);
+            const std::ptrdiff_t size = std::min(cell.end - cell.begin, old_cell.end - old_cell.begin);
+            std::copy_n(from.sweeps.memory().begin() + old_cell.begin, size, of_laws.begin() + cell.begin);
+        }
+        const auto take = [&](const auto& old_cells_of, auto& cells) {
+            if (!cells.contains(c)) return;
+            values.clear();
+            old_cells_of.put_memory(old, values);
+            cells.set_memory(c, values);
+        };
+        take(from.viscous, impl_->viscous);
+        take(from.plastic, impl_->plastic);
+        if (!impl_->capped.contains(c)) continue;
+        values.clear();
+        for (const HalfFace& half_face : impl_->arrays.half_faces_of(c)) {
+            const Vector<Dim> lasting = from.capped.lasting_on(old, old_faces[static_cast<std::size_t>(half_face.face)]);
+            values.insert(values.end(), lasting.begin(), lasting.end());
+        }
+        impl_->capped.set_memory(c, values);
+    }
+    if (impl_->finite.any_inelastic()) impl_->sweeps.set_memory(of_laws);
+}
+
+template <int Dim>
 Vector<Dim> Ccg<Dim>::boundary_gradient(BoundaryFace face) const {
     return impl_->steps_were_last ? impl_->steps->face_gradient(face) : impl_->sweeps.face_gradient(face);
 }

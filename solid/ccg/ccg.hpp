@@ -195,6 +195,9 @@ public:
     [[nodiscard]] std::vector<double> memory() const;
     /// The other way round; states are looked at anew.
     void set_memory(std::span<const double> values);
+    /// What the cells of `before` remember, by their old numbers and those of their faces (n_cells, n_faces). Throws BadInput where the
+    /// materials remember other things.
+    void take_memory(const Ccg& before, std::span<const std::int32_t> old_cells, std::span<const std::int32_t> old_faces);
 
     /// dV/dû_f of a boundary face [N], tractions and pairs included, after the last call of `gradient` or its like;
     /// `evaluate_cells` since then has set those of its region, in double precision.

@@ -83,6 +83,13 @@ public:
     /// Between two steps; `part`: of whose ranks each brings what it constrains.
     void save(StateWriter& state, const RankPart<Dim>& part) const;
     void restore(StateReader& state);
+    /// Of the same bodies, whose points may be others.
+    void take_over(const RigidBodies& before);
+    /// Displacements and momenta of its points from those of `before` (n_points of each).
+    void take_points(std::size_t body, const RigidBodies& before, std::span<const Vector<Dim>> old_q,
+                     std::span<Vector<Dim>> q) const;
+    void take_momenta(std::size_t body, const RigidBodies& before, std::span<const Vector<Dim>> old_p,
+                      std::span<Vector<Dim>> p) const;
 
 private:
     struct Body {

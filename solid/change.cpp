@@ -1,0 +1,53 @@
+#include "abut/solid/change.hpp"
+
+#include <utility>
+
+#include "abut/base/error.hpp"
+#include "abut/dynamics/mass.hpp"
+#include "abut/solid/solid.hpp"
+
+namespace abut::solid {
+namespace {
+
+template <int Dim>
+double mass_of(const Solid<Dim>& solid) {
+    double mass = 0.0;
+    for (const double of_point : solid.masses()) mass += of_point;
+    return mass;
+}
+
+template <int Dim>
+Vector<Dim> momentum_of(const dynamics::IntegratorState& motion) {
+    Vector<Dim> momentum = Vector<Dim>::Zero();
+    for (const auto* p : {&motion.p_before, &motion.p_after})
+        for (const Vector<Dim>& of_point : as_vectors<Dim>(std::span<const double>(*p))) momentum += 0.5 * of_point;
+    return momentum;
+}
+
+template <int Dim>
+double kinetic_of(const Solid<Dim>& solid, const dynamics::IntegratorState& motion) {
+    return 0.5 * dynamics::mass_product(motion.p_before, solid.inverse_mass(), motion.p_after);
+}
+
+}  // namespace
+
+template <int Dim>
+Change<Dim> change(Solid<Dim>& before, const dynamics::IntegratorState& motion, Solid<Dim>& after,
+                   std::span<const std::int32_t> old_cells) {
+    for (const Solid<Dim>* solid : {&before, &after}) dynamics::refuse_ranks(solid->ranks(), {{"a change of the mesh"}});
+    Change<Dim> changed;
+    dynamics::IntegratorState& now = changed.state.motion = after.take_over(before, motion, old_cells);
+    changed.state.solid = after.state();
+    after.restore(changed.state.solid, now.q);
+    changed.left = {.cells = before.mesh().n_cells() - after.mesh().n_cells(),
+                    .mass = mass_of(before) - mass_of(after),
+                    .momentum = momentum_of<Dim>(motion) - momentum_of<Dim>(now),
+                    .kinetic = kinetic_of(before, motion) - kinetic_of(after, now),
+                    .potential = before.potential(motion.q) - after.potential(now.q)};
+    return changed;
+}
+
+template Change<2> change<2>(Solid<2>&, const dynamics::IntegratorState&, Solid<2>&, std::span<const std::int32_t>);
+template Change<3> change<3>(Solid<3>&, const dynamics::IntegratorState&, Solid<3>&, std::span<const std::int32_t>);
+
+}  // namespace abut::solid

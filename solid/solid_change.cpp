@@ -1,0 +1,336 @@
+// What a solid takes over from that of another mesh: by old numbers of cells and faces.
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "abut/base/error.hpp"
+#include "abut/dynamics/integrator.hpp"
+#include "abut/solid/bodies.hpp"
+#include "abut/solid/body_cells.hpp"
+#include "abut/solid/bonds.hpp"
+#include "abut/solid/frame_loads.hpp"
+#include "abut/solid/loads.hpp"
+#include "abut/solid/old_numbers.hpp"
+#include "abut/solid/outside_loads.hpp"
+#include "abut/solid/pair_potential_driver.hpp"
+#include "abut/solid/point_loads.hpp"
+#include "abut/solid/rank_part.hpp"
+#include "abut/solid/reconstruction_driver.hpp"
+#include "abut/solid/solid.hpp"
+
+namespace abut::solid {
+namespace {
+
+constexpr std::int32_t was_not_there = -1;
+
+[[noreturn]] void refuse(const std::string& mesh, const std::string& what) { throw BadInput(mesh + ": " + what); }
+
+template <int Dim>
+std::string body_in_words(const mesh::Mesh<Dim>& mesh, std::int32_t body) {
+    return "body '" + mesh.body_names[static_cast<std::size_t>(body)] + "'";
+}
+
+template <int Dim>
+void check_bodies(const mesh::Mesh<Dim>& before, const mesh::Mesh<Dim>& after) {
+    if (before.body_names != after.body_names)
+        refuse(after.name, "its bodies are not those of the mesh before, " + before.name +
+                               ". Give the same bodies in the same order; pieces of a body stay one body.");
+}
+
+template <int Dim>
+std::int32_t size_of_body(const mesh::Mesh<Dim>& mesh, std::int32_t body) {
+    const auto [first, last] = cells_of_body(mesh, body);
+    return last - first;
+}
+
+/// Old numbers of the cells of the bodies that deform, among themselves.
+template <int Dim>
+std::vector<std::int32_t> old_deformable_cells(const Bodies<Dim>& before, const Bodies<Dim>& after,
+                                               std::span<const std::int32_t> old_cells) {
+    std::vector<std::int32_t> old;
+    for (std::int32_t cell = 0; cell < after.n_cells(); ++cell)
+        old.push_back(before.deformable_cell(old_cells[static_cast<std::size_t>(after.mesh_cell(cell))]).first);
+    return old;
+}
+
+/// Old number of each face of contact: obstacles are behind the faces of bodies, and stay.
+template <int Dim>
+std::vector<std::int32_t> old_contact_faces(const ContactDriver<Dim>& before, std::int32_t n_before,
+                                            const ContactDriver<Dim>& after, std::int32_t n_after,
+                                            std::span<const std::int32_t> old_boundary) {
+    std::vector<std::int32_t> of_boundary;  // face of contact before
+    std::int32_t obstacles_before = 0;
+    for (std::int32_t face = 0; face < n_before; ++face) {
+        const BoundaryFace b = before.mesh_boundary(contact::Face{face});
+        if (b == no_face) continue;
+        obstacles_before = face + 1;
+        of_boundary.resize(std::max(of_boundary.size(), static_cast<std::size_t>(b) + 1), was_not_there);
+        of_boundary[static_cast<std::size_t>(b)] = face;
+    }
+    std::vector<std::int32_t> old;
+    std::int32_t obstacle = obstacles_before;
+    for (std::int32_t face = 0; face < n_after; ++face) {
+        const BoundaryFace b = after.mesh_boundary(contact::Face{face});
+        if (b == no_face) {
+            old.push_back(obstacle++);
+            continue;
+        }
+        const std::int32_t was = old_boundary[static_cast<std::size_t>(b)];
+        old.push_back(was < 0 ? was_not_there : of_boundary[static_cast<std::size_t>(was)]);
+    }
+    if (obstacle != n_before)
+        throw BadInput("a run goes on with other obstacles: they have " + std::to_string(obstacle - obstacles_before) +
+                       " faces, and had " + std::to_string(n_before - obstacles_before) + ". Keep obstacles as they are.");
+    return old;
+}
+
+}  // namespace
+
+template <int Dim>
+void Solid<Dim>::check_old_cells(const Solid& before, std::span<const std::int32_t> old_cells) const {
+    if (std::ssize(old_cells) != mesh_.n_cells())
+        throw BadInput(mesh_.name + ": old numbers of " + std::to_string(old_cells.size()) + " cells are given for " +
+                           std::to_string(mesh_.n_cells()) + " cells. Give one per cell.",
+                       {.value = static_cast<double>(old_cells.size()), .allowed = static_cast<double>(mesh_.n_cells())});
+    std::vector<char> is_taken(before.mesh_.cell_measure.size(), 0);
+    for (std::int32_t cell = 0; cell < mesh_.n_cells(); ++cell) {
+        const std::int32_t old = old_cells[static_cast<std::size_t>(cell)];
+        const std::string who =
+            mesh_.name + ": cell " + std::to_string(mesh_.cell_label[static_cast<std::size_t>(cell)]) + " ";
+        if (old < 0 || old >= before.mesh_.n_cells())
+            throw BadInput(who + "is said to have been cell " + std::to_string(old) + ", counted from 0, of " +
+                               std::to_string(before.mesh_.n_cells()) +
+                               ". New cells are not made: a run goes on with cells that it had.",
+                           {.cell = cell});
+        if (std::exchange(is_taken[static_cast<std::size_t>(old)], 1) != 0)
+            throw BadInput(who + "is said to have been cell " + std::to_string(old) +
+                               ", counted from 0, as another cell is. Give each number once.",
+                           {.cell = cell});
+        const std::int32_t body = mesh_.cell_body[static_cast<std::size_t>(cell)];
+        if (before.mesh_.cell_body[static_cast<std::size_t>(old)] != body)
+            throw BadInput(who + "of " + body_in_words(mesh_, body) + " was a cell of " +
+                               body_in_words(before.mesh_, before.mesh_.cell_body[static_cast<std::size_t>(old)]) +
+                               ". Cells stay in their bodies; pieces of a body stay one body.",
+                           {.cell = cell});
+    }
+    for (std::int32_t body = 0; body < mesh_.n_bodies(); ++body) {
+        if (bodies_->is_rigid(body) != before.bodies_->is_rigid(body) ||
+            bodies_->is_finite(body) != before.bodies_->is_finite(body) ||
+            bodies_->turns(body) != before.bodies_->turns(body))
+            refuse(mesh_.name, body_in_words(mesh_, body) + " is of other kinematics than before. Keep them.");
+        const std::int32_t n_before = size_of_body(before.mesh_, body), n_now = size_of_body(mesh_, body);
+        if (bodies_->is_rigid(body) && n_now != n_before)
+            refuse(mesh_.name, body_in_words(mesh_, body) + " is rigid and has lost " + std::to_string(n_before - n_now) +
+                                   " cells, which is not made. Let it deform (Kinematics::small, ::floating or ::finite).");
+    }
+}
+
+/// Displacements and momenta in the numbers of this solid. Of bodies that keep all their cells, and of those whose points are the
+/// centroids, they are the same.
+template <int Dim>
+dynamics::IntegratorState Solid<Dim>::motion_of(const Solid& before, const dynamics::IntegratorState& motion,
+                                                std::span<const std::int32_t> old_cells) const {
+    dynamics::IntegratorState now = motion;
+    const std::vector<std::int32_t> old_points = old_deformable_cells(*before.bodies_, *bodies_, old_cells);
+    const auto taken = [&](const std::vector<double>& from, std::vector<double>& to, const auto& of_cells,
+                           const auto& of_points, const auto& take_rigid) {
+        to.assign(size(), 0.0);
+        const auto old = as_vectors<Dim>(std::span<const double>(from));
+        const auto values = as_vectors<Dim>(std::span<double>(to));
+        for (std::size_t i = 0; i < old_points.size(); ++i) values[i] = old[static_cast<std::size_t>(old_points[i])];
+        for (std::size_t i = 0; i < bodies_->rigid().size(); ++i) take_rigid(i, old, values);
+        std::vector<Vector<Dim>> moved;  // by point, from the centroids of the cells
+        for (std::int32_t body = 0; body < mesh_.n_bodies(); ++body) {
+            if (!bodies_->turns(body) || size_of_body(mesh_, body) == size_of_body(before.mesh_, body)) continue;
+            if (moved.empty()) {
+                const std::vector<Vector<Dim>> at_old = of_cells(old);
+                std::vector<Vector<Dim>> at_new;
+                for (const std::int32_t cell : old_cells) at_new.push_back(at_old[static_cast<std::size_t>(cell)]);
+                moved = of_points(std::span<const Vector<Dim>>(at_new));
+            }
+            const auto [first, last] = bodies_->points_of(body);
+            std::copy(moved.begin() + first, moved.begin() + last, values.begin() + first);
+        }
+    };
+    const auto places = [&](std::size_t i, auto old, auto q) {
+        bodies_->rigid().take_points(i, before.bodies_->rigid(), old, q);
+    };
+    const auto momenta = [&](std::size_t i, auto old, auto p) {
+        bodies_->rigid().take_momenta(i, before.bodies_->rigid(), old, p);
+    };
+    const auto displacement = [&](auto old) { return before.bodies_->of_cells(old); };
+    const auto velocity = [&](auto old) { return before.bodies_->velocities(old); };
+    taken(
+        motion.q, now.q, displacement, [&](auto of_cells) { return bodies_->of_points(of_cells); }, places);
+    for (const auto of : {&dynamics::IntegratorState::p_before, &dynamics::IntegratorState::p_after})
+        taken(
+            motion.*of, now.*of, velocity, [&](auto of_cells) { return bodies_->momenta(of_cells); }, momenta);
+    return now;
+}
+
+template <int Dim>
+dynamics::IntegratorState Solid<Dim>::take_over(const Solid& before, const dynamics::IntegratorState& motion,
+                                                std::span<const std::int32_t> old_cells) {
+    check_bodies(before.mesh_, mesh_);
+    check_old_cells(before, old_cells);
+    if (levels_ || before.levels_)
+        refuse(mesh_.name, "a change of the mesh is not made with local steps (memm_async). Take another scheme.");
+    const std::vector<std::int32_t> faces = old_faces(before.mesh_, mesh_, old_cells);
+    const std::vector<std::int32_t> boundary = old_boundary_faces(before.mesh_, mesh_, std::span<const std::int32_t>(faces));
+    if (contact_) check_corners(before.mesh_, mesh_, std::span<const std::int32_t>(boundary));
+    const mesh::Mesh<Dim>&deformable = bodies_->deformable(), &old_deformable = before.bodies_->deformable();
+    const std::vector<std::int32_t> cells = old_deformable_cells(*before.bodies_, *bodies_, old_cells);
+    const std::vector<std::int32_t> cell_faces = old_faces(old_deformable, deformable, std::span<const std::int32_t>(cells));
+    const std::vector<std::int32_t> cell_boundary =
+        old_boundary_faces(old_deformable, deformable, std::span<const std::int32_t>(cell_faces));
+
+    time_ = before.time_;
+    work_ = before.work_;
+    evaluations_ = before.evaluations_;
+    dissipated_ = before.dissipated_;
+    finite_extremes_ = before.finite_extremes_;
+    if (const auto at = std::ranges::find(old_cells, finite_extremes_.cell); finite_extremes_.cell >= 0)
+        finite_extremes_.cell = at == old_cells.end() ? was_not_there : static_cast<std::int32_t>(at - old_cells.begin());
+    outside_->take_over(*before.outside_, faces);
+    loads_->take_over(*before.loads_, cell_boundary, time_);
+    if (frame_loads_->any()) frame_loads_->take(loads_->end());
+    point_loads_->take_over(*before.point_loads_);
+    bodies_->rigid().take_over(before.bodies_->rigid());
+    ccg_.take_memory(before.ccg_, cells, cell_faces);
+    bonds_->take_over(*before.bonds_, boundary);
+    if ((contact_ != nullptr) != (before.contact_ != nullptr) ||
+        (contact_ && contact_->contact().index() != before.contact_->contact().index()))
+        refuse(mesh_.name, "contact is by another law than before, or by none. Keep the law of contact.");
+    if (contact_) {
+        contact_->take_over(*before.contact_, boundary);
+        contact_->restore_impulses({before.contact_->impulses().begin(), before.contact_->impulses().end()});
+    }
+    return motion_of(before, motion, old_cells);
+}
+
+// Parts --------------------------------------------------------------------------------------------------------------
+
+template <int Dim>
+void Loads<Dim>::take_over(const Loads& before, std::span<const std::int32_t> old_boundary, double time) {
+    end_ = ccg_.load_at(time, time);
+    const auto take = [&](const std::vector<Vector<Dim>>& old, std::vector<Vector<Dim>>& now) {
+        if (old.empty()) return;
+        for (std::size_t b = 0; b < now.size(); ++b)
+            if (old_boundary[b] >= 0) now[b] = old[static_cast<std::size_t>(old_boundary[b])];
+    };
+    take(before.end_.displacement, end_.displacement);
+    take(before.end_.traction, end_.traction);
+    start_ = end_;
+}
+
+template <int Dim>
+void PointLoads<Dim>::take_over(const PointLoads& before) {
+    if (springs_.size() != before.springs_.size() || moments_.size() != before.moments_.size())
+        refuse(bodies_.mesh().name, "it has " + std::to_string(springs_.size()) + " springs and " +
+                                        std::to_string(moments_.size()) + " moments, and before there were " +
+                                        std::to_string(before.springs_.size()) + " and " +
+                                        std::to_string(before.moments_.size()) + ". Keep them.");
+    for (std::size_t i = 0; i < springs_.size(); ++i) springs_[i].rate = before.springs_[i].rate;
+    for (std::size_t i = 0; i < moments_.size(); ++i) moments_[i].spin = before.moments_[i].spin;
+}
+
+template <int Dim>
+void OutsideLoads<Dim>::take_over(const OutsideLoads& before, std::span<const std::int32_t> old_faces) {
+    work_ = before.work_;
+    for (Group& group : groups_) {
+        const auto from = std::ranges::find(before.groups_, group.name, &Group::name);
+        if (from == before.groups_.end()) continue;
+        std::vector<Vector<Dim>> traction = group.traction;
+        for (std::size_t i = 0; i < group.faces.size(); ++i) {
+            const auto at = std::ranges::lower_bound(from->faces, old_faces[static_cast<std::size_t>(group.faces[i])]);
+            if (at == from->faces.end() || *at != old_faces[static_cast<std::size_t>(group.faces[i])]) continue;
+            const auto k = static_cast<std::size_t>(at - from->faces.begin());
+            traction[i] = from->traction[k];
+            group.acting[i] = from->acting[k];
+        }
+        set_traction(group.name, traction);
+    }
+}
+
+template <int Dim>
+void RigidBodies<Dim>::take_over(const RigidBodies& before) {
+    for (std::size_t i = 0; i < bodies_.size(); ++i) {
+        const Body& from = before.bodies_[i];
+        for (const auto of : {&Body::turn_0, &Body::turn_1, &Body::rate_before, &Body::rate_after}) bodies_[i].*of = from.*of;
+    }
+}
+
+template <int Dim>
+void RigidBodies<Dim>::take_points(std::size_t index, const RigidBodies& before, std::span<const Vector<Dim>> old_q,
+                                   std::span<Vector<Dim>> q) const {
+    const Body &body = bodies_[index], &from = before.bodies_[index];
+    const RigidPlace<Dim> place = before.place(index, old_q);
+    for (std::size_t i = 0; i < body.rest.size(); ++i) {
+        Vector<Dim>& of_point = q[static_cast<std::size_t>(body.first_point) + i];
+        of_point = body.rest == from.rest ? of_points(from, old_q)[i]
+                                          : Vector<Dim>(place(body.rest[i] - from.centre) - body.rest[i]);
+    }
+}
+
+template <int Dim>
+void RigidBodies<Dim>::take_momenta(std::size_t index, const RigidBodies& before, std::span<const Vector<Dim>> old_p,
+                                    std::span<Vector<Dim>> p) const {
+    const Body &body = bodies_[index], &from = before.bodies_[index];
+    const RigidPlace<Dim> per_mass = before.velocity(index, old_p);  // momenta of the points, as an affine function
+    for (std::size_t i = 0; i < body.rest.size(); ++i) {
+        Vector<Dim>& of_point = p[static_cast<std::size_t>(body.first_point) + i];
+        of_point = body.rest == from.rest ? of_points(from, old_p)[i] : Vector<Dim>(per_mass(body.rest[i] - from.centre));
+    }
+}
+
+template <int Dim>
+void Bonds<Dim>::take_over(const Bonds& before, std::span<const std::int32_t> old_boundary) {
+    for (std::size_t p = 0; p < places_.size(); ++p) {
+        const BondPlace<Dim>& place = places_[p];
+        const auto from = std::ranges::find_if(before.places_, [&](const BondPlace<Dim>& old) {
+            const auto was = [&](std::size_t side) { return old_boundary[static_cast<std::size_t>(place.faces[side])]; };
+            return old.bond == place.bond && static_cast<std::int32_t>(old.faces[0]) == was(0) &&
+                   static_cast<std::int32_t>(old.faces[1]) == was(1);
+        });
+        if (from == before.places_.end())
+            refuse(bodies_.mesh().name, "faces are bonded that were not. Keep bonds as they are.");
+        share_[p] = before.share_[static_cast<std::size_t>(from - before.places_.begin())];
+    }
+}
+
+template <int Dim>
+void ReconstructionDriver<Dim>::take_over(const ContactDriver<Dim>& other, std::span<const std::int32_t> old_boundary) {
+    const auto& before = dynamic_cast<const ReconstructionDriver&>(other);
+    contact_->take_over(*before.contact_,
+                        old_contact_faces(before, before.surface_.size(), *this, surface_.size(), old_boundary));
+}
+
+template <int Dim>
+void PairPotentialDriver<Dim>::take_over(const ContactDriver<Dim>& other, std::span<const std::int32_t> old_boundary) {
+    const auto& before = dynamic_cast<const PairPotentialDriver&>(other);
+    contact_.take_over(before.contact_, old_contact_faces(before, before.contact_.surface().n_faces(), *this,
+                                                          contact_.surface().n_faces(), old_boundary));
+}
+
+#define ABUT_INSTANTIATE(Dim)                                                                                     \
+    template dynamics::IntegratorState Solid<Dim>::take_over(const Solid&, const dynamics::IntegratorState&,      \
+                                                             std::span<const std::int32_t>);                      \
+    template void Solid<Dim>::check_old_cells(const Solid&, std::span<const std::int32_t>) const;                 \
+    template dynamics::IntegratorState Solid<Dim>::motion_of(const Solid&, const dynamics::IntegratorState&,      \
+                                                             std::span<const std::int32_t>) const;                \
+    template void Loads<Dim>::take_over(const Loads&, std::span<const std::int32_t>, double);                     \
+    template void PointLoads<Dim>::take_over(const PointLoads&);                                                  \
+    template void OutsideLoads<Dim>::take_over(const OutsideLoads&, std::span<const std::int32_t>);               \
+    template void RigidBodies<Dim>::take_over(const RigidBodies&);                                                \
+    template void RigidBodies<Dim>::take_points(std::size_t, const RigidBodies&, std::span<const Vector<Dim>>,    \
+                                                std::span<Vector<Dim>>) const;                                    \
+    template void RigidBodies<Dim>::take_momenta(std::size_t, const RigidBodies&, std::span<const Vector<Dim>>,   \
+                                                 std::span<Vector<Dim>>) const;                                   \
+    template void Bonds<Dim>::take_over(const Bonds&, std::span<const std::int32_t>);                             \
+    template void ReconstructionDriver<Dim>::take_over(const ContactDriver<Dim>&, std::span<const std::int32_t>); \
+    template void PairPotentialDriver<Dim>::take_over(const ContactDriver<Dim>&, std::span<const std::int32_t>);
+ABUT_INSTANTIATE(2)
+ABUT_INSTANTIATE(3)
+#undef ABUT_INSTANTIATE
+
+}  // namespace abut::solid

@@ -1,0 +1,62 @@
+#include "abut/solid/stepped_run.hpp"
+
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "abut/base/error.hpp"
+#include "abut/base/throw_again.hpp"
+
+namespace abut::solid {
+
+template <int Dim>
+SteppedRun<Dim>::SteppedRun(std::unique_ptr<Solid<Dim>> solid, std::vector<double> q, std::span<const double> p, double dt,
+                            const RunRemedies& remedies)
+    : given_(remedies), solid_(std::move(solid)) {
+    dynamics::refuse_ranks(solid_->ranks(), {{"a run that is taken step by step"}});
+    memm_.emplace(*solid_, std::move(q), p, dt);
+    remedies_.emplace(*solid_, given_.filter, given_.restart);
+    remedies_->prepare(*memm_);
+}
+
+template <int Dim>
+void SteppedRun<Dim>::step() {
+    try {
+        memm_->step();
+    } catch (const Error& error) {
+        throw_again(error, at_step(memm_->steps() + 1, error.what()));
+    }
+}
+
+template <int Dim>
+void SteppedRun<Dim>::record() {
+    ledger_.record(dynamics::measure(*memm_, *solid_, remedies_->report()));
+    const auto& entry = ledger_.entries().back();
+    if (!std::isfinite(entry.energy) || !std::isfinite(entry.pseudo_energy))
+        throw Diverged(at_step(memm_->steps(), "the run has diverged: its energy is not finite. Take a shorter step."));
+}
+
+template <int Dim>
+Left<Dim> SteppedRun<Dim>::change(std::unique_ptr<Solid<Dim>> after, std::span<const std::int32_t> old_cells) {
+    const Change<Dim> changed = solid::change(*solid_, memm_->state(), *after, old_cells);
+    const dynamics::IntegratorState& motion = changed.state.motion;
+    const dynamics::RestartReport restarts = remedies_->report();
+    remedies_.reset();
+    memm_.emplace(*after, motion.q, motion.p_after, motion.dt);
+    solid_ = std::move(after);
+    go_on_from(changed.state, *solid_, *memm_);
+    remedies_.emplace(*solid_, given_.filter, given_.restart);
+    remedies_->go_on_from(memm_->steps(), restarts);
+    remedies_->prepare(*memm_);
+    return changed.left;
+}
+
+template <int Dim>
+std::string SteppedRun<Dim>::at_step(std::int64_t step, const char* what) const {
+    return "step " + std::to_string(step) + ", t = " + std::to_string(memm_->time()) + " s: " + what;
+}
+
+template class SteppedRun<2>;
+template class SteppedRun<3>;
+
+}  // namespace abut::solid

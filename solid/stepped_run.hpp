@@ -1,0 +1,62 @@
+#pragma once
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "abut/dynamics/ledger.hpp"
+#include "abut/dynamics/memm.hpp"
+#include "abut/dynamics/remedies.hpp"
+#include "abut/solid/change.hpp"
+#include "abut/solid/solid.hpp"
+
+namespace abut::solid {
+
+/// Remedies of a run against the alternating mode (dynamics::Remedies).
+struct RunRemedies {
+    bool filter = false;
+    int restart = 0;  ///< steps between neutral restarts; 0: none
+};
+
+/// A solid under MEMM whose steps a program asks for one by one, as Python and C do. On one rank. run::simulate makes runs
+/// from their first step to the last.
+template <int Dim>
+class SteppedRun {
+public:
+    using Memm = dynamics::Memm<Solid<Dim>>;
+
+    /// From displacements and momenta of the points (n_points, Dim) [m], [kg m/s]. Throws as Memm and Remedies.
+    SteppedRun(std::unique_ptr<Solid<Dim>> solid, std::vector<double> q, std::span<const double> p, double dt,
+               const RunRemedies& remedies);
+    SteppedRun(const SteppedRun&) = delete;
+    SteppedRun& operator=(const SteppedRun&) = delete;
+
+    /// Throws as Memm::step, with step and time in front of the message.
+    void step();
+    /// Adds the present state to the ledger. Throws Diverged where its energy is not finite.
+    void record();
+
+    /// Goes on with another solid, whose mesh has fewer cells or other numbers: change.hpp, which says what it throws, and
+    /// nothing has changed then. The one before is gone.
+    Left<Dim> change(std::unique_ptr<Solid<Dim>> after, std::span<const std::int32_t> old_cells);
+
+    [[nodiscard]] Solid<Dim>& solid() { return *solid_; }
+    [[nodiscard]] const Solid<Dim>& solid() const { return *solid_; }
+    [[nodiscard]] Memm& memm() { return *memm_; }
+    [[nodiscard]] const Memm& memm() const { return *memm_; }
+    [[nodiscard]] const dynamics::Ledger<Dim>& ledger() const { return ledger_; }
+    [[nodiscard]] dynamics::RestartReport restarts() const { return remedies_->report(); }
+
+private:
+    [[nodiscard]] std::string at_step(std::int64_t step, const char* what) const;
+
+    RunRemedies given_;
+    std::unique_ptr<Solid<Dim>> solid_;
+    std::optional<Memm> memm_;
+    std::optional<dynamics::Remedies<Solid<Dim>>> remedies_;
+    dynamics::Ledger<Dim> ledger_;
+};
+
+}  // namespace abut::solid

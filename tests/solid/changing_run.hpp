@@ -1,0 +1,167 @@
+#pragma once
+// Runs that go on with another mesh, and all that they may remember.
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <numeric>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "abut/mesh/without_cells.hpp"
+#include "abut/solid/stepped_run.hpp"
+#include "solid/stacked_scenes.hpp"
+
+namespace abut::test {
+
+using solid::MaterialLaw;
+using solid::Solid;
+using solid::SolidOptions;
+
+template <int Dim>
+struct NewMesh {
+    mesh::Mesh<Dim> mesh;
+    std::vector<std::int32_t> old_cells;
+};
+
+template <int Dim>
+NewMesh<Dim> same_mesh(const mesh::Mesh<Dim>& mesh) {
+    NewMesh<Dim> same{mesh, std::vector<std::int32_t>(mesh.cell_measure.size())};
+    std::iota(same.old_cells.begin(), same.old_cells.end(), 0);
+    return same;
+}
+
+template <int Dim>
+NewMesh<Dim> mesh_without(const mesh::Mesh<Dim>& mesh, const std::vector<std::int32_t>& cells) {
+    auto [left, old_cells] = mesh::without_cells<Dim>(mesh, cells);
+    return {std::move(left), std::move(old_cells)};
+}
+
+template <int Dim>
+class ChangingRun {
+public:
+    ChangingRun(const mesh::Mesh<Dim>& mesh, const SolidOptions<Dim>& options, const std::vector<Motion<Dim>>& motion,
+                const solid::RunRemedies& remedies = {})
+        : mesh_(std::make_unique<mesh::Mesh<Dim>>(mesh)) {
+        auto solid = std::make_unique<Solid<Dim>>(*mesh_, options);
+        const double dt = 0.7 * dynamics::stable_step(*solid).dt;
+        const std::vector<double> at_rest(solid->size(), 0.0), p = momentum_of(*solid, motion);
+        run_.emplace(std::move(solid), at_rest, p, dt, remedies);
+    }
+
+    void run(std::int64_t until) {
+        while (memm().steps() < until) {
+            push(solid(), memm().steps());
+            run_->step();
+            pairs_ += solid().contact_counts().active_pairs;
+        }
+    }
+
+    solid::Left<Dim> change(NewMesh<Dim> next) {
+        auto mesh = std::make_unique<mesh::Mesh<Dim>>(std::move(next.mesh));
+        const solid::Left<Dim> left = run_->change(std::make_unique<Solid<Dim>>(*mesh, solid().options()), next.old_cells);
+        mesh_ = std::move(mesh);
+        pairs_ = 0;
+        return left;
+    }
+
+    [[nodiscard]] const mesh::Mesh<Dim>& mesh() const { return *mesh_; }
+    [[nodiscard]] Solid<Dim>& solid() { return run_->solid(); }
+    [[nodiscard]] const Solid<Dim>& solid() const { return run_->solid(); }
+    [[nodiscard]] auto& memm() { return run_->memm(); }
+    [[nodiscard]] const auto& memm() const { return run_->memm(); }
+    [[nodiscard]] std::int64_t pairs() const { return pairs_; }  ///< in contact in the steps since the last change, together
+    /// What is to stay [J].
+    [[nodiscard]] double balance() {
+        return memm().pseudo_energy() - solid().work() + solid().dissipated().total() +
+               solid().contact_report().friction_dissipated;
+    }
+
+private:
+    std::unique_ptr<mesh::Mesh<Dim>> mesh_;
+    std::optional<solid::SteppedRun<Dim>> run_;
+    std::int64_t pairs_ = 0;
+};
+
+template <int Dim>
+SolidOptions<Dim> of_metal(Kinematics kinematics) {
+    SolidOptions<Dim> options = falling<Dim>({kinematics, kinematics});
+    options.law = solid::ContactLaw::pair_potential;
+    for (solid::Material& material : options.materials) {
+        material.law = MaterialLaw::j2;
+        material.yield_stress = 2e-3 * material.young;
+        material.hardening = 0.05 * material.young;
+        material.mass_damping = 0.01;
+        material.stiffness_damping = 0.01;
+        material.quadratic_viscosity = 1.0;
+    }
+    return options;
+}
+
+template <int Dim>
+SolidOptions<Dim> rubbing(solid::ContactLaw law) {
+    SolidOptions<Dim> options = falling<Dim>({Kinematics::small, Kinematics::small});
+    options.law = law;
+    options.friction.coefficient = 0.3;
+    return options;
+}
+
+template <int Dim>
+SolidOptions<Dim> touching_itself() {
+    SolidOptions<Dim> options = falling<Dim>({Kinematics::floating, Kinematics::finite});
+    options.contact->search.self_contact = true;
+    return options;
+}
+
+template <int Dim>
+struct NamedOptions {
+    std::string name;
+    SolidOptions<Dim> options;
+};
+
+/// All that a run may remember.
+template <int Dim>
+std::vector<NamedOptions<Dim>> all_that_remembers() {
+    using enum Kinematics;
+    return {{"small", falling<Dim>({small, small})},
+            {"floating", falling<Dim>({floating, floating})},
+            {"finite", falling<Dim>({finite, finite})},
+            {"rigid and floating", falling<Dim>({floating, rigid})},
+            {"a wall that moves, tractions", driven<Dim>({small, small})},
+            {"dashpots, a brake", tied<Dim>({floating, floating})},
+            {"a load from outside", pushed<Dim>({small, small})},
+            {"small metal", of_metal<Dim>(small)},
+            {"floating metal", of_metal<Dim>(floating)},
+            {"finite metal", of_metal<Dim>(finite)},
+            {"friction on nodes", rubbing<Dim>(solid::ContactLaw::pair_potential)},
+            {"friction on faces", rubbing<Dim>(solid::ContactLaw::reconstruction)},
+            {"bodies that touch themselves", touching_itself<Dim>()}};
+}
+
+/// Two blocks that are bonded, and pull.
+template <int Dim>
+struct Bonded {
+    mesh::Mesh<Dim> mesh;
+    SolidOptions<Dim> options = bodies<Dim>(2);
+    std::vector<Motion<Dim>> motion;
+
+    Bonded() {
+        Vector<Dim> low = Vector<Dim>::Constant(-0.5), high = Vector<Dim>::Constant(0.5), left = high, right = low;
+        low[0] = -1.0;
+        left[0] = right[0] = 0.0;
+        std::array<int, Dim> coarse, fine;
+        coarse.fill(3);
+        fine.fill(4);
+        const CellShape shape = Dim == 2 ? CellShape::triangle : CellShape::tetrahedron;
+        mesh = together(mesh::structured_box<Dim>(low, left, coarse, shape, "left"),
+                        mesh::structured_box<Dim>(right, high, fine, shape, "right"));
+        options.law = solid::ContactLaw::pair_potential;
+        options.bonds = {{.sides = {0, 1}, .strength = 0.01, .fracture_energy = Dim == 2 ? 1e-3 : 2e-3}};
+        motion.resize(2);
+        motion[1] = moving<Dim>(0.05 * Vector<Dim>::Unit(0), AxialVector<Dim>::Constant(0.05));
+    }
+};
+
+}  // namespace abut::test

@@ -1,0 +1,187 @@
+// A run goes on with another mesh, between two of its steps: of the same cells.
+#include <catch2/catch.hpp>
+#include <random>
+
+#include "solid/changing_run.hpp"
+
+namespace abut::test {
+namespace {
+
+/// Its cells and vertices by new numbers, from the old ones of each.
+template <int Dim>
+mesh::Mesh<Dim> rebuilt(const mesh::Mesh<Dim>& mesh, const std::vector<std::int32_t>& old_cells,
+                        const std::vector<std::int32_t>& old_vertices, const std::vector<Vector<Dim>>& vertices) {
+    std::vector<std::int32_t> new_vertex(old_vertices.size());
+    for (std::size_t v = 0; v < old_vertices.size(); ++v) new_vertex[old_vertices[v]] = static_cast<std::int32_t>(v);
+    const auto of = [&](std::span<const std::int32_t> old) {
+        std::vector<std::int32_t> numbers;
+        for (const std::int32_t v : old) numbers.push_back(new_vertex[v]);
+        return numbers;
+    };
+    mesh::CellSoup<Dim> soup;
+    soup.name = mesh.name;
+    for (const std::int32_t old : old_vertices) soup.vertices.push_back(vertices[old]);
+    for (const std::int32_t old : old_cells) {
+        soup.cell_shape.push_back(mesh.cell_shape[old]);
+        soup.cell_vertices.append(of(mesh.cell_vertices[old]));
+        soup.cell_body.push_back(mesh.cell_body[old]);
+    }
+    soup.body_names = mesh.body_names;
+    for (const mesh::BoundaryGroup& group : mesh.groups) {
+        for (const std::int32_t face : group.faces)
+            soup.named_faces.push_back({of(mesh.face_vertices[face]), static_cast<std::int32_t>(soup.group_names.size())});
+        soup.group_names.push_back(group.name);
+    }
+    return mesh::build_mesh(std::move(soup), {.reorder = false});
+}
+
+std::vector<std::int32_t> in_order(std::size_t n) {
+    std::vector<std::int32_t> numbers(n);
+    std::iota(numbers.begin(), numbers.end(), 0);
+    return numbers;
+}
+
+/// With other numbers for all cells, vertices and faces.
+template <int Dim>
+NewMesh<Dim> renumbered(const mesh::Mesh<Dim>& mesh) {
+    std::mt19937 random(5);
+    std::vector<std::int32_t> cells = in_order(mesh.cell_measure.size()), vertices = in_order(mesh.vertices.size());
+    for (std::int32_t body = 0; body < mesh.n_bodies(); ++body) {
+        const auto of_body = std::ranges::equal_range(mesh.cell_body, body);
+        const auto begin = cells.begin() + (of_body.begin() - mesh.cell_body.begin());
+        std::shuffle(begin, begin + std::ssize(of_body), random);
+    }
+    std::shuffle(vertices.begin(), vertices.end(), random);
+    return {rebuilt<Dim>(mesh, cells, vertices, mesh.vertices), cells};
+}
+
+/// No two cells are alike any more: of equally good stencils the numbers of their cells decide which is taken.
+template <int Dim>
+mesh::Mesh<Dim> without_ties(const mesh::Mesh<Dim>& mesh) {
+    std::vector<Vector<Dim>> vertices = mesh.vertices;
+    const std::vector<Vector<Dim>> shifts = random_vectors<Dim>(vertices.size(), 11);
+    for (std::size_t v = 0; v < vertices.size(); ++v) vertices[v] += 0.004 * shifts[v];
+    return rebuilt<Dim>(mesh, in_order(mesh.cell_measure.size()), in_order(vertices.size()), vertices);
+}
+
+/// In space of tetrahedra, whose faces stay planar.
+template <int Dim>
+mesh::Mesh<Dim> stacked_simplices() {
+    if constexpr (Dim == 2) {
+        return stacked<2>();
+    } else {
+        return together(
+            mesh::structured_box<3>({-1.0, -1.0, 0.0}, {1.0, 1.0, 0.6}, {4, 3, 2}, CellShape::tetrahedron, "lower"),
+            mesh::structured_box<3>({-0.5, -0.4, 0.61}, {0.3, 0.7, 1.2}, {3, 3, 2}, CellShape::tetrahedron, "upper"));
+    }
+}
+
+template <int Dim>
+constexpr int n_steps = Dim == 2 ? 200 : 100;
+
+template <int Dim>
+void check_same_bits(ChangingRun<Dim>& run, ChangingRun<Dim>& other) {
+    CHECK(std::ranges::equal(run.memm().q(), other.memm().q()));
+    CHECK(std::ranges::equal(run.memm().p_before(), other.memm().p_before()));
+    CHECK(std::ranges::equal(run.memm().p_after(), other.memm().p_after()));
+    CHECK(run.balance() == other.balance());
+    CHECK(run.solid().work() == other.solid().work());
+    CHECK(run.solid().evaluations() == other.solid().evaluations());
+    CHECK(run.solid().contact_report().events == other.solid().contact_report().events);
+    CHECK(run.solid().broken_share() == other.solid().broken_share());
+    const auto of_run = run.solid().outside_work(run.memm().q()), of_other = other.solid().outside_work(other.memm().q());
+    CHECK(of_run.steps == of_other.steps);
+    CHECK(std::ranges::equal(run.solid().contact_impulses(), other.solid().contact_impulses(), {},
+                             &solid::BodyImpulse<Dim>::impulse, &solid::BodyImpulse<Dim>::impulse));
+}
+
+/// Of displacements and velocities by the old numbers of cells, over the largest of each.
+template <int Dim>
+std::array<double, 2> differences(const ChangingRun<Dim>& run, const ChangingRun<Dim>& other,
+                                  const std::vector<std::int32_t>& old_cells) {
+    const auto of = [&](const std::vector<Vector<Dim>>& values, const std::vector<Vector<Dim>>& of_renumbered) {
+        double largest = 0.0, worst = 0.0;
+        for (std::size_t c = 0; c < old_cells.size(); ++c) {
+            raise(largest, values[old_cells[c]].norm());
+            raise(worst, (values[old_cells[c]] - of_renumbered[c]).norm());
+        }
+        return worst / largest;
+    };
+    return {of(run.solid().cell_displacement(run.memm().q()), other.solid().cell_displacement(other.memm().q())),
+            of(run.solid().cell_velocity(run.memm().p_after()), other.solid().cell_velocity(other.memm().p_after()))};
+}
+
+/// Rounding grows to as much in a run whose numbers are others before its first step, when there is nothing to be
+/// remembered.
+template <int Dim>
+void check_renumbering(const mesh::Mesh<Dim>& mesh, const SolidOptions<Dim>& options, const std::vector<Motion<Dim>>& motion,
+                       int steps) {
+    const NewMesh<Dim> other = renumbered(mesh);
+    ChangingRun<Dim> whole(mesh, options, motion), from_start(mesh, options, motion), changed(mesh, options, motion);
+    whole.run(steps);
+    from_start.change(other);
+    from_start.run(steps);
+    changed.run(steps / 2);
+    const double before = changed.balance();
+    const solid::Left<Dim> left = changed.change(other);
+    CHECK(left.cells == 0);
+    CHECK(std::abs(left.mass) < 1e-13);
+    CHECK(std::abs(changed.balance() - before) < 1e-14);
+    changed.run(steps);
+    CHECK((changed.pairs() > 0 || !options.bonds.empty()));
+    const auto expected = differences(whole, from_start, other.old_cells),
+               found = differences(whole, changed, other.old_cells);
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        CHECK(expected[i] < 1e-5);
+        CHECK(found[i] <= 10.0 * expected[i]);
+    }
+    const auto rounding = Approx(0.0).margin(100.0 * expected[1]);
+    CHECK(changed.solid().work() - whole.solid().work() == rounding);
+    CHECK(changed.solid().dissipated().total() - whole.solid().dissipated().total() == rounding);
+    for (std::size_t c = 0; c < other.old_cells.size(); ++c)
+        CHECK(changed.solid().plastic_strain(static_cast<std::int32_t>(c)) -
+                  whole.solid().plastic_strain(other.old_cells[c]) ==
+              rounding);
+}
+
+}  // namespace
+
+TEMPLATE_TEST_CASE_SIG("a run that is handed over to a solid of the same mesh has the same bits", "[solid][change]",
+                       ((int Dim), Dim), 2, 3) {
+    for (const NamedOptions<Dim>& one : all_that_remembers<Dim>()) {
+        const SolidOptions<Dim>& options = one.options;
+        CAPTURE(one.name);
+        const std::vector<Motion<Dim>> motion = thrown<Dim>();
+        ChangingRun<Dim> whole(stacked<Dim>(), options, motion), changed(stacked<Dim>(), options, motion);
+        whole.run(n_steps<Dim>);
+        for (const int part : {5, 2}) {
+            changed.run(n_steps<Dim> / part);
+            changed.change(same_mesh(changed.mesh()));
+        }
+        changed.run(n_steps<Dim>);
+        CHECK(changed.pairs() > 0);
+        check_same_bits(whole, changed);
+    }
+    const Bonded<Dim> bonded;
+    ChangingRun<Dim> whole(bonded.mesh, bonded.options, bonded.motion), changed(bonded.mesh, bonded.options, bonded.motion);
+    whole.run(200);
+    changed.run(100);
+    changed.change(same_mesh(changed.mesh()));
+    changed.run(200);
+    CHECK(whole.solid().dissipated().in_bonds > 0.0);
+    check_same_bits(whole, changed);
+}
+
+TEMPLATE_TEST_CASE_SIG("a run whose cells, points and faces get other numbers ends with the same result", "[solid][change]",
+                       ((int Dim), Dim), 2, 3) {
+    for (const NamedOptions<Dim>& one : all_that_remembers<Dim>()) {
+        const SolidOptions<Dim>& options = one.options;
+        CAPTURE(one.name);
+        if (!options.boundary.traction.empty() && options.boundary.traction[0].from_outside) continue;  // by face of a group
+        check_renumbering<Dim>(without_ties(stacked_simplices<Dim>()), options, thrown<Dim>(), n_steps<Dim>);
+    }
+    const Bonded<Dim> bonded;
+    check_renumbering<Dim>(without_ties(bonded.mesh), bonded.options, bonded.motion, 200);
+}
+
+}  // namespace abut::test
