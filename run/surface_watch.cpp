@@ -141,14 +141,20 @@ SurfaceWatch<Dim>::SurfaceWatch(const Scene<Dim>& scene) : scene_(scene) {
 }
 
 template <int Dim>
-bool SurfaceWatch<Dim>::may_meet(const Body& body_1, const Body& body_2, double time) const {
+auto SurfaceWatch<Dim>::passing_pairs(double time) const -> Pairs {
+    Pairs pairs =
+        solid::overlapping_bodies<Dim>(scene_.mesh, scene_.solid.interference, scene_.solid.obstacles.size(), time);
+    pairs.insert(pairs.end(), scene_.solid.ignored_pairs.begin(), scene_.solid.ignored_pairs.end());
+    return pairs;
+}
+
+template <int Dim>
+bool SurfaceWatch<Dim>::may_meet(const Body& body_1, const Body& body_2, const Pairs& passing) const {
     if (is_obstacle(body_1.number) && is_obstacle(body_2.number)) return false;
     const auto is_this = [&](const std::array<std::int32_t, 2>& pair) {
         return pair == std::array{body_1.number, body_2.number} || pair == std::array{body_2.number, body_1.number};
     };
-    const auto overlapping =
-        solid::overlapping_bodies<Dim>(scene_.mesh, scene_.solid.interference, scene_.solid.obstacles.size(), time);
-    return std::ranges::none_of(scene_.solid.ignored_pairs, is_this) && std::ranges::none_of(overlapping, is_this);
+    return std::ranges::none_of(passing, is_this);
 }
 
 template <int Dim>
@@ -257,9 +263,10 @@ std::int64_t SurfaceWatch<Dim>::look_at_depths(double time) {
         for (const std::int32_t i : which) some.push_back(of[static_cast<std::size_t>(i)]);
         return some;
     };
+    const Pairs passing = passing_pairs(time);
     for (std::size_t a = 0; a < bodies_.size(); ++a)
         for (std::size_t b = a + 1; b < bodies_.size(); ++b) {
-            if (!around[a].overlaps(around[b]) || !may_meet(bodies_[a], bodies_[b], time)) continue;
+            if (!around[a].overlaps(around[b]) || !may_meet(bodies_[a], bodies_[b], passing)) continue;
             const auto near_a = inside(a, around[b]), near_b = inside(b, around[a]);
             const auto boxes_a = chosen(boxes[a], near_a), boxes_b = chosen(boxes[b], near_b);
             for (const auto& [i, k] : geometry::overlapping_pairs<Dim>(geometry::SearchOptions{}, boxes_a, boxes_b)) {
@@ -346,9 +353,10 @@ void SurfaceWatch<Dim>::look_for_nearest(double time) {
         trees.emplace_back(std::move(faces));
     }
     double best = std::numeric_limits<double>::infinity();
+    const Pairs passing = passing_pairs(time);
     for (std::size_t a = 0; a < bodies_.size(); ++a)
         for (std::size_t b = a + 1; b < bodies_.size(); ++b) {
-            if (!may_meet(bodies_[a], bodies_[b], time)) continue;
+            if (!may_meet(bodies_[a], bodies_[b], passing)) continue;
             const double distance = geometry::distance_below(trees[a], trees[b], best);
             if (distance < best)
                 looks_.nearest = {quoted_name(scene_, bodies_[a].number), quoted_name(scene_, bodies_[b].number), distance,

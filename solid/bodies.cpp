@@ -241,10 +241,11 @@ ContactLaw Bodies<Dim>::law() const {
             mesh_.name +
             ": a body or an obstacle may turn, and the modified reconstruction knows normals at rest alone. Choose "
             "ContactLaw::pair_potential or ContactLaw::automatic.");
-    if (!options_.bonds.empty() && options_.law == ContactLaw::reconstruction)
+    const auto breaks = [](const Bond& bond) { return std::isfinite(bond.strength); };
+    if (std::ranges::any_of(options_.bonds, breaks) && options_.law == ContactLaw::reconstruction)
         throw BadInput(mesh_.name +
-                       ": bonds are given, which the modified reconstruction does not know. Choose "
-                       "ContactLaw::pair_potential or ContactLaw::automatic.");
+                       ": a bond has a strength, and under the modified reconstruction bonds are for ever. Choose "
+                       "ContactLaw::pair_potential or ContactLaw::automatic, or leave the strength out.");
     if (!options_.interference.empty() && options_.law == ContactLaw::reconstruction)
         throw BadInput(
             mesh_.name +

@@ -42,6 +42,7 @@ Bonds<Dim>::Bonds(const Bodies<Dim>& bodies, Ccg<Dim>& ccg, const BodyFrames<Dim
         const auto turns = [&](std::int32_t body) { return bodies.turns(body); };
         (std::ranges::any_of(places_[p].bodies, turns) ? of_springs : of_joints).push_back(p);
     }
+    check_metal(of_joints);
     springs_ = std::make_unique<BondSprings<Dim>>(bodies, ccg, frames, part, places_, of_springs, share_);
     faces_.emplace(mesh_, part, places_, of_joints);
     dynamics::agreed(part.ranks(), [&] {
@@ -72,13 +73,21 @@ void Bonds<Dim>::check_bodies() const {
                 throw BadInput(who +
                                "is rigid and cannot be bonded. Let it deform (Kinematics::small, ::floating or ::finite), "
                                "or join it by SolidOptions::springs.");
-            // The cells behind a bond would yield as if nothing pulled there, and no balance of energy would show it.
-            const Material& material = bodies_.options().materials[static_cast<std::size_t>(body)];
-            if (material.law == MaterialLaw::j2)
-                throw BadInput(who +
-                               "yields (law = \"j2\") and cannot be bonded: its cells behind the bond would not feel it as "
-                               "they yield. Take another material, or leave the bond out.");
         }
+}
+
+/// The return of a cell takes the change of its gradient in a step from its displacements, without delta, and its bonded face as a free one:
+/// no balance of energy would show it.
+template <int Dim>
+void Bonds<Dim>::check_metal(std::span<const std::size_t> of_joints) const {
+    const mesh::Mesh<Dim>& mesh = bodies_.mesh();
+    for (const std::size_t p : of_joints)
+        for (const std::int32_t body : places_[p].bodies)
+            if (bodies_.options().materials[static_cast<std::size_t>(body)].law == MaterialLaw::j2)
+                throw BadInput(mesh.name + ": body '" + mesh.body_names[static_cast<std::size_t>(body)] +
+                               "' yields (law = \"j2\") and is bonded to another small one: its cells behind the bond would yield "
+                               "as if nothing pulled there. Let one of both be floating or finite (kinematics), or take another "
+                               "material.");
 }
 
 template <int Dim>
@@ -208,7 +217,19 @@ void Bonds<Dim>::stand_linear(std::span<const Vector<Dim>> u, const BoundaryLoad
     take_own_sides(u, load, of_side_1_);
     sides_.bring({{as_values<Dim>(of_side_1_), Dim}});
     take_jumps(of_side_1_, jump_);
-    set_corrections();
+    set_corrections(jump_, delta_, delta_here_);
+}
+
+template <int Dim>
+std::span<const Vector<Dim>> Bonds<Dim>::displacement_at(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load) {
+    take_own_sides(u, load, of_side_1_);
+    sides_.bring({{as_values<Dim>(of_side_1_), Dim}});
+    jump_at_.resize(joints_.size());
+    delta_at_.resize(delta_.size());
+    delta_here_at_.resize(delta_here_.size());
+    take_jumps(of_side_1_, jump_at_);
+    set_corrections(jump_at_, delta_at_, delta_here_at_);
+    return delta_here_at_;
 }
 
 template <int Dim>
@@ -221,7 +242,7 @@ void Bonds<Dim>::follow(std::span<const Vector<Dim>> q_0, const BoundaryLoad<Dim
     take_jumps(of_side_0_, jump_0_);
     take_jumps(of_side_1_, jump_1_);
     for (std::size_t i = 0; i < joints_.size(); ++i) jump_[i] = 0.5 * (jump_0_[i] + jump_1_[i]);
-    set_corrections();
+    set_corrections(jump_, delta_, delta_here_);
     springs_->follow(q_0, load_0, q_1, load_1);
 }
 
@@ -246,15 +267,16 @@ void Bonds<Dim>::take_jumps(std::span<const Vector<Dim>> of_sides, std::vector<V
 }
 
 template <int Dim>
-void Bonds<Dim>::set_corrections() {
-    for (Vector<Dim>& delta : delta_) delta.setZero();
+void Bonds<Dim>::set_corrections(std::span<const Vector<Dim>> jump, std::vector<Vector<Dim>>& delta,
+                                 std::vector<Vector<Dim>>& here) const {
+    for (Vector<Dim>& of_face : delta) of_face.setZero();
     for (std::size_t p = 0; p < joints_.size(); ++p)
         for (std::size_t side = 0; side < 2; ++side) {
             const std::size_t face = joints_[p].face[side];
             const double weight = share_of(joints_[p]) * joints_[p].area / of_faces_[face].measure;
-            delta_[face] += weight * (joints_[p].share[side] * jump_[p]);
+            delta[face] += weight * (joints_[p].share[side] * jump[p]);
         }
-    for (std::size_t i = 0; i < delta_here_.size(); ++i) delta_here_[i] = delta_[faces_->here()[i]];
+    for (std::size_t i = 0; i < here.size(); ++i) here[i] = delta[faces_->here()[i]];
 }
 
 template <int Dim>
@@ -287,6 +309,7 @@ Vector<Dim> Bonds<Dim>::bulk_gradient(const BondedFace& of_cell, BoundaryFace fa
     if (of_others_.faces.empty()) return gradient;
     const std::size_t n = of_others_.faces.size();
     if (const std::size_t i = position_of(of_others_, face); i < n) gradient -= of_others_.energy_gradient[i];
+    if (of_others_.moment.empty()) return gradient;
     const std::int32_t f = mesh_face(mesh_, face);
     const Vector<Dim> spread = mesh_.face_measure[f] / mesh_.cell_measure[of_cell.cell] * mesh_.face_normal[f];
     for (const BoundaryFace neighbour : of_cell.neighbours)

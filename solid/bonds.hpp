@@ -57,6 +57,10 @@ public:
     /// Along the step that the frames follow: in its middle.
     void follow(std::span<const Vector<Dim>> q_0, const BoundaryLoad<Dim>& load_0, std::span<const Vector<Dim>> q_1,
                 const BoundaryLoad<Dim>& load_1);
+    /// delta of `bonded_faces` in a state of small bodies, whatever else is followed (n_bonded_faces) [m]. Valid until the next call.
+    [[nodiscard]] std::span<const Vector<Dim>> displacement_at(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load);
+    /// Of small bodies here, increasing.
+    [[nodiscard]] std::span<const BoundaryFace> bonded_faces() const { return faces_->faces_here(); }
     /// What the bonds add to the corrections of contact. Valid until the next call and as long as those are.
     [[nodiscard]] FaceCorrections<Dim> corrections(const FaceCorrections<Dim>& of_contact);
     /// Adds dV/du through the corrections (n_cells) [N], after the cells have taken their gradient with the last of them.
@@ -117,6 +121,7 @@ private:
     };
 
     void check_bodies() const;
+    void check_metal(std::span<const std::size_t> of_joints) const;
     void check(BoundaryFace face) const;
     [[nodiscard]] std::vector<BoundaryFace> boundary_of(std::int32_t cell) const;
     [[nodiscard]] Matrix<Dim> stiffness_of(BoundaryFace face) const;
@@ -126,7 +131,8 @@ private:
     void stand_linear(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load);
     void take_own_sides(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load, std::vector<Vector<Dim>>& of_sides);
     void take_jumps(std::span<const Vector<Dim>> of_sides, std::vector<Vector<Dim>>& jump) const;
-    void set_corrections();
+    void set_corrections(std::span<const Vector<Dim>> jump, std::vector<Vector<Dim>>& delta,
+                         std::vector<Vector<Dim>>& here) const;
     [[nodiscard]] double share_of(const Joint& joint) const { return share_[joint.place]; }
     [[nodiscard]] FaceCorrections<Dim> own_corrections() const { return {faces_->faces_here(), delta_here_, {}, {}}; }
     void check_fracture_energy() const;
@@ -151,6 +157,7 @@ private:
     std::vector<Vector<Dim>> jump_, jump_0_, jump_1_;  // Delta, by joint: as it counts, and at both ends of a step [m]
     std::vector<Vector<Dim>> of_face_;                 // û, by bonded face here [m]
     std::vector<Vector<Dim>> delta_, delta_here_;      // by bonded face, by those here [m]
+    std::vector<Vector<Dim>> jump_at_, delta_at_, delta_here_at_;  // of `displacement_at`
     std::vector<Vector<Dim>> excess_;                  // of the face's traction over that of its half cell alone, by bonded face [Pa]
     std::vector<Vector<Dim>> gradient_;                // dV/dû through the corrections, by bonded face [N]
     FaceCorrections<Dim> of_others_;                   // of contact and springs

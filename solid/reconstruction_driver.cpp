@@ -1,12 +1,14 @@
 #include "abut/solid/reconstruction_driver.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
 
 #include "abut/base/error.hpp"
 #include "abut/base/messages.hpp"
+#include "abut/base/sort_unique.hpp"
 #include "abut/base/stopwatch.hpp"
 #include "abut/contact/blind_corners.hpp"
 #include "abut/contact/sharp_edges.hpp"
@@ -18,9 +20,14 @@ namespace {
 
 /// Bodies and obstacles have the numbers of the mesh.
 template <int Dim>
-contact::ContactOptions contact_options(const mesh::Mesh<Dim>& mesh, const SolidOptions<Dim>& options) {
+contact::ContactOptions contact_options(const mesh::Mesh<Dim>& mesh, const SolidOptions<Dim>& options,
+                                        const Bonds<Dim>& bonds) {
     contact::ContactOptions contact = *options.contact;
+    std::vector<std::array<std::int32_t, 2>> bonded;
+    for (const BondPlace<Dim>& place : bonds.places()) bonded.push_back(place.bodies);
+    sort_unique(bonded);
     contact.search.ignored_bodies = options.ignored_pairs;
+    contact.search.ignored_bodies.insert(contact.search.ignored_bodies.end(), bonded.begin(), bonded.end());
     // Faces that the mesh was allowed to have.
     contact.search.planarity_tolerance = std::max(contact.search.planarity_tolerance, 1.001 * mesh.report.worst_planarity);
     return contact;
@@ -30,15 +37,17 @@ contact::ContactOptions contact_options(const mesh::Mesh<Dim>& mesh, const Solid
 
 template <int Dim>
 ReconstructionDriver<Dim>::ReconstructionDriver(const mesh::Mesh<Dim>& mesh, const SolidOptions<Dim>& options, Ccg<Dim>& ccg,
-                                                const Loads<Dim>& loads, SolidTimes& times, const RankPart<Dim>& part)
+                                                const Loads<Dim>& loads, SolidTimes& times, const RankPart<Dim>& part,
+                                                Bonds<Dim>& bonds)
     : mesh_(mesh),
-      options_(contact_options(mesh, options)),
+      options_(contact_options(mesh, options, bonds)),
       ccg_(ccg),
       loads_(loads),
       times_(times),
       obstacles_(options.obstacles),
       faces_(shared_faces(part, mesh, ccg)),
-      watch_(ccg, part.ranks()) {
+      watch_(ccg, part.ranks()),
+      bonds_(bonds) {
     build_surface(options);
     options_.friction = friction_between(options, mesh.n_bodies(), surface_.body, [&](std::size_t group) {
         return faces_in_group(mesh, group, *faces_, boundary_of_surface_, surface_.body.size());
@@ -118,7 +127,38 @@ contact::FaceCoupling<Dim> ReconstructionDriver<Dim>::list_faces(std::span<const
     region_ = ccg_.region_of_faces(faces_->own_listed());
     contact::FaceCoupling<Dim> coupling = faces_->coupling_of_all(ccg_.coupling(boundary_of_listed_));
     coupling.offsets.resize(faces.size() + 1, coupling.offsets.back());
+    couple_to_bonds();
     return coupling;
+}
+
+template <int Dim>
+void ReconstructionDriver<Dim>::couple_to_bonds() {
+    bond_answers_.clear();
+    const auto bonded = bonds_.bonded_faces();
+    if (bonded.empty() || boundary_of_listed_.empty()) return;
+    std::vector<BoundaryFace> all(boundary_of_listed_);
+    all.insert(all.end(), bonded.begin(), bonded.end());
+    sort_unique(all);
+    const contact::FaceCoupling<Dim> coupling = ccg_.coupling(all);
+    for (std::size_t i = 0; i < boundary_of_listed_.size(); ++i) {
+        const auto row = static_cast<std::size_t>(std::ranges::lower_bound(all, boundary_of_listed_[i]) - all.begin());
+        for (auto k = static_cast<std::size_t>(coupling.offsets[row]); k < static_cast<std::size_t>(coupling.offsets[row + 1]);
+             ++k) {
+            const auto at = std::ranges::lower_bound(bonded, all[static_cast<std::size_t>(coupling.columns[k])]);
+            if (at != bonded.end() && *at == all[static_cast<std::size_t>(coupling.columns[k])])
+                bond_answers_.push_back(
+                    {listed_here_[i], static_cast<std::size_t>(at - bonded.begin()), coupling.blocks[k]});
+        }
+    }
+}
+
+/// Bonded faces stand elsewhere, linearly along a step; where listed ones are without contact does not depend on that.
+template <int Dim>
+void ReconstructionDriver<Dim>::answer_to_bonds(std::span<const Vector<Dim>> q, const BoundaryLoad<Dim>& load,
+                                                std::span<Vector<Dim>> gradient) {
+    if (bond_answers_.empty()) return;
+    const auto displacement = bonds_.displacement_at(q, load);
+    for (const auto& [listed, of_bonded, block] : bond_answers_) gradient[listed] += block * displacement[of_bonded];
 }
 
 /// Of all faces of the surface.
@@ -152,6 +192,7 @@ void ReconstructionDriver<Dim>::evaluate_faces(std::span<const Vector<Dim>> q, c
     displacement.resize(faces.size());
     gradient.resize(faces.size());
     faces_->evaluate_listed(ccg_, region_, q, load, displacement, gradient);
+    answer_to_bonds(q, load, gradient);
     for (std::size_t i = n_listed_deformable_; i < faces.size(); ++i) {
         displacement[i] = obstacles_.displacement(obstacle_of(faces[i]), time);
         gradient[i].setZero();

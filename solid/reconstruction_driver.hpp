@@ -11,6 +11,7 @@
 #include "abut/contact/contact.hpp"
 #include "abut/mesh/mesh.hpp"
 #include "abut/solid/ccg/ccg.hpp"
+#include "abut/solid/bonds.hpp"
 #include "abut/solid/contact_driver.hpp"
 #include "abut/solid/contact_patches.hpp"
 #include "abut/solid/list_watch.hpp"
@@ -25,9 +26,10 @@ template <int Dim>
 class ReconstructionDriver final : public ContactDriver<Dim> {
 public:
     /// All arguments must outlive the driver; where the time goes is added to `times`. On several ranks
-    /// faces are evaluated where their cells are, and each does its share of the pairs. Throws as contact::Contact.
+    /// faces are evaluated where their cells are, and each does its share of the pairs. Bodies that are bonded to each other do not touch
+    /// each other. Throws as contact::Contact.
     ReconstructionDriver(const mesh::Mesh<Dim>& mesh, const SolidOptions<Dim>& options, Ccg<Dim>& ccg,
-                         const Loads<Dim>& loads, SolidTimes& times, const RankPart<Dim>& part);
+                         const Loads<Dim>& loads, SolidTimes& times, const RankPart<Dim>& part, Bonds<Dim>& bonds);
 
     // The path of the listed faces in one step
 
@@ -104,6 +106,9 @@ private:
                                                                 const BoundaryLoad<Dim>& load, double time);
     void evaluate_faces(std::span<const Vector<Dim>> q, const BoundaryLoad<Dim>& load, double time,
                         std::vector<Vector<Dim>>& displacement, std::vector<Vector<Dim>>& gradient);
+    void couple_to_bonds();
+    void answer_to_bonds(std::span<const Vector<Dim>> q, const BoundaryLoad<Dim>& load,
+                         std::span<Vector<Dim>> gradient);
     [[nodiscard]] std::size_t obstacle_of(contact::Face face) const {
         return static_cast<std::size_t>(surface_.body[static_cast<std::size_t>(face)] - mesh_.n_bodies());
     }
@@ -127,6 +132,13 @@ private:
     mutable std::vector<Vector<Dim>> correction_here_, gradient_here_;  // work arrays of `corrections`
     std::vector<Vector<Dim>> u_0_, u_1_, y_0_,
         y_1_;                                    // path of the listed faces; between steps _0 is where the last one ended
+    Bonds<Dim>& bonds_;
+    /// How the gradient of a listed face answers to the displacement of a bonded one.
+    struct BondAnswer {
+        std::size_t listed, bonded;
+        Matrix<Dim> block;
+    };
+    std::vector<BondAnswer> bond_answers_;
     std::vector<TouchingPoints<Dim>> touching_;  // faces of the pairs that were active in the last step
 };
 

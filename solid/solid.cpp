@@ -37,7 +37,9 @@ void check_for_ranks(const dynamics::Ranks& ranks, const mesh::Mesh<Dim>& mesh, 
                            " has no cells in the part of a rank. Give each rank the whole of it (solid::part_of).");
     const bool from_outside = std::ranges::any_of(options.boundary.traction, &TractionCondition<Dim>::from_outside);
     dynamics::refuse_ranks(ranks, {{"a load from outside", from_outside},
-                                    {"a temperature", !options.temperature_rise.empty()},
+                                   {"a temperature", !options.temperature_rise.empty()},
+                                   {"bonds under the modified reconstruction",
+                                    !options.bonds.empty() && options.contact && options.law == ContactLaw::reconstruction},
                                    {"a bulk in single precision", options.precision == Precision::single_precision},
                                    {"a bulk on a device", options.device != StepDevice::host}});
 }
@@ -116,7 +118,7 @@ Solid<Dim>::Solid(const mesh::Mesh<Dim>& mesh, SolidOptions<Dim> options, const 
     if (law == ContactLaw::pair_potential) {
         contact_ = std::make_unique<PairPotentialDriver<Dim>>(*bodies_, ccg_, *loads_, *frames_, times_, *part_, *bonds_);
     } else {
-        contact_ = std::make_unique<ReconstructionDriver<Dim>>(mesh, options_, ccg_, *loads_, times_, *part_);
+        contact_ = std::make_unique<ReconstructionDriver<Dim>>(mesh, options_, ccg_, *loads_, times_, *part_, *bonds_);
     }
 }
 

@@ -116,3 +116,48 @@ TEST_CASE("a bonded face that is held is refused on all ranks by its cell", "[ra
     options.bonds.front().sides = {0, 0};
     CHECK_THROWS_WITH(SharedSolid<2>(all, mesh, options, parts(all, mesh)), Catch::Contains("both sides of a bond"));
 }
+
+TEMPLATE_TEST_CASE_SIG("bodies that overlap on purpose come to push each other with the bits of one rank",
+                       "[ranks][solid][contact][interference]", ((int Dim), Dim), 2, 3) {
+    const ranks::Communicator all = test::world();
+    const auto kinematics = GENERATE(solid::Kinematics::small, solid::Kinematics::floating);
+    Vector<Dim> lower = Vector<Dim>::Zero(), upper = Vector<Dim>::Constant(0.5);
+    std::vector<mesh::Mesh<Dim>> blocks;
+    for (int i = 0; i < 2; ++i) {
+        lower[0] = i == 0 ? -1.0 : -0.01, upper[0] = i == 0 ? 0.0 : 0.99;
+        std::array<int, Dim> n;
+        n.fill(Dim == 2 ? 5 + i : 2 + i);
+        n[0] *= 2;
+        blocks.push_back(mesh::structured_box<Dim>(
+            lower, upper, n, Dim == 2 ? mesh::CellShape::triangle : mesh::CellShape::tetrahedron, i == 0 ? "left" : "right"));
+    }
+    const auto mesh = mesh::combine<Dim>(blocks);
+    auto options = bonded<Dim>(kinematics, kinematics);
+    options.bonds.clear();
+    options.contact = contact::ContactOptions{};
+    options.interference = {{.bodies = {0, 1}, .time = 0.5}};
+    const std::vector<Vector<Dim>> velocity(2, Vector<Dim>::Zero());
+    const auto report = check_same_bits<Dim>(all, mesh, options, velocity, Dim == 2 ? 40 : 20, parts(all, mesh));
+    CHECK(report.active_pairs_max > 0);
+    CHECK(report.missed_contacts == 0);
+}
+
+TEST_CASE("bonded metal that yields has the bits of one rank, and bonds of the modified reconstruction are for one",
+          "[ranks][solid][bonds]") {
+    const ranks::Communicator all = test::world();
+    const auto mesh = two_bars<2>(mesh::CellShape::triangle);
+    auto options = bonded<2>(solid::Kinematics::floating, solid::Kinematics::finite);
+    for (solid::Material& material : options.materials) {
+        material.law = solid::MaterialLaw::j2;
+        material.yield_stress = 2e-3;
+        material.hardening = 0.05;
+    }
+    const std::vector<Vector<2>> velocity{-0.02 * Vector<2>::Unit(0), 0.02 * Vector<2>::Unit(0)};
+    check_same_bits<2>(all, mesh, options, velocity, 40, parts(all, mesh));
+    options = bonded<2>(solid::Kinematics::small, solid::Kinematics::small);
+    options.contact = contact::ContactOptions{};
+    options.law = solid::ContactLaw::reconstruction;
+    if (all.size() > 1)
+        CHECK_THROWS_WITH(SharedSolid<2>(all, mesh, options, parts(all, mesh)),
+                          Catch::Contains("bonds under the modified reconstruction"));
+}

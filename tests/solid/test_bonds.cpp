@@ -527,14 +527,9 @@ TEST_CASE("bonds that cannot be made are refused with the reason", "[solid][bond
                    options.materials[1].law = solid::MaterialLaw::j2;
                    options.materials[1].yield_stress = 1e-3;
                }),
-               Contains("'right' yields"));
+               Contains("'right' yields") && Contains("floating or finite"));
     CHECK_THAT(message([](auto& options) { options.boundary.dirichlet = {support<2>("left.xmax")}; }),
                Contains("held by a support"));
-    CHECK_THAT(message([](auto& options) {
-                   options.contact.emplace();
-                   options.law = solid::ContactLaw::reconstruction;
-               }),
-               Contains("the modified reconstruction does not know"));
     const auto apart = together(mesh::structured_box<2>({0.0, 0.0}, {1.0, 1.0}, {2, 2}, CellShape::quadrangle, "left"),
                                 mesh::structured_box<2>({2.0, 0.0}, {3.0, 1.0}, {2, 2}, CellShape::quadrangle, "right"));
     CHECK_THROWS_WITH(Solid<2>(apart, bonded<2>(steel, steel)), Contains("no face of one lies on one of the other"));
