@@ -46,7 +46,20 @@ TEST_CASE("every scene of the project has no fault, starts, and keeps its pseudo
         file.dimension() == 2 ? run_some_steps<2>(file) : run_some_steps<3>(file);
         ++n;
     }
-    CHECK(n == 43);
+    CHECK(n == 46);
+}
+
+TEST_CASE("a ring whose ends meet, and a needle that falls on its point, press by no more than 0.3 of a cell",
+          "[input][scenes]") {
+    const std::string name = GENERATE("c_ring.toml", "falling_needle.toml");
+    CAPTURE(name);
+    const input::SceneFile file(fs::path(ABUT_SOURCE "/scenes") / name, {});
+    const auto result = run::simulate<2>(file.scene<2>(), file.options());
+    CHECK(result.contact.active_pairs_max > 2);
+    CHECK(result.contact.missed_contacts == 0);
+    CHECK(result.contact.compression_max <= 0.3);
+    CHECK(result.ledger.pseudo_energy_drift() < 1e-12 * result.scale.value);
+    CHECK(result.ledger.energy_excess() < 0.01 * result.scale.value);
 }
 
 TEST_CASE("the estimate of a check is what the run takes", "[input][check]") {
