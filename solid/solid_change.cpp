@@ -212,7 +212,10 @@ dynamics::IntegratorState Solid<Dim>::take_over(const Solid& before, const dynam
 
 template <int Dim>
 void Loads<Dim>::take_over(const Loads& before, std::span<const std::int32_t> old_boundary, double time) {
-    end_ = ccg_.load_at(time, time);
+    if (ccg_.is_warm() != before.ccg_.is_warm())
+        refuse(mesh_.name, "bodies are warm before the change or after it, not both (temperature_rise). Keep it.");
+    traction_time_ = before.traction_time_;
+    end_ = ccg_.load_at(time, ccg_.is_warm() ? traction_time_ : time);
     const auto take = [&](const std::vector<Vector<Dim>>& old, std::vector<Vector<Dim>>& now) {
         if (old.empty()) return;
         for (std::size_t b = 0; b < now.size(); ++b)

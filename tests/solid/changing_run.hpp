@@ -121,6 +121,16 @@ struct NamedOptions {
     SolidOptions<Dim> options;
 };
 
+/// Bodies whose temperature varies in place and time.
+template <int Dim>
+SolidOptions<Dim> warming() {
+    SolidOptions<Dim> options = falling<Dim>({Kinematics::floating, Kinematics::floating});
+    for (solid::Material& material : options.materials) material.thermal_expansion = 0.01;
+    const auto swing = [](double t, const Vector<Dim>& x) { return (1.0 + 0.3 * x[0]) * std::sin(2.0 * t); };
+    options.temperature_rise.assign(2, {.value = swing, .varies = true});
+    return options;
+}
+
 /// All that a run may remember.
 template <int Dim>
 std::vector<NamedOptions<Dim>> all_that_remembers() {
@@ -137,7 +147,8 @@ std::vector<NamedOptions<Dim>> all_that_remembers() {
             {"finite metal", of_metal<Dim>(finite)},
             {"friction on nodes", rubbing<Dim>(solid::ContactLaw::pair_potential)},
             {"friction on faces", rubbing<Dim>(solid::ContactLaw::reconstruction)},
-            {"bodies that touch themselves", touching_itself<Dim>()}};
+            {"bodies that touch themselves", touching_itself<Dim>()},
+            {"temperatures", warming<Dim>()}};
 }
 
 /// Two blocks that are bonded, and pull.
