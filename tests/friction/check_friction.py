@@ -419,6 +419,31 @@ def a_body_rubs_on_itself(programs):
     require(clip(*short, "--ranks", 2)[1] == one, "2 ranks have other bits")
 
 
+@claim
+def a_tip_that_leans_rubs(programs):
+    """The needle of 20 degrees comes down on its point at a slant: facets across the tip rub as all others do. The impulses of contact
+    are its change of momentum, and H~ + D and J~ are kept."""
+    lean = keys(bodies__needle__turn='"20 deg"', bodies__needle__place="[0.1, 0.02]", bodies__needle__velocity="[1.0, -1.2]",
+                contact__friction=MU, output__interval=1, output__probes__needle='{body="needle", contact=true}')
+    for kinematics in ("floating", "finite", "rigid"):
+        done = run(programs, SCENES / "falling_needle.toml", *lean, *keys(bodies__needle__kinematics=f'"{kinematics}"'), "--filter", "none",
+                   "--restart", 10).require_end()
+        rows, probes, mass = done.rows(), done.rows("probes.csv"), done.body("needle")["mass"]
+        for axis in "xy":
+            taken = sum((row[f"needle.contact_normal_{axis}"] + row[f"needle.friction_{axis}"]) * (row["time"] - before["time"])
+                        for before, row in zip(probes, probes[1:]))
+            change = mass * (probes[-1][f"needle.velocity_{axis}"] - probes[0][f"needle.velocity_{axis}"])
+            near(taken, change, 1e-10 * mass, f"{kinematics}: the impulse along {axis}")
+        friction, energy = done.summary["friction"], rows[0]["kinetic"]
+        require(friction["dissipated"] > 0.01 * energy, f"{kinematics}: D is {friction['dissipated']:.2g} J of {energy:.2g}")
+        require(friction["least_dissipated"] >= -1e-15 * energy, f"{kinematics}: a step has fed {-friction['least_dissipated']:.2g} J")
+        require(friction["force_over_limit_max"] <= 1 + 1e-12, f"{kinematics}: a face rubs by more than mu N")
+        require(done.summary["missed_contacts"] == 0, f"{kinematics}: contacts are missed")
+        require(done.summary["compression_max"] <= 0.3, f"{kinematics}: pressed in by {done.summary['compression_max']:.2g} of a cell")
+        require(done.summary["pseudo_angular_momentum_drift_max"] <= 1e-12 * mass, f"{kinematics}: J~ is not kept")
+        require(balance(rows) <= 1e-12, f"{kinematics}: the balance is open by {balance(rows):.2g}")
+
+
 # --- Runs -----------------------------------------------------------------------------------------------------------------
 
 
