@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "abut/base/error.hpp"
+#include "abut/contact/report.hpp"
 #include "abut/dynamics/mass.hpp"
 #include "abut/solid/solid.hpp"
 
@@ -29,6 +30,12 @@ double kinetic_of(const Solid<Dim>& solid, const dynamics::IntegratorState& moti
     return 0.5 * dynamics::mass_product(motion.p_before, solid.inverse_mass(), motion.p_after);
 }
 
+/// Dissipated so far, with what faces that have left stored as they stuck [J].
+template <int Dim>
+double friction_of(const Solid<Dim>& solid) {
+    return solid.contact_report().friction_dissipated;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -43,7 +50,8 @@ Change<Dim> change(Solid<Dim>& before, const dynamics::IntegratorState& motion, 
                     .mass = mass_of(before) - mass_of(after),
                     .momentum = momentum_of<Dim>(motion) - momentum_of<Dim>(now),
                     .kinetic = kinetic_of(before, motion) - kinetic_of(after, now),
-                    .potential = before.potential(motion.q) - after.potential(now.q)};
+                    .potential = before.potential(motion.q) - after.potential(now.q) -
+                                 (friction_of(after) - friction_of(before))};
     return changed;
 }
 

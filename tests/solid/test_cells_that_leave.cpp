@@ -9,12 +9,19 @@ namespace abut::test {
 namespace {
 
 /// Two bodies that fly at each other, the upper one aside and with a spin; nothing is outside.
-template <int Dim>
 struct Collision {
-    SolidOptions<Dim> options = bodies<Dim>(2);
-    explicit Collision(Kinematics kinematics) {
+    std::string name;
+    Kinematics kinematics;
+    solid::ContactLaw law = solid::ContactLaw::pair_potential;
+    double friction = 0.0;
+
+    template <int Dim>
+    [[nodiscard]] SolidOptions<Dim> options() const {
+        SolidOptions<Dim> options = bodies<Dim>(2);
         options.kinematics = {kinematics, kinematics};
-        options.law = solid::ContactLaw::pair_potential;
+        options.law = law;
+        options.friction.coefficient = friction;
+        return options;
     }
 };
 
@@ -70,10 +77,15 @@ void check_conservation(ChangingRun<Dim>& run, std::int64_t until) {
 
 TEMPLATE_TEST_CASE_SIG("what leaves with a cell in contact is told, and what is left keeps mass, momentum and H~",
                        "[solid][change]", ((int Dim), Dim), 2, 3) {
-    const auto kinematics = GENERATE(Kinematics::small, Kinematics::floating, Kinematics::finite);
+    constexpr auto by_faces = solid::ContactLaw::reconstruction, by_nodes = solid::ContactLaw::pair_potential;
+    const Collision collision =
+        GENERATE_COPY(Collision{"small", Kinematics::small}, Collision{"floating", Kinematics::floating},
+                      Collision{"finite", Kinematics::finite}, Collision{"by faces", Kinematics::small, by_faces},
+                      Collision{"friction by faces", Kinematics::small, by_faces, 0.3},
+                      Collision{"friction by nodes", Kinematics::floating, by_nodes, 0.3});
     const bool at_contact = GENERATE(true, false);
-    CAPTURE(static_cast<int>(kinematics), at_contact);
-    ChangingRun<Dim> run(stacked<Dim>(), Collision<Dim>(kinematics).options, thrown<Dim>());
+    CAPTURE(collision.name, at_contact);
+    ChangingRun<Dim> run(stacked<Dim>(), collision.options<Dim>(), thrown<Dim>());
     while (run.pairs() == 0 && run.memm().steps() < 300) run.run(run.memm().steps() + 5);
     REQUIRE(run.solid().contact_counts().active_pairs > 0);
     const std::int32_t cell = at_contact ? lowest_cell(run.mesh()) : inner_cell(run.mesh());
@@ -87,7 +99,7 @@ TEMPLATE_TEST_CASE_SIG("what leaves with a cell in contact is told, and what is 
     CHECK(left.cells == 1);
     CHECK(left.mass == Approx(mass).epsilon(1e-12));
     CHECK((left.momentum - 0.5 * mass * (before + after)).norm() <= 1e-14);
-    if (kinematics != Kinematics::floating)  // whose points are beside the centroids of their cells
+    if (collision.kinematics != Kinematics::floating)  // whose points are beside the centroids of their cells
         CHECK(left.kinetic == Approx(0.5 * mass * before.dot(after)).epsilon(1e-9));
     CHECK((momentum - momentum_of_run(run) - left.momentum).norm() <= 1e-14);
     CHECK(std::abs(energy - run.balance() - left.energy()) <= 1e-14);
@@ -95,6 +107,7 @@ TEMPLATE_TEST_CASE_SIG("what leaves with a cell in contact is told, and what is 
     check_conservation(run, run.memm().steps() + 200);
     CHECK(run.pairs() > 0);
     CHECK(run.solid().contact_report().missed_contacts == 0);
+    CHECK((run.solid().contact_report().friction_dissipated > 0.0) == (collision.friction > 0.0));
 }
 
 TEST_CASE("a body falls on the cells behind one that has left", "[solid][change]") {
