@@ -51,12 +51,15 @@ std::vector<NamedValue> named_values(const contact::NodalOptions& options) {
         {"the option compression_limit", options.compression_limit},
         {"the number of functions `wanted`", options.wanted ? 1.0 : 0.0},
         {"the number of functions friction.law_of", options.friction.law_of ? 1.0 : 0.0},
+        {"the number of functions interference.of", options.interference.of ? 1.0 : 0.0},
+        {"the number of times in interference.times", static_cast<double>(options.interference.times.size())},
         {"the number of laws in friction.laws", static_cast<double>(options.friction.laws.size())},
         {"the number of pairs in search.ignored_bodies", static_cast<double>(search.ignored_bodies.size())}};
     for (const auto& [body_1, body_2] : search.ignored_bodies) {
         values.push_back({"a body in search.ignored_bodies", static_cast<double>(body_1)});
         values.push_back({"a body in search.ignored_bodies", static_cast<double>(body_2)});
     }
+    for (const double time : options.interference.times) values.push_back({"a time in interference.times", time});
     for (const contact::Friction& law : options.friction.laws) {
         for (const Option<contact::Friction>& option : contact::friction_options())
             values.push_back({"the option " + option.name + " of a law of friction", std::get<double>(option.get(law))});

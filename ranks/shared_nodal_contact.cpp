@@ -60,7 +60,7 @@ public:
             if (gets_force(node) && checks_.is_deformable(node))
                 step_.least_force_size = std::max(step_.least_force_size, numbers_.own_node[node] + 1);
     }
-    Implementation(const Implementation&) = delete;  // `wanted` and `law_of` have views of the numbers
+    Implementation(const Implementation&) = delete;  // `wanted` and the like have views of the numbers
 
     const NodalStep<Dim>& step(double dt, PointsView<Dim> x_0, PointsView<Dim> x_1, contact::TakenForce take) {
         const Look seen = look(dt, x_0, x_1);
@@ -149,6 +149,10 @@ private:
             };
         if (auto& law_of = options.friction.law_of)
             law_of = [this, by_number = std::move(law_of)](Face face_1, Face face_2) {
+                return by_number(number_of_face(face_1), number_of_face(face_2));
+            };
+        if (auto& of = options.interference.of)
+            of = [this, by_number = std::move(of)](Face face_1, Face face_2) {
                 return by_number(number_of_face(face_1), number_of_face(face_2));
             };
         return options;
@@ -261,6 +265,7 @@ private:
         step_.bodies = found.bodies;
         step_.body_pairs = found.body_pairs;
         step_.energy_0 = found.energy_0;
+        step_.interference_work = found.interference_work;
         step_.energy = found.energy;
         step_.work = found.work;
         step_.report = found.report;

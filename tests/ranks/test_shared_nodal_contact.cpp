@@ -101,6 +101,28 @@ TEMPLATE_TEST_CASE_SIG("friction on many ranks has the bits of one, with laws by
     CHECK(both.shared.report().friction_dissipated > 0.0);
 }
 
+TEMPLATE_TEST_CASE_SIG("boxes that overlap on purpose come to push each other on many ranks with the bits of one",
+                       "[ranks][nodal][interference]", ((int Dim), Dim), 2, 3) {
+    const Communicator all = world();
+    NodalScene<Dim> scene;
+    append_box<Dim>(scene, Vector<Dim>::Zero(), Vector<Dim>::Ones(), counts<Dim>(Dim == 2 ? 12 : 4), 3.0, 0.1);
+    append_box<Dim>(scene, 0.98 * up<Dim>() + 0.1 * axis<Dim>(0), Vector<Dim>::Ones() + 0.98 * up<Dim>() + 0.1 * axis<Dim>(0),
+                    counts<Dim>(Dim == 2 ? 13 : 5), 5.0, 0.1, false);
+    contact::NodalOptions options;
+    options.interference.times = {9.0, 7.0};  // steps of 1 s
+    options.interference.of = [](Face face_1, Face face_2) { return (number_of(face_1) + number_of(face_2)) % 2; };
+    BothContacts<Dim> both(all, scene, scattered_faces(all, static_cast<std::int32_t>(scene.faces.body.size())), options);
+    double work = 0.0;
+    for (int i = 1; i <= 12; ++i) {
+        CAPTURE(all.rank(), i);
+        REQUIRE(both.step(scene.rest, scene.rest));
+        REQUIRE(everywhere(all, both.alone.last().interference_work == both.shared.last().interference_work));
+        work += both.shared.last().interference_work;
+    }
+    CHECK(both.shared.last().energy > 0.0);
+    CHECK(work == Approx(both.shared.last().energy).epsilon(1e-12));
+}
+
 TEMPLATE_TEST_CASE_SIG("forces on first copies add up to nothing over all ranks, and so do their moments", "[ranks][nodal]",
                        ((int Dim), Dim), 2, 3) {
     const Communicator all = world();
