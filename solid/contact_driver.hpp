@@ -61,6 +61,8 @@ public:
     /// Tractions jump in q at `time`, from the loads at the start of the step to those at its end; called before `follow`.
     virtual void follow_jump(std::span<const Vector<Dim>> q, double time) = 0;
     virtual void jumped(std::span<const Vector<Dim>> q, double time) = 0;  ///< the loads at both ends are those after it
+    /// Energy where the step that is being made ends, in q, with faces as they are now [J]. The results below are of that state.
+    [[nodiscard]] virtual double energy_at_end(std::span<const Vector<Dim>> q) = 0;
     /// The next step begins where this one ends.
     virtual void end_step() = 0;
 

@@ -172,6 +172,14 @@ std::vector<std::int32_t> PairPotentialDriver<Dim>::near_nodes() const {
 }
 
 template <int Dim>
+double PairPotentialDriver<Dim>::energy_at_end(std::span<const Vector<Dim>> q) {
+    const Stopwatch watch(times_.contact);
+    corners_.place(listed_, q, frames_.end(), loads_.end(), end_time_, x_1_, StepState::end);
+    contact_.evaluate_listed(x_1_);
+    return energy();
+}
+
+template <int Dim>
 void PairPotentialDriver<Dim>::end_step() {
     std::swap(x_0_, x_1_);
     has_stepped_ = true;

@@ -29,6 +29,7 @@ public:
                 double dt) override;
     void follow_jump(std::span<const Vector<Dim>>, double) override {}
     void jumped(std::span<const Vector<Dim>>, double) override { has_stepped_ = false; }
+    [[nodiscard]] double energy_at_end(std::span<const Vector<Dim>> q) override;
     void end_step() override;
     [[nodiscard]] std::vector<std::byte> state() const override;
     void restore(std::span<const std::byte> state, std::span<const Vector<Dim>> q, double time) override;
@@ -82,8 +83,8 @@ private:
             0.0;  // as `moved`, seen from the frames: a body that flies and turns does not come to itself
     };
 
-    /// Whether faces may move farther than the motion of cells bounds: by loads that vary, and by the stretch of free faces.
-    [[nodiscard]] bool faces_leave_cells() const { return loads_.vary() || bodies_.any_finite(); }
+    /// Whether faces may move farther than the motion of cells bounds: by loads that vary, by the stretch of free faces, and as cells flow.
+    [[nodiscard]] bool faces_leave_cells() const { return loads_.vary() || bodies_.any_finite() || ccg_.flows_linearly(); }
     [[nodiscard]] double motion_since(const Watch& watch, double in_frame, double time) const;
     [[nodiscard]] bool is_valid(double near_in_frame, double far_in_frame, double time) const;
     [[nodiscard]] bool is_valid_within(double far_in_frame) const;

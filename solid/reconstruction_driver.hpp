@@ -37,6 +37,8 @@ public:
                 double dt) override;
     void follow_jump(std::span<const Vector<Dim>> q, double time) override;
     void jumped(std::span<const Vector<Dim>> q, double time) override { set_start(q, time); }
+    /// Nothing flows under this law.
+    [[nodiscard]] double energy_at_end(std::span<const Vector<Dim>>) override { return energy(); }
     void end_step() override;
     [[nodiscard]] std::vector<std::byte> state() const override;
     void restore(std::span<const std::byte> state, std::span<const Vector<Dim>> q, double time) override;

@@ -179,6 +179,7 @@ void Solid<Dim>::finish_step(const Ends& ends, double time, double dt, contact::
     take_result(force);
     evaluations_ += part_->n_all_cells();
     book_losses();
+    flow_faces(ends.end);
     end_step(time + dt);
 }
 
@@ -286,11 +287,20 @@ void Solid<Dim>::add_drag(const Ends& ends, double dt, std::span<Vector<Dim>> fo
     });
 }
 
+/// Cells remember the step. Where they have moved faces in contact as they flowed contact goes with these, and what that takes out of it is
+/// dissipated.
+template <int Dim>
+void Solid<Dim>::flow_faces(std::span<const Vector<Dim>> q_1) {
+    const bool moves = contact_ && ccg_.flows_linearly() && ranks().largest(ccg_.any_face_moves() ? 1.0 : 0.0) > 0.0;
+    const double before = moves ? contact_->energy_at_end(q_1) : 0.0;
+    ccg_.end_step();
+    if (moves) dissipated_.on_faces += before - contact_->energy_at_end(q_1);
+}
+
 /// The next step begins where this one ends.
 template <int Dim>
 void Solid<Dim>::end_step(double time) {
     time_ = time;
-    ccg_.end_step();
     loads_->end_step();
     frames_->end_step();
     if (contact_) contact_->end_step();

@@ -131,7 +131,7 @@ Ccg<Dim>::Impl::Impl(const mesh::Mesh<Dim>& mesh, std::span<const Material> mate
              form),
       finite(mesh, face_conditions, kinematics, finite_options),
       viscous(mesh, materials),
-      plastic(mesh, materials, kinematics, face_conditions, conditions.free_face_rule),
+      plastic(mesh, materials, kinematics, face_conditions, conditions.free_face_rule, free_faces, arrays),
       capped(mesh, materials, kinematics, face_conditions, free_faces, arrays),
       sweeps(arrays, arrays, finite, &viscous, &plastic, &capped, &thermal),
       steps(step_sweeps(mesh, kinematics, materials, arrays, finite, sweeps, precision, device)) {
@@ -324,6 +324,16 @@ bool Ccg<Dim>::any_inelastic() const {
 }
 
 template <int Dim>
+bool Ccg<Dim>::flows_linearly() const {
+    return impl_->plastic.any();
+}
+
+template <int Dim>
+bool Ccg<Dim>::any_face_moves() const {
+    return impl_->plastic.any_face_moves();
+}
+
+template <int Dim>
 void Ccg<Dim>::begin_step(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load) {
     if (impl_->finite.any_inelastic()) impl_->sweeps.begin_step(u, load);
 }
@@ -362,6 +372,7 @@ dynamics::Losses Ccg<Dim>::step_loss(std::int32_t cell) const {
     dynamics::Losses loss;
     if (impl_->viscous.any()) loss = impl_->viscous.loss(cell);
     loss.in_cells = impl_->plastic.loss(cell);
+    loss.on_faces = -impl_->plastic.work_of_push(cell);
     if (impl_->finite.any_inelastic()) loss += impl_->sweeps.step_loss(cell);
     loss.in_jumps = impl_->capped.loss(cell);
     return loss;

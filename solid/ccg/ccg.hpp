@@ -174,6 +174,10 @@ public:
     // calls, `mean_gradient` or `gradient_of_packed` of both ends, `drag`, and `end_step`; one that is not ended leaves no trace.
 
     [[nodiscard]] bool any_inelastic() const;
+    /// Whether a body of small or floating strains is, on any rank.
+    [[nodiscard]] bool flows_linearly() const;
+    /// Whether what flows in the step moves faces that contact may push: they go there as it ends.
+    [[nodiscard]] bool any_face_moves() const;
     [[nodiscard]] bool any_damped() const;
     /// The largest Material::damping_ratio of a mode with this frequency [rad/s].
     [[nodiscard]] double damping_ratio(double omega) const;

@@ -97,11 +97,21 @@ Matrix<Dim> CcgSweeps<Dim, Real>::gradient_of_stage(std::int32_t c) const {
 /// What flow takes of the stress of a cell, in a step the mean of both ends. `elastic`: C : eps.
 template <int Dim, class Real>
 Matrix<Dim> CcgSweeps<Dim, Real>::stress_of_flow(std::int32_t c, const Matrix<Dim>& elastic) {
+    if (steps_ && plastic_->moves_faces(c)) set_push_of_contact(c);
     if (!steps_ || (follows_ && plastic_->stays_elastic(c, elastic))) return plastic_->stress(c);
     const bool is_made = !follows_ && capped_ && capped_->contains(c);
     const Matrix<Dim> mean = gradient_of_stage(c);
     const Matrix<Dim> half = 0.5 * (is_made ? unload(load_tensor<Dim>(g_change_, c)) : linear_change(c));
     return plastic_->advance(c, mean - half, mean + half, dt_);
+}
+
+template <int Dim, class Real>
+void CcgSweeps<Dim, Real>::set_push_of_contact(std::int32_t c) {
+    Matrix<Dim> moment = Matrix<Dim>::Zero();
+    moments_.for_each(c, c + 1,
+                      [&](std::int32_t, const LaneTensor<Dim>& stress, const Matrix<Dim>&) { moment = unload(stress); });
+    plastic_->set_push(
+        c, [&](BoundaryFace b) { return unload<Dim>(load_packed<Dim>(pair_gradient_, number_of(b))); }, moment);
 }
 
 /// Adds the stresses of flow and damping to that of a cell whose strains are linear.
@@ -380,6 +390,7 @@ std::pair<Vector<Dim>, Matrix<Dim>> CcgSweeps<Dim, Real>::tilted_face(BoundaryFa
     const Vector<Dim> affine = face_displacement(face);
     const Matrix<Dim> g = displacement_gradient(c);
     const FreeCell<Dim>* free = finite_.condensed(c);
+    if (!free && plastic_ && plastic_->moves_faces(c)) return {affine + plastic_->moved(c, face), g + plastic_->tilted(c)};
     if (!free) return {affine, g};
     const Matrix<Dim>& condensed = free_[finite_.free_position(c)].gradient();
     return {affine + free->measure_over * ((condensed - g) * arrays_.normal_of(face)), condensed};

@@ -96,7 +96,7 @@ auto PlasticCells<Dim>::response_of(const Material& material, const std::vector<
 template <int Dim>
 PlasticCells<Dim>::PlasticCells(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials,
                                 std::span<const Kinematics> kinematics, const FaceConditions<Dim>& conditions,
-                                FreeFaceRule rule)
+                                FreeFaceRule rule, FreeFaces free_faces, const CcgArrays<Dim>& arrays)
     : materials_(materials.begin(), materials.end()) {
     const auto flows = [&](std::size_t body) {
         return materials_[body].law == MaterialLaw::j2 && (kinematics.empty() || kinematics[body] != Kinematics::finite);
@@ -128,7 +128,56 @@ PlasticCells<Dim>::PlasticCells(const mesh::Mesh<Dim>& mesh, std::span<const Mat
         index_[static_cast<std::size_t>(c)] = static_cast<std::int32_t>(cells_.size());
         cells_.push_back({.material = &materials_[body], .response = number, .measure = mesh.cell_measure[c]});
         cells_.back().memory = memory_of(cells_.back(), Strain::Zero(), 0.0);
+        if (free_faces == FreeFaces::may_touch && rule == FreeFaceRule::local_equilibrium) set_shifts(arrays, c, conditions);
     }
+}
+
+/// Free faces balance C : G with what they bear, of which C : p n is a part.
+template <int Dim>
+void PlasticCells<Dim>::set_shifts(const CcgArrays<Dim>& arrays, std::int32_t cell, const FaceConditions<Dim>& conditions) {
+    Cell& of = cells_.back();
+    of.first_shift = static_cast<std::int32_t>(shifts_.size());
+    Tilt tilt = Tilt::Zero();
+    for (const HalfFace& half_face : arrays.half_faces_of(cell)) {
+        const BoundaryFace b = arrays.boundary_index[half_face.face];
+        if (b == no_face || conditions.prescribed[b].isIdentity(0.0)) continue;
+        Shift& shift = shifts_.emplace_back(Shift{b, Eigen::Matrix<double, Dim, n_strains, Eigen::DontAlign>::Zero()});
+        const BoundaryReconstruction<Dim>& boundary = arrays.boundary;
+        const Vector<Dim> area = Eigen::Map<const Vector<Dim>>(arrays.faces[half_face.face].area_vector.data());
+        for (int k = 0; k < n_strains; ++k) {
+            const Matrix<Dim> stress = unpacked(Strain(response_inside(of).stiffness.col(k)));
+            Vector<Dim> moved = Vector<Dim>::Zero();
+            for (std::int32_t i = boundary.load_offsets[number_of(b)]; i < boundary.load_offsets[number_of(b) + 1]; ++i)
+                moved += boundary.from_traction[i] * (stress * arrays.normal_of(boundary.load_faces[i]));
+            shift.moved.col(k) = moved;
+            const Matrix<Dim> of_gradient = arrays.cells[cell].inverse_measure * moved * area.transpose();
+            tilt.col(k) += Eigen::Map<const Eigen::Matrix<double, Dim * Dim, 1>>(of_gradient.data());
+        }
+    }
+    of.end_shift = static_cast<std::int32_t>(shifts_.size());
+    of.tilt = static_cast<std::int32_t>(tilts_.size());
+    if (of.end_shift > of.first_shift) tilts_.push_back(tilt);
+}
+
+template <int Dim>
+void PlasticCells<Dim>::make_deviator(Strain& strain) {
+    strain = deviator_of(strain);
+}
+
+template <int Dim>
+Vector<Dim> PlasticCells<Dim>::moved(std::ptrdiff_t cell, BoundaryFace face) const {
+    const Cell& of = at(cell);
+    for (std::int32_t i = of.first_shift; i < of.end_shift; ++i)
+        if (const Shift& shift = shifts_[static_cast<std::size_t>(i)]; shift.face == face)
+            return shift.moved * of.memory.plastic;
+    return Vector<Dim>::Zero();
+}
+
+template <int Dim>
+Matrix<Dim> PlasticCells<Dim>::tilted(std::ptrdiff_t cell) const {
+    const Cell& of = at(cell);
+    const Eigen::Matrix<double, Dim * Dim, 1> tilt = tilts_[static_cast<std::size_t>(of.tilt)] * of.memory.plastic;
+    return Eigen::Map<const Matrix<Dim>>(tilt.data());
 }
 
 template <int Dim>
@@ -147,9 +196,9 @@ bool PlasticCells<Dim>::stays_elastic(std::ptrdiff_t cell, const Matrix<Dim>& me
     if constexpr (Dim == 2) stress[2] = of.material->poisson * mean.trace();
     of.next_driving = 2.0 * (deviator_of(stress) - of.memory.shift) - of.driving;
     const double largest = (1.0 - return_rounding) * of.memory.radius;
-    if (!(of.next_driving.squaredNorm() <= largest * largest)) return false;  // or not a number
+    if (!((of.next_driving + of.push).squaredNorm() <= largest * largest)) return false;  // or not a number
     of.flows = false;
-    of.loss = 0.0;
+    of.loss = of.work_of_push = 0.0;
     return true;
 }
 
@@ -206,19 +255,20 @@ Matrix<Dim> PlasticCells<Dim>::advance(std::ptrdiff_t cell, const Matrix<Dim>& g
     const double mu = of.material->mu();
     const auto elastic = [&](const Matrix<Dim>& g) { return Strain(2.0 * mu * deviator_of(packed(g))); };
     of.flows = false;
-    of.loss = 0.0;
+    of.loss = of.work_of_push = 0.0;
     const Strain at_end = elastic(g_1);
     of.next_driving = at_end - of.memory.shift;
     Strain normal;
     const FlowStress stress(*of.material, of.memory.equivalent, dt);
-    const double g = flow(of, stress, of.next_driving, normal);
+    const double g = flow(of, stress, of.next_driving + of.push, normal);
     if (!(g > 0.0)) return of.memory.stress;
     const double radius = slope_of_alpha * stress.at(slope_of_alpha * g).stress;
-    const double loss = 0.5 * of.measure * g * (normal.dot(elastic(g_0) - of.memory.shift) + radius);
+    const double loss = 0.5 * of.measure * g * (normal.dot(elastic(g_0) - of.memory.shift + of.push) + radius);
     // Else it waits: a stress beyond the surface is one of a rate.
     of.flows = loss >= 0.0 || !of.material->knows_rates();
     if (!of.flows) return of.memory.stress;
     of.loss = loss;
+    of.work_of_push = of.measure * g * normal.dot(of.push);
     of.next = memory_of(of, of.memory.plastic + g * normal, of.memory.equivalent + slope_of_alpha * g);
     of.next_driving = at_end - of.next.shift;
     return 0.5 * (of.memory.stress + of.next.stress);

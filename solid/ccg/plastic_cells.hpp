@@ -1,5 +1,6 @@
 #pragma once
 // Private to the sources of this layer.
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <span>
@@ -7,6 +8,7 @@
 
 #include "abut/mesh/mesh.hpp"
 #include "abut/solid/boundary_conditions.hpp"
+#include "abut/solid/ccg/arrays.hpp"
 #include "abut/solid/ccg/ccg.hpp"
 #include "abut/solid/kinematics/kinematics.hpp"
 #include "abut/solid/material/flow_stress.hpp"
@@ -28,7 +30,8 @@ class PlasticCells {
 public:
     /// One material and kinematics per body, the latter empty where all are small. Bodies of Kinematics::finite have none of them.
     PlasticCells(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials, std::span<const Kinematics> kinematics,
-                 const FaceConditions<Dim>& conditions, FreeFaceRule rule);
+                 const FaceConditions<Dim>& conditions, FreeFaceRule rule, FreeFaces free_faces,
+                 const CcgArrays<Dim>& arrays);
     PlasticCells(const PlasticCells&) = delete;
     PlasticCells& operator=(const PlasticCells&) = delete;
 
@@ -38,6 +41,32 @@ public:
     /// C_e : p, which stress is less by [Pa]; 0 before it has flowed.
     [[nodiscard]] const Matrix<Dim>& stress(std::ptrdiff_t cell) const { return at(cell).memory.stress; }
     [[nodiscard]] bool has_flowed(std::ptrdiff_t cell) const { return at(cell).memory.equivalent > 0.0; }
+    /// Whether its flow moves boundary faces that contact may push. For itself, and for jumps, the cell has them where they would be
+    /// without flow.
+    [[nodiscard]] bool moves_faces(std::ptrdiff_t cell) const {
+        return contains(cell) && at(cell).end_shift > at(cell).first_shift;
+    }
+    /// How far p moves such a face [m], and by how much it changes what tilts all of them [-].
+    [[nodiscard]] Vector<Dim> moved(std::ptrdiff_t cell, BoundaryFace face) const;
+    [[nodiscard]] Matrix<Dim> tilted(std::ptrdiff_t cell) const;
+    /// What contact does in the step to a cell that moves faces: dV/dû of a face of it by gradient(face) [N], and dV/dG over the measure [Pa].
+    template <class Gradient>
+    void set_push(std::ptrdiff_t cell, const Gradient& gradient, const Matrix<Dim>& moment) {
+        Cell& of = at(cell);
+        Strain sum = Strain::Zero();
+        for (std::int32_t i = of.first_shift; i < of.end_shift; ++i)
+            sum -= shifts_[static_cast<std::size_t>(i)].moved.transpose() *
+                   (gradient(shifts_[static_cast<std::size_t>(i)].face) / of.measure);
+        of.push = sum - tilts_[static_cast<std::size_t>(of.tilt)].transpose() *
+                            Eigen::Map<const Eigen::Matrix<double, Dim * Dim, 1>>(moment.data());
+        make_deviator(of.push);
+    }
+    /// What contact has done in the step by what flow has moved, had that moved along [J]: a part of `loss`.
+    [[nodiscard]] double work_of_push(std::ptrdiff_t cell) const { return contains(cell) ? at(cell).work_of_push : 0.0; }
+    /// Whether a cell that moves faces flows in the step.
+    [[nodiscard]] bool any_face_moves() const {
+        return std::ranges::any_of(cells_, [](const Cell& cell) { return cell.flows && cell.end_shift > cell.first_shift; });
+    }
     /// Whether the cell surely does not flow in a step that begins where the last one ended, and in whose middle C : eps is `mean` [Pa]:
     /// then the step is made. Else, by rounding or since nobody knows where the last one ended, `advance` must say.
     [[nodiscard]] bool stays_elastic(std::ptrdiff_t cell, const Matrix<Dim>& mean);
@@ -93,11 +122,21 @@ private:
         double measure;
         Memory memory{}, next{};
         bool flows = false;  // in the step: it ends with `next`
-        double loss = 0.0;
+        double loss = 0.0, work_of_push = 0.0;
+        std::int32_t first_shift = 0, end_shift = 0, tilt = 0;
+        Strain push = Strain::Zero();                          // of contact in the step, on p: a stress
         Strain driving = unknown(), next_driving = unknown();  // xi at the start and at the end of the step
 
         [[nodiscard]] const Memory& end() const { return flows ? next : memory; }
     };
+    /// How p moves a boundary face: by moved p.
+    struct Shift {
+        BoundaryFace face;
+        Eigen::Matrix<double, Dim, n_strains, Eigen::DontAlign> moved;
+    };
+    using Tilt = Eigen::Matrix<double, Dim * Dim, n_strains, Eigen::DontAlign>;
+    void set_shifts(const CcgArrays<Dim>& arrays, std::int32_t cell, const FaceConditions<Dim>& conditions);
+    static void make_deviator(Strain& strain);
     [[nodiscard]] static Strain unknown() { return Strain::Constant(std::numeric_limits<double>::quiet_NaN()); }
     [[nodiscard]] Memory memory_of(const Cell& cell, const Strain& plastic, double equivalent) const;
     [[nodiscard]] double flow(const Cell& cell, const FlowStress& stress, const Strain& trial, Strain& normal) const;
@@ -122,6 +161,8 @@ private:
     bool any_ = false;                 // known from materials alone: this rank may have no cell of them
     std::vector<std::int32_t> index_;  // of each cell; empty where no body is of them
     std::vector<Cell> cells_;
+    std::vector<Shift> shifts_;  // cell by cell
+    std::vector<Tilt> tilts_;    // of cells with shifts: what they make of G
 };
 
 }  // namespace abut::solid

@@ -164,6 +164,7 @@ private:
     [[nodiscard]] Matrix<Dim> elastic_stress_of_stage(std::int32_t c) const;
     [[nodiscard]] Matrix<Dim> gradient_of_stage(std::int32_t c) const;
     [[nodiscard]] Matrix<Dim> stress_of_flow(std::int32_t c, const Matrix<Dim>& elastic);
+    void set_push_of_contact(std::int32_t c);
     void add_linear_stress(std::int32_t c);
     void take_ends(const StepEnds<Dim>& ends);
     [[nodiscard]] bool is_kept(const KeptEnd<Dim>& kept, std::span<const Vector<Dim>> u,
