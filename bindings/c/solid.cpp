@@ -13,10 +13,7 @@
 #include <vector>
 
 #include "abut/contact/option_table.hpp"
-#include "abut/dynamics/filter.hpp"
 #include "abut/dynamics/ledger.hpp"
-#include "abut/dynamics/memm.hpp"
-#include "abut/dynamics/neutral_restart.hpp"
 #include "abut/dynamics/stable_step.hpp"
 #include "abut/dynamics/step_options.hpp"
 #include "abut/mesh/interpenetration.hpp"
@@ -25,6 +22,7 @@
 #include "abut/solid/body_motion.hpp"
 #include "abut/solid/outside_faces.hpp"
 #include "abut/solid/solid.hpp"
+#include "abut/solid/stepped_run.hpp"
 #include "arguments.hpp"
 #include "in_use.hpp"
 
@@ -59,11 +57,11 @@ public:
         const PointsView<Dim> view = view_of<Dim>(traction, "traction");
         std::vector<Vector<Dim>> values;
         for (std::int32_t i = 0; i < view.size(); ++i) values.push_back(view[i]);
-        solid_->set_traction(group, values);
+        run_->solid().set_traction(group, values);
     }
-    [[nodiscard]] std::int64_t n_faces(const std::string& group) const { return std::ssize(solid_->traction(group)); }
-    [[nodiscard]] bool has_begun() const { return memm_.has_value(); }
-    [[nodiscard]] dynamics::Memm<solid::Solid<Dim>>& memm() { return *memm_; }
+    [[nodiscard]] std::int64_t n_faces(const std::string& group) const { return std::ssize(run_->solid().traction(group)); }
+    [[nodiscard]] bool has_begun() const { return run_.has_value(); }
+    [[nodiscard]] solid::SteppedRun<Dim>& run() { return *run_; }
     void write_state(abut_solid_state& state);
 
 private:
@@ -82,10 +80,7 @@ private:
     solid::SolidOptions<Dim> options_;
     std::vector<Vector<Dim>> velocity_;
     mesh::Mesh<Dim> mesh_;
-    std::optional<solid::Solid<Dim>> solid_;
-    std::optional<dynamics::Memm<solid::Solid<Dim>>> memm_;
-    std::optional<dynamics::NeutralFilter<solid::Solid<Dim>>> filter_;
-    std::optional<dynamics::NeutralRestart<solid::Solid<Dim>>> restart_;
+    std::optional<solid::SteppedRun<Dim>> run_;
     double stable_dt_ = 0.0;
 };
 
@@ -108,7 +103,6 @@ void SolidRun<Dim>::begin(const abut_solid_options& given) {
     check_value(whose, named(dynamics::step_options(), "cfl"), given.cfl, 0.0);
     check_value(whose, named(dynamics::step_options(), "restart"), std::int64_t{given.restart}, std::int64_t{0});
     check_value(whose, named(contact::friction_options(), "friction"), given.friction, 0.0);
-    memm_.reset();
     mesh_ = mesh::combine<Dim>(std::span<const mesh::Mesh<Dim>>(meshes_));
     solid::SolidOptions<Dim> options = options_;
     options.friction.coefficient = given.friction;
@@ -120,24 +114,18 @@ void SolidRun<Dim>::begin(const abut_solid_options& given) {
         options.contact = contact::ContactOptions{};
         mesh::check_apart(mesh_, "", options.contact->search.broad_phase);
     }
-    solid_.emplace(mesh_, std::move(options));
-    stable_dt_ = dynamics::stable_step(*solid_).dt;
+    auto solid = std::make_unique<solid::Solid<Dim>>(mesh_, std::move(options));
+    stable_dt_ = dynamics::stable_step(*solid).dt;
     const double dt = given.dt > 0.0 ? given.dt : (given.cfl > 0.0 ? given.cfl : dynamics::StepOptions{}.cfl) * stable_dt_;
-    memm_.emplace(*solid_, std::vector<double>(solid_->size(), 0.0), solid::uniform_momentum<Dim>(*solid_, velocity_), dt);
     const bool rubs = given.contact != 0 && given.friction > 0.0;
-    if (rubs) {
-        filter_.emplace(*solid_);
-        memm_->set_after_step([this](auto q, double step, auto before, auto after) { (*filter_)(q, step, before, after); });
-    }
-    const int period = given.restart == 0 && rubs ? solid::restart_with_friction : given.restart;
-    if (period == 0) return;
-    restart_.emplace(*solid_, dynamics::RestartOptions{.period = period});
-    memm_->set_node_restart([this](auto q, double step, auto before, auto after) { (*restart_)(q, step, before, after); });
+    const int restart = given.restart == 0 && rubs ? solid::restart_with_friction : given.restart;
+    const std::vector<double> at_rest(solid->size(), 0.0), p = solid::uniform_momentum<Dim>(*solid, velocity_);
+    run_.emplace(std::move(solid), at_rest, p, dt, solid::RunRemedies{.filter = rubs, .restart = restart});
 }
 
 template <int Dim>
 void SolidRun<Dim>::write_faces(const std::string& group, const abut_solid_face_arrays& faces) {
-    const solid::OutsideFaces<Dim> now = solid::outside_faces<Dim>(*memm_, *solid_, group);
+    const solid::OutsideFaces<Dim> now = solid::outside_faces<Dim>(run_->memm(), run_->solid(), group);
     const auto n = std::ssize(now.area);
     const auto require_size = [n](std::int64_t given, const std::string& name) {
         if (given != n)
@@ -146,8 +134,9 @@ void SolidRun<Dim>::write_faces(const std::string& group, const abut_solid_face_
                            {.value = static_cast<double>(given), .allowed = static_cast<double>(n)});
     };
     require_size(faces.n_faces, "abut_solid_face_arrays");
+    auto& memm = run_->memm();
     const std::vector<Vector<Dim>> motion =
-        solid_->face_motion(group, memm_->q(), memm_->next_q(), memm_->time(), memm_->dt());
+        run_->solid().face_motion(group, memm.q(), memm.next_q(), memm.time(), memm.dt());
     const std::pair<const abut_array&, const std::vector<Vector<Dim>>&> arrays[] = {
         {faces.position, now.position}, {faces.velocity, now.velocity}, {faces.normal, now.normal}, {faces.motion, motion}};
     for (const auto& [to, values] : arrays)
@@ -160,12 +149,14 @@ void SolidRun<Dim>::write_faces(const std::string& group, const abut_solid_face_
 
 template <int Dim>
 void SolidRun<Dim>::write_state(abut_solid_state& state) {
-    const dynamics::LedgerEntry<Dim> entry = dynamics::measure(*memm_, *solid_);
-    const solid::OutsideWork work = solid_->outside_work(memm_->q());
+    auto& memm = run_->memm();
+    auto& solid = run_->solid();
+    const dynamics::LedgerEntry<Dim> entry = dynamics::measure(memm, solid);
+    const solid::OutsideWork work = solid.outside_work(memm.q());
     state = {.struct_size = sizeof(abut_solid_state),
-             .steps = memm_->steps(),
-             .time = memm_->time(),
-             .dt = memm_->dt(),
+             .steps = memm.steps(),
+             .time = memm.time(),
+             .dt = memm.dt(),
              .stable_dt = stable_dt_,
              .pseudo_energy = entry.pseudo_energy,
              .energy = entry.energy,
@@ -176,7 +167,7 @@ void SolidRun<Dim>::write_state(abut_solid_state& state) {
              .restart_jumps = entry.restart_jumps,
              .parasitic = entry.parasitic,
              .active_pairs = entry.active_pairs,
-             .missed_contacts = solid_->contact_report().missed_contacts,
+             .missed_contacts = solid.contact_report().missed_contacts,
              .dissipated = entry.dissipated,
              .friction_energy = entry.friction_energy,
              .sticking_faces = entry.sticking_faces,
@@ -319,12 +310,12 @@ int abut_solid_set_step(abut_solid* solid, double dt, int32_t change, abut_error
     return with_run(solid, true, error, [&](auto& run, auto) {
         if (change != ABUT_KEEP && change != ABUT_RESTART)
             throw BadInput("change is " + std::to_string(change) + "; ABUT_KEEP and ABUT_RESTART are allowed.");
-        run.memm().set_step(dt, change == ABUT_KEEP ? dynamics::StepChange::keep : dynamics::StepChange::restart);
+        run.run().memm().set_step(dt, change == ABUT_KEEP ? dynamics::StepChange::keep : dynamics::StepChange::restart);
     });
 }
 
 int abut_solid_step(abut_solid* solid, abut_error* error) {
-    return with_run(solid, true, error, [&](auto& run, auto) { run.memm().step(); });
+    return with_run(solid, true, error, [&](auto& run, auto) { run.run().step(); });
 }
 
 int abut_solid_get_state(abut_solid* solid, abut_solid_state* state, abut_error* error) {

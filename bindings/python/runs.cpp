@@ -11,11 +11,9 @@
 
 #include "abut/base/error.hpp"
 #include "abut/base/throw_again.hpp"
-#include "abut/dynamics/filter.hpp"
-#include "abut/dynamics/memm.hpp"
-#include "abut/dynamics/neutral_restart.hpp"
 #include "abut/input/scene_file.hpp"
 #include "abut/mesh/interpenetration.hpp"
+#include "abut/mesh/without_cells.hpp"
 #include "abut/run/option_table.hpp"
 #include "abut/run/report/result_files.hpp"
 #include "abut/run/simulation.hpp"
@@ -23,6 +21,7 @@
 #include "abut/run/verdict.hpp"
 #include "abut/run/warnings.hpp"
 #include "abut/solid/option_words.hpp"
+#include "abut/solid/stepped_run.hpp"
 #include "in_use.hpp"
 #include "record.hpp"
 #include "scenes.hpp"
@@ -130,21 +129,13 @@ constexpr const char* run_in_use = "this run takes steps in another thread. Use 
 template <int Dim>
 class Memm {
 public:
-    Memm(run::Scene<Dim> scene, const run::RunOptions& given)
-        : scene_(std::move(scene)),
-          options_(checked(scene_, given)),
-          solid_(scene_.mesh, run::solid_options(scene_, options_)),
-          stable_dt_(dynamics::stable_step(solid_).dt),
-          memm_(solid_, run::displacement_at_start(scene_, solid_), run::momentum_at_start(scene_, solid_),
-                run::choose_step(options_, stable_dt_)),
-          filter_(solid_) {
-        if (options_.filter)
-            memm_.set_after_step([this](auto q, double dt, auto before, auto after) { filter_(q, dt, before, after); });
-        if (options_.restart > 0) {
-            restart_.emplace(solid_, dynamics::RestartOptions{.period = options_.restart});
-            memm_.set_node_restart(
-                [this](auto q, double dt, auto before, auto after) { (*restart_)(q, dt, before, after); });
-        }
+    Memm(run::Scene<Dim> scene, const run::RunOptions& given) : scene_(std::move(scene)), options_(checked(scene_, given)) {
+        auto solid = std::make_unique<solid::Solid<Dim>>(scene_.mesh, run::solid_options(scene_, options_));
+        stable_dt_ = dynamics::stable_step(*solid).dt;
+        std::vector<double> q = run::displacement_at_start(scene_, *solid);
+        const std::vector<double> p = run::momentum_at_start(scene_, *solid);
+        run_.emplace(std::move(solid), std::move(q), p, run::choose_step(options_, stable_dt_),
+                     solid::RunRemedies{.filter = options_.filter, .restart = options_.restart});
         record();
     }
 
@@ -155,7 +146,7 @@ public:
         const py::gil_scoped_release release;
         auto asked = std::chrono::steady_clock::now();
         for (std::int64_t i = 0; i < n; ++i) {
-            take_step();
+            run_->step();
             if (const auto now = std::chrono::steady_clock::now(); now - asked > std::chrono::milliseconds(50)) {
                 const py::gil_scoped_acquire lock;
                 if (PyErr_CheckSignals() != 0) throw py::error_already_set();
@@ -168,43 +159,57 @@ public:
         if (change != "keep" && change != "restart")
             throw py::value_error("set_step: change is '" + change + "'; there are 'keep', 'restart'");
         const py::gil_scoped_release release;
-        memm_.set_step(dt, change == "keep" ? dynamics::StepChange::keep : dynamics::StepChange::restart);
+        run_->memm().set_step(dt, change == "keep" ? dynamics::StepChange::keep : dynamics::StepChange::restart);
     }
     void set_traction(const std::string& group, const py::object& traction) {
         const bindings::Use use(in_use_, run_in_use);
-        solid_.set_traction(group, vectors_of<Dim>(traction, "traction"));
+        run_->solid().set_traction(group, vectors_of<Dim>(traction, "traction"));
     }
     [[nodiscard]] py::dict faces(const std::string& group) {
         const bindings::Use use(in_use_, run_in_use);
-        return faces_of<Dim>(solid::outside_faces<Dim>(memm_, solid_, group),
-                             solid_.face_motion(group, memm_.q(), memm_.next_q(), memm_.time(), memm_.dt()));
+        return faces_of<Dim>(solid::outside_faces<Dim>(run_->memm(), run_->solid(), group),
+                             run_->solid().face_motion(group, run_->memm().q(), run_->memm().next_q(), run_->memm().time(),
+                                                       run_->memm().dt()));
     }
     [[nodiscard]] py::dict outside_work() const {
         const bindings::Use use(in_use_, run_in_use);
-        const solid::OutsideWork work = solid_.outside_work(memm_.q());
+        const solid::OutsideWork work = run_->solid().outside_work(run_->memm().q());
         return py::dict("steps"_a = work.steps, "changes"_a = work.changes, "held"_a = work.held);
     }
     void record() {
         const bindings::Use use(in_use_, run_in_use);
-        ledger_.record(dynamics::measure(memm_, solid_, restart_ ? restart_->report() : dynamics::RestartReport{}));
-        const auto& entry = ledger_.entries().back();
-        if (!std::isfinite(entry.energy) || !std::isfinite(entry.pseudo_energy))
-            throw Diverged(at_step(memm_.steps(), "the run has diverged: its energy is not finite. Take a shorter step."));
+        run_->record();
     }
     [[nodiscard]] py::object ledger() const {
         const bindings::Use use(in_use_, run_in_use);
-        return table_of(ledger_);
+        return table_of(run_->ledger());
     }
-    [[nodiscard]] double dt() const { return memm_.dt(); }
+    [[nodiscard]] py::dict remove_cells(const std::vector<std::int32_t>& cells) {
+        const bindings::Use use(in_use_, run_in_use);
+        solid::Left<Dim> left;
+        {
+            const py::gil_scoped_release release;
+            auto [mesh, old_cells] = mesh::without_cells<Dim>(run_->solid().mesh(), cells);
+            auto next = std::make_unique<mesh::Mesh<Dim>>(std::move(mesh));
+            left = run_->change(std::make_unique<solid::Solid<Dim>>(*next, run_->solid().options()), old_cells);
+            mesh_ = std::move(next);
+            stable_dt_ = dynamics::stable_step(run_->solid()).dt;
+        }
+        return py::dict("cells"_a = left.cells, "mass"_a = left.mass,
+                        "momentum"_a = py::array_t<double>(py::ssize_t{Dim}, left.momentum.data()),
+                        "kinetic"_a = left.kinetic, "potential"_a = left.potential);
+    }
+    [[nodiscard]] const mesh::Mesh<Dim>& mesh() const { return run_->solid().mesh(); }
+    [[nodiscard]] double dt() const { return run_->memm().dt(); }
     [[nodiscard]] double stable_dt() const { return stable_dt_; }
-    [[nodiscard]] py::array_t<double> masses() const { return copy_of(solid_.masses()); }
+    [[nodiscard]] py::array_t<double> masses() const { return copy_of(run_->solid().masses()); }
     [[nodiscard]] py::list bodies() const {
         const bindings::Use use(in_use_, run_in_use);
-        return motions_of(solid::body_motions<Dim>(view(), solid_));
+        return motions_of(solid::body_motions<Dim>(view(), run_->solid()));
     }
     [[nodiscard]] py::dict contact() const {
         const bindings::Use use(in_use_, run_in_use);
-        return report_of(solid_.contact_report());
+        return report_of(run_->solid().contact_report());
     }
 
     /// The present state, while somebody looks at it.
@@ -212,7 +217,7 @@ public:
         bindings::Use use;
         dynamics::RunView<Dim> view;
         State<Dim> state;
-        explicit Held(Memm& run) : use(run.in_use_, run_in_use), view(run.memm_), state(view, run.solid_) {}
+        explicit Held(Memm& run) : use(run.in_use_, run_in_use), view(run.run_->memm()), state(view, run.run_->solid()) {}
         const State<Dim>* operator->() const { return &state; }
     };
 
@@ -227,26 +232,13 @@ private:
         if (scene.contact) mesh::check_apart(scene.mesh, "", given.contact.search.broad_phase);
         return run::with_defaults<Dim>(run::with_restart(given, scene));
     }
-    void take_step() {
-        try {
-            memm_.step();
-        } catch (const Error& error) {
-            throw_again(error, at_step(memm_.steps() + 1, error.what()));
-        }
-    }
-    [[nodiscard]] std::string at_step(std::int64_t step, const char* what) const {
-        return "step " + std::to_string(step) + ", t = " + std::to_string(memm_.time()) + " s: " + what;
-    }
-    [[nodiscard]] dynamics::RunView<Dim> view() const { return memm_; }
+    [[nodiscard]] dynamics::RunView<Dim> view() const { return run_->memm(); }
 
     run::Scene<Dim> scene_;
     run::RunOptions options_;
-    solid::Solid<Dim> solid_;
-    double stable_dt_;  // [s]
-    dynamics::Memm<solid::Solid<Dim>> memm_;
-    dynamics::NeutralFilter<solid::Solid<Dim>> filter_;
-    std::optional<dynamics::NeutralRestart<solid::Solid<Dim>>> restart_;
-    dynamics::Ledger<Dim> ledger_;
+    double stable_dt_ = 0.0;                     // [s]
+    std::unique_ptr<mesh::Mesh<Dim>> mesh_;      // null: that of the scene, as long as it has all its cells
+    std::optional<solid::SteppedRun<Dim>> run_;  // always there
     mutable std::atomic_flag in_use_{};
 };
 
@@ -325,6 +317,12 @@ void add_dimension(py::module_& module, const std::string& suffix) {
         .def_property_readonly("outside_work", &Memm<Dim>::outside_work,
                                "[J]: steps, sum of area traction . motion; changes, what the bodies take in where tractions "
                                "change; held, what H~ has less for the tractions that act.")
+        .def("remove_cells", &Memm<Dim>::remove_cells, "cells"_a,
+             "Goes on without these cells, by their numbers in `mesh`: the others keep their order. Returns what has left: "
+             "cells, mass [kg], momentum [kg m/s], kinetic and potential (V before less V after) [J]. dt stays: look at "
+             "stable_dt.")
+        .def_property_readonly(
+            "mesh", [](const Memm<Dim>& self) { return mesh::Mesh<Dim>(self.mesh()); }, "as it is now, a copy")
         .def("record", &Memm<Dim>::record,
              "Adds a row to the ledger; costs about two forces. Raises Diverged where the energy is not finite.")
         .def_property_readonly("ledger", &Memm<Dim>::ledger,

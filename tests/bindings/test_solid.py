@@ -318,6 +318,28 @@ class Runs(unittest.TestCase):
         with self.assertRaises(abut.BadInput):
             run.set_step(-1.0, "keep")
 
+    def test_a_run_goes_on_without_cells_and_tells_what_has_left(self):
+        # In flight nothing is strained: the cells take along their mass, momentum and kinetic energy, and no more.
+        mesh, v = solid.structured_box((0, 0), (2, 1), (8, 4)), np.array([0.3, -0.1])
+        run = solid.memm(mesh, [solid.Material(density=2.0)], [v], kinematics="finite")
+        run.step(20)
+        gone = [5, 0]
+        mass = 2.0 * mesh.measures[gone].sum()
+        left = run.remove_cells(gone)
+        self.assertEqual(left["cells"], 2)
+        self.assertAlmostEqual(left["mass"], mass, delta=1e-14)
+        np.testing.assert_allclose(left["momentum"], mass * v, atol=1e-14)
+        self.assertAlmostEqual(left["kinetic"], 0.5 * mass * v @ v, delta=1e-14)
+        self.assertAlmostEqual(left["potential"], 0.0, delta=1e-14)
+        np.testing.assert_array_equal(run.mesh.centroids, np.delete(mesh.centroids, gone, axis=0))
+        run.step(20)
+        np.testing.assert_allclose(run.velocity, np.tile(v, (30, 1)), atol=1e-13)
+        with self.assertRaisesRegex(abut.BadInput, "given twice"):
+            run.remove_cells([1, 1])
+        with self.assertRaisesRegex(abut.BadInput, "does not exist"):
+            run.remove_cells([30])
+        self.assertEqual(run.steps, 40)
+
     def test_a_clamped_bar_sinks_by_its_weight_in_space(self):
         # Uniaxial strain under a load of its own: sides on rollers, u = rho g / (2 M) (h^2 - (h - z)^2), M = lambda + 2 mu.
         h, g, steps = 1.0, 1e-3, 1500
