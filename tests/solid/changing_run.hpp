@@ -72,6 +72,7 @@ public:
     [[nodiscard]] const Solid<Dim>& solid() const { return run_->solid(); }
     [[nodiscard]] auto& memm() { return run_->memm(); }
     [[nodiscard]] const auto& memm() const { return run_->memm(); }
+    [[nodiscard]] dynamics::RestartReport restarts() const { return run_->restarts(); }
     [[nodiscard]] std::int64_t pairs() const { return pairs_; }  ///< in contact in the steps since the last change, together
     /// What is to stay [J].
     [[nodiscard]] double balance() {
@@ -139,6 +140,7 @@ std::vector<NamedOptions<Dim>> all_that_remembers() {
             {"floating", falling<Dim>({floating, floating})},
             {"finite", falling<Dim>({finite, finite})},
             {"rigid and floating", falling<Dim>({floating, rigid})},
+            {"floating and rigid", falling<Dim>({rigid, floating})},
             {"a wall that moves, tractions", driven<Dim>({small, small})},
             {"dashpots, a brake", tied<Dim>({floating, floating})},
             {"a load from outside", pushed<Dim>({small, small})},

@@ -11,14 +11,15 @@ namespace {
 /// Two bodies that fly at each other, the upper one aside and with a spin; nothing is outside.
 struct Collision {
     std::string name;
-    Kinematics kinematics;
+    Kinematics kinematics;  // of the upper body
     solid::ContactLaw law = solid::ContactLaw::pair_potential;
     double friction = 0.0;
+    Kinematics below = kinematics;
 
     template <int Dim>
     [[nodiscard]] SolidOptions<Dim> options() const {
         SolidOptions<Dim> options = bodies<Dim>(2);
-        options.kinematics = {kinematics, kinematics};
+        options.kinematics = {below, kinematics};
         options.law = law;
         options.friction.coefficient = friction;
         return options;
@@ -82,7 +83,8 @@ TEMPLATE_TEST_CASE_SIG("what leaves with a cell in contact is told, and what is 
         GENERATE_COPY(Collision{"small", Kinematics::small}, Collision{"floating", Kinematics::floating},
                       Collision{"finite", Kinematics::finite}, Collision{"by faces", Kinematics::small, by_faces},
                       Collision{"friction by faces", Kinematics::small, by_faces, 0.3},
-                      Collision{"friction by nodes", Kinematics::floating, by_nodes, 0.3});
+                      Collision{"friction by nodes", Kinematics::floating, by_nodes, 0.3},
+                      Collision{"on a rigid body", Kinematics::finite, by_nodes, 0.0, Kinematics::rigid});
     const bool at_contact = GENERATE(true, false);
     CAPTURE(collision.name, at_contact);
     ChangingRun<Dim> run(stacked<Dim>(), collision.options<Dim>(), thrown<Dim>());
@@ -180,8 +182,10 @@ TEST_CASE("cells that are left remember how they have flowed, bonds how they hav
 
 TEST_CASE("a change of the mesh that is not made is refused by name", "[solid][change][errors]") {
     const mesh::Mesh<2> mesh = stacked<2>();
-    const auto refused = [&](NewMesh<2> next, const SolidOptions<2>& before, const SolidOptions<2>& after) {
+    const auto refused = [&](NewMesh<2> next, const SolidOptions<2>& before, const SolidOptions<2>& after,
+                             bool local_steps = false) {
         Solid<2> solid(mesh, before), other(next.mesh, after);
+        if (local_steps) solid.set_levels(1, std::vector<std::int32_t>(solid.size(), 0));
         const dynamics::Memm memm(solid, std::vector<double>(solid.size(), 0.0), momentum_of(solid, thrown<2>()), 0.01);
         try {
             static_cast<void>(solid::change(solid, memm.state(), other, next.old_cells));
@@ -225,6 +229,7 @@ TEST_CASE("a change of the mesh that is not made is refused by name", "[solid][c
     without_wall.obstacles.clear();
     CHECK_THAT(refused(same_mesh(mesh), small, without_wall), Catch::Contains("other obstacles"));
     CHECK_THAT(refused(same_mesh(mesh), small, tied<2>({Kinematics::small, Kinematics::small})), Catch::Contains("springs"));
+    CHECK_THAT(refused(same_mesh(mesh), small, small, true), Catch::Contains("local steps (memm_async)"));
     SolidOptions<2> rough = small;
     rough.friction.coefficient = 0.3;
     CHECK_THAT(refused(same_mesh(mesh), small, rough), Catch::Contains("same laws of friction"));

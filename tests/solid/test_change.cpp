@@ -162,6 +162,18 @@ TEMPLATE_TEST_CASE_SIG("a run that is handed over to a solid of the same mesh ha
         CHECK(changed.pairs() > 0);
         check_same_bits(whole, changed);
     }
+    const auto rubs = rubbing<Dim>(solid::ContactLaw::pair_potential);
+    const solid::RunRemedies remedies{.filter = true, .restart = 7};
+    ChangingRun<Dim> cleared(stacked<Dim>(), rubs, thrown<Dim>(), remedies);
+    ChangingRun<Dim> handed_over(stacked<Dim>(), rubs, thrown<Dim>(), remedies);
+    cleared.run(n_steps<Dim>);
+    handed_over.run(n_steps<Dim> / 2);
+    handed_over.change(same_mesh(handed_over.mesh()));
+    handed_over.run(n_steps<Dim>);
+    check_same_bits(cleared, handed_over);
+    CHECK(handed_over.restarts().restarts == n_steps<Dim> / 7);
+    CHECK(handed_over.restarts().paid == cleared.restarts().paid);
+
     const Bonded<Dim> bonded;
     ChangingRun<Dim> whole(bonded.mesh, bonded.options, bonded.motion), changed(bonded.mesh, bonded.options, bonded.motion);
     whole.run(200);
