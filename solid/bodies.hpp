@@ -42,6 +42,7 @@ public:
     /// Of the bodies that deform: `mesh` itself where all do, and none is floating.
     [[nodiscard]] const mesh::Mesh<Dim>& deformable() const { return part_ ? *part_ : mesh_; }
     [[nodiscard]] const SolidOptions<Dim>& options() const { return options_; }
+    [[nodiscard]] Kinematics kinematics(std::int32_t body) const;
     [[nodiscard]] bool turns(std::int32_t body) const;  ///< whether it may: it is not `small`
     [[nodiscard]] bool is_rigid(std::int32_t body) const { return kinematics(body) == Kinematics::rigid; }
     [[nodiscard]] bool is_finite(std::int32_t body) const { return kinematics(body) == Kinematics::finite; }
@@ -128,7 +129,6 @@ private:
     void refuse_on_turning_bodies(const DirichletCondition<Dim>& condition) const;
     void refuse_following(const TractionCondition<Dim>& condition) const;
     void check_outside(const TractionCondition<Dim>& condition) const;
-    [[nodiscard]] Kinematics kinematics(std::int32_t body) const;
     [[nodiscard]] double cell_mass(std::int32_t cell) const;
     [[nodiscard]] std::vector<Vector<Dim>> of_deformable_cells(std::span<const Vector<Dim>> of_points) const;
 

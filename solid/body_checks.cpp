@@ -74,7 +74,7 @@ template <int Dim>
 void Bodies<Dim>::check_temperature(std::int32_t body) const {
     if (!options_.temperature_rise[static_cast<std::size_t>(body)].value) return;
     const std::string who = mesh_.name + ": body '" + mesh_.body_names[static_cast<std::size_t>(body)] + "' ";
-    if (is_rigid(body) || is_finite(body))
+    if (!has(kinematics(body), Capability::temperature))
         throw BadInput(who +
                        "is given a temperature, which only bodies of Kinematics::small and ::floating can have. Take one of "
                        "these, or leave SolidOptions::temperature_rise out.");

@@ -11,6 +11,7 @@
 #include "abut/base/error.hpp"
 #include "abut/base/messages.hpp"
 #include "abut/base/sort_unique.hpp"
+#include "abut/solid/kinematics/capabilities.hpp"
 #include "abut/solid/material/orthotropic.hpp"
 
 namespace abut::solid {
@@ -69,7 +70,7 @@ void Bonds<Dim>::check_bodies() const {
     for (const BondPlace<Dim>& place : places_)
         for (const std::int32_t body : place.bodies) {
             const std::string who = mesh.name + ": body '" + mesh.body_names[static_cast<std::size_t>(body)] + "' ";
-            if (bodies_.is_rigid(body))
+            if (!has(bodies_.kinematics(body), Capability::bond))
                 throw BadInput(who +
                                "is rigid and cannot be bonded. Let it deform (Kinematics::small, ::floating or ::finite), "
                                "or join it by SolidOptions::springs.");

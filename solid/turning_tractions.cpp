@@ -1,27 +1,17 @@
 #include "abut/solid/turning_tractions.hpp"
 
+#include <array>
+
 #include "abut/base/error.hpp"
 
 namespace abut::solid {
 namespace {
 
-/// Which bodies the faces of a group are of; 1: there are such.
+/// Which bodies the faces of a group are of, by Kinematics; 1: there are such.
 struct Sides {
-    double small = 0.0, floating = 0.0, finite = 0.0, rigid = 0.0;
+    std::array<double, 4> of{};
 
-    double& of(Kinematics kinematics) {
-        switch (kinematics) {
-            case Kinematics::floating:
-                return floating;
-            case Kinematics::finite:
-                return finite;
-            case Kinematics::rigid:
-                return rigid;
-            case Kinematics::small:
-                break;
-        }
-        return small;
-    }
+    double& operator[](Kinematics kinematics) { return of[static_cast<std::size_t>(kinematics)]; }
 };
 
 template <int Dim>
@@ -29,7 +19,7 @@ Sides sides_of(const mesh::Mesh<Dim>& mesh, const SolidOptions<Dim>& options, co
     Sides sides;
     for (const std::int32_t face : mesh.group(condition.group).faces) {
         const auto body = static_cast<std::size_t>(mesh.cell_body[mesh.face_cells[face][0]]);
-        sides.of(body < options.kinematics.size() ? options.kinematics[body] : Kinematics::small) = 1.0;
+        sides[body < options.kinematics.size() ? options.kinematics[body] : Kinematics::small] = 1.0;
     }
     return sides;
 }
@@ -48,12 +38,13 @@ std::vector<TractionHold> traction_holds(const mesh::Mesh<Dim>& mesh, const Soli
     for (std::size_t i = 0; i < of_conditions.size(); ++i) {
         const TractionCondition<Dim>& condition = options.boundary.traction[i];
         Sides& sides = of_conditions[i];
-        for (double* side : {&sides.small, &sides.floating, &sides.finite, &sides.rigid}) *side = ranks.largest(*side);
-        const bool turns = sides.floating + sides.finite + sides.rigid > 0.0;
-        if (turns && sides.small > 0.0)
+        for (double& side : sides.of) side = ranks.largest(side);
+        const bool turns = sides[Kinematics::floating] + sides[Kinematics::finite] + sides[Kinematics::rigid] > 0.0;
+        if (turns && sides[Kinematics::small] > 0.0)
             throw BadInput(mesh.name + ": the traction on '" + condition.group +
                            "' acts on bodies of Kinematics::small and on others. Give each kind a group of its own.");
-        const bool in_frames = condition.follows && !condition.from_outside && sides.floating > 0.0 && sides.finite == 0.0;
+        const bool in_frames = condition.follows && !condition.from_outside && sides[Kinematics::floating] > 0.0 &&
+                               sides[Kinematics::finite] == 0.0;
         holds.push_back(!turns ? TractionHold::cells : in_frames ? TractionHold::frames : TractionHold::points);
     }
     return holds;

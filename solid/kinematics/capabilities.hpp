@@ -19,6 +19,7 @@ enum class Capability {
     large_strains,           ///< a material whose energy is not that of small strains
     flow,                    ///< a material that yields
     kinematic_hardening,
+    temperature,  ///< that is given, and strains
     damping,      ///< of the material: Rayleigh's and viscosity
     rest,         ///< a state at rest that is sought (`solve_statics`)
     loaded_rest,  ///< the same under tractions and moments
@@ -29,47 +30,34 @@ enum class Capability {
 struct CapabilityRow {
     Capability capability;
     std::string_view name;
-    bool small, floating, finite, rigid;
+    std::array<bool, 4> of;  ///< by Kinematics
     std::string_view reason;
-
-    [[nodiscard]] constexpr bool of(Kinematics kinematics) const {
-        switch (kinematics) {
-            case Kinematics::small:
-                return small;
-            case Kinematics::floating:
-                return floating;
-            case Kinematics::finite:
-                return finite;
-            case Kinematics::rigid:
-                return rigid;
-        }
-        return false;
-    }
 };
 
 /// All that is refused because of the kinematics of a body. docs/kinematics.md shows it.
-inline constexpr std::array<CapabilityRow, 14> capabilities{{
+inline constexpr std::array<CapabilityRow, 15> capabilities{{
     // clang-format off
-    //                                                                              small floating finite rigid
-    {Capability::clamp, "clamp",                                                    true, false, true, false, "a displacement is given in space, and a frame that turns has no place for it"},
-    {Capability::guide, "guide",                                                    true, false, false, false, "directions are those of space, and the faces turn"},
-    {Capability::symmetry, "symmetry",                                              true, false, false, false, "the body may turn off its plane"},
-    {Capability::following_traction, "following traction",                          true, true, false, true, "the body has no frame, and of what turns with a face the normal alone is known"},
-    {Capability::following_from_outside, "following traction from outside",         true, true, false, true, "the body has no frame; the program that sets the traction knows its normals"},
-    {Capability::dead_pressure, "pressure that does not follow",                    true, false, false, false, "forces that stay while faces turn spin up a body that is pressed from all sides"},
-    {Capability::bond, "bond",                                                      true, true, true, false, "bonds pull at faces through the cells behind them"},
-    {Capability::large_strains, "law of large strains",                             false, false, true, true, "strains are linear; a rigid body has none, whatever its law"},
-    {Capability::flow, "metal that yields",                                         true, true, true, false, "nothing deforms"},
-    {Capability::kinematic_hardening, "kinematic hardening",                        true, true, false, false, "the back stress of large strains is not made; rigid bodies do not yield"},
-    {Capability::damping, "damping and viscosity of the material",                  true, true, true, false, "nothing deforms"},
-    {Capability::rest, "state at rest that is sought",                              true, false, true, false, "the search knows no turns of frames and of rigid bodies"},
-    {Capability::loaded_rest, "the same under tractions or moments",                true, false, false, false, "forces that turn with faces have no potential"},
-    {Capability::local_steps, "local time steps",                                   true, false, false, false, "a frame couples all cells of its body, and forces of large strains are not linear"},
+    //                                                                              small, floating, finite, rigid
+    {Capability::clamp, "clamp",                                                    {true, false, true, false}, "a displacement is given in space, and a frame that turns has no place for it"},
+    {Capability::guide, "guide",                                                    {true, false, false, false}, "directions are those of space, and the faces turn"},
+    {Capability::symmetry, "symmetry",                                              {true, false, false, false}, "the body may turn off its plane"},
+    {Capability::following_traction, "following traction",                          {true, true, false, true}, "the body has no frame, and of what turns with a face the normal alone is known"},
+    {Capability::following_from_outside, "following traction from outside",         {true, true, false, true}, "the body has no frame; the program that sets the traction knows its normals"},
+    {Capability::dead_pressure, "pressure that does not follow",                    {true, false, false, false}, "forces that stay while faces turn spin up a body that is pressed from all sides"},
+    {Capability::bond, "bond",                                                      {true, true, true, false}, "bonds pull at faces through the cells behind them"},
+    {Capability::large_strains, "law of large strains",                             {false, false, true, true}, "strains are linear; a rigid body has none, whatever its law"},
+    {Capability::flow, "metal that yields",                                         {true, true, true, false}, "nothing deforms"},
+    {Capability::kinematic_hardening, "kinematic hardening",                        {true, true, false, false}, "the back stress of large strains is not made; rigid bodies do not yield"},
+    {Capability::temperature, "temperature",                                        {true, true, false, false}, "thermal strain is added to linear ones; rigid bodies have none"},
+    {Capability::damping, "damping and viscosity of the material",                  {true, true, true, false}, "nothing deforms"},
+    {Capability::rest, "state at rest that is sought",                              {true, false, true, false}, "the search knows no turns of frames and of rigid bodies"},
+    {Capability::loaded_rest, "the same under tractions or moments",                {true, false, false, false}, "forces that turn with faces have no potential"},
+    {Capability::local_steps, "local time steps",                                   {true, false, false, false}, "a frame couples all cells of its body, and forces of large strains are not linear"},
     // clang-format on
 }};
 
 [[nodiscard]] constexpr bool has(Kinematics kinematics, Capability capability) {
-    return capabilities[static_cast<std::size_t>(capability)].of(kinematics);
+    return capabilities[static_cast<std::size_t>(capability)].of[static_cast<std::size_t>(kinematics)];
 }
 
 }  // namespace abut::solid
