@@ -114,9 +114,7 @@ void Solid<Dim>::check_old_cells(const Solid& before, std::span<const std::int32
                            {.cell = cell});
     }
     for (std::int32_t body = 0; body < mesh_.n_bodies(); ++body) {
-        if (bodies_->is_rigid(body) != before.bodies_->is_rigid(body) ||
-            bodies_->is_finite(body) != before.bodies_->is_finite(body) ||
-            bodies_->turns(body) != before.bodies_->turns(body))
+        if (bodies_->kinematics(body) != before.bodies_->kinematics(body))
             refuse(mesh_.name, body_in_words(mesh_, body) + " is of other kinematics than before. Keep them.");
         const std::int32_t n_before = size_of_body(before.mesh_, body), n_now = size_of_body(mesh_, body);
         if (bodies_->is_rigid(body) && n_now != n_before)
