@@ -11,6 +11,7 @@ namespace {
 // Material::jump_cap where none is given. Gradients of bricks are central differences, so that jumps have more to hold.
 constexpr double cap_of_simplices = 0.1, cap_of_others = 0.3;
 constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
+constexpr double never_reached = std::numeric_limits<double>::max();
 constexpr double jump_rounding = 1e-9;  // more than what sums of very many steps make of a jump, over the cap
 constexpr double same_normal = 1e-10;   // 1 - |cos| of two normals that count as one
 
@@ -197,6 +198,7 @@ template <int Dim>
 void CappedJumps<Dim>::set_memory(std::ptrdiff_t cell, std::span<const double> values) {
     for (std::int32_t i = arrays_.half_face_offsets[cell]; i < arrays_.half_face_offsets[cell + 1]; ++i) {
         memory_[i] = next_[i] = Eigen::Map<const Vector<Dim>>(values.data());
+        if (!has_cap(i) && !memory_[i].isZero(0.0)) largest_[static_cast<std::size_t>(i)] = never_reached;
         elastic_[i].setConstant(not_known);
         values = values.subspan(Dim);
     }

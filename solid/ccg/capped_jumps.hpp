@@ -43,7 +43,7 @@ public:
 
     /// Nothing is dissipated in this step so far.
     void begin(std::ptrdiff_t cell) { loss_[static_cast<std::size_t>(cell)] = 0.0; }
-    /// Whether a half-face can yield at all.
+    /// Whether a half-face can yield at all, or has a jump that lasts, of when it could: cells beside it have left since.
     [[nodiscard]] bool has_cap(std::ptrdiff_t half_face) const {
         return largest_[static_cast<std::size_t>(half_face)] < std::numeric_limits<double>::infinity();
     }
