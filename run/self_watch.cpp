@@ -1,5 +1,8 @@
 #include "abut/run/self_watch.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -19,6 +22,7 @@ namespace abut::run {
 namespace {
 
 constexpr double near = 0.1;              // gap over the depth of both cells
+constexpr double crossed = -0.3;          // the same
 constexpr double come_nearer = 0.5;       // distance of two faces over that at rest
 constexpr double sizes_ahead = 4.0;       // how far a look sees, in mean sizes of faces
 constexpr std::int64_t least_steps = 20;  // from one look to the next
@@ -55,13 +59,15 @@ public:
         has_looked_ = true;
         last_look_ = step;
         deformed_at_look_ = deformed_;
+        std::optional<NearItself<Dim>> crossing;
         try {
-            look_at_surface(solid, q, time, found.near_themselves);
+            crossing = look_at_surface(solid, q, time, found.near_themselves);
         } catch (const Error& error) {  // a face without a plane, or more pairs than a search may find
             is_done_ = true;
             if (std::ranges::find(found.looks_ended, name_, &LookEnded::body) == found.looks_ended.end())
                 found.looks_ended.push_back({name_, time, error.what()});
         }
+        if (crossing) refuse(*crossing);
     }
 
 private:
@@ -121,34 +127,52 @@ private:
         return std::sqrt(farthest);
     }
 
-    void look_at_surface(const solid::Solid<Dim>& solid, std::span<const double> q, double time,
-                         std::vector<NearItself<Dim>>& found) {
+    [[noreturn]] void refuse(const NearItself<Dim>& crossing) const {
+        throw Diverged(fmt::format("t = {:.4g} s: body '{}' goes through itself at ({:.4g}): two parts of its surface, {:.3g} m "
+                                   "apart at rest, are {:.3g} m inside each other, and no contact acts within a body. Set "
+                                   "contact.self = true (--self-contact), which lets it act.",
+                                   crossing.time, name_, fmt::join(crossing.position, ", "), crossing.gap_at_rest,
+                                   -crossing.gap),
+                       {.value = crossing.gap, .allowed = 0.0});
+    }
+
+    /// Whether two faces look at each other across an opening of the body at rest, so that one that is behind the other has gone through
+    /// it: faces of one tip or of both sides of a plate are behind each other from the start.
+    [[nodiscard]] bool are_apart_at_rest(std::int32_t face_1, std::int32_t face_2) const {
+        const Vector<Dim> between = rest_middle(face_2) - rest_middle(face_1);
+        return between.dot(surface_.normal[static_cast<std::size_t>(face_1)]) > 0.0 &&
+               between.dot(surface_.normal[static_cast<std::size_t>(face_2)]) < 0.0;
+    }
+
+    /// Adds a body that comes near itself; returns where it has gone through itself.
+    [[nodiscard]] std::optional<NearItself<Dim>> look_at_surface(const solid::Solid<Dim>& solid, std::span<const double> q,
+                                                                 double time, std::vector<NearItself<Dim>>& found) {
         const std::vector<Vector<Dim>> u = solid.vertex_displacement(q);
         std::vector<Vector<Dim>> x(surface_.vertices);
         for (std::size_t v = 0; v < x.size(); ++v) x[v] += u[static_cast<std::size_t>(vertices_[v])];
         search_->search_moved(x, x, contact::GapOf::centroids);
         const auto overlaps = contact::find_overlaps_moved<Dim>(surface_.view(), x, search_->candidates());
         least_gap_ = ahead_;
-        std::optional<NearItself<Dim>> nearest;
+        std::optional<NearItself<Dim>> nearest, crossing;
         for (const contact::Overlap<Dim>& pair : overlaps.found) {
             const double depth = surface_.cell_depth[static_cast<std::size_t>(pair.face_1)] +
                                  surface_.cell_depth[static_cast<std::size_t>(pair.face_2)];
             const double at_rest = (rest_middle(pair.face_2) - rest_middle(pair.face_1)).norm();
             const Vector<Dim> from_1 = middle(x, pair.face_1), from_2 = middle(x, pair.face_2);
             if (pair.gap < -depth || (pair.gap < near * depth && (from_2 - from_1).norm() > come_nearer * at_rest)) continue;
-            if (pair.gap >= near * depth) {
-                least_gap_ = std::min(least_gap_, std::max(pair.gap - near * depth, near * depth));
-                continue;
-            }
-            if (nearest && nearest->gap <= pair.gap) continue;
+            least_gap_ = std::min(least_gap_, std::max(pair.gap - near * depth, near * depth));
+            if (pair.gap >= near * depth) continue;
             const Vector<Dim>& normal = surface_.normal[static_cast<std::size_t>(pair.face_1)];
             const double gap_at_rest = std::abs((rest_middle(pair.face_2) - rest_middle(pair.face_1)).dot(normal));
-            nearest = {name_, time, pair.gap, gap_at_rest, 0.5 * (from_1 + from_2)};
+            const NearItself<Dim> here{name_, time, pair.gap, gap_at_rest, 0.5 * (from_1 + from_2)};
+            const auto is_deeper = [&](const auto& than) { return !than || here.gap < than->gap; };
+            if (is_deeper(nearest)) nearest = here;
+            if (here.gap < crossed * depth && is_deeper(crossing) && are_apart_at_rest(pair.face_1, pair.face_2))
+                crossing = here;
         }
-        if (!nearest) return;
-        is_done_ = true;
         // A run that goes on knows what was found before.
-        if (std::ranges::find(found, name_, &NearItself<Dim>::body) == found.end()) found.push_back(*nearest);
+        if (nearest && std::ranges::find(found, name_, &NearItself<Dim>::body) == found.end()) found.push_back(*nearest);
+        return crossing;
     }
 
     [[nodiscard]] Vector<Dim> rest_middle(std::int32_t face) const {

@@ -296,11 +296,7 @@ private:
         if (is_sighting_due(integrator_->steps())) {
             const Stopwatch watch(result_.seconds.looks);
             obstacle_watch_.look(solid_, integrator_->q(), integrator_->time(), result_.sightings.past_rims);
-            if (self_watch_.is_on())
-                whole_.show(*integrator_, [&](const auto& run, auto& solid) {
-                    whole_.evaluate(run, solid);
-                    self_watch_.look(solid, run.q, run.time, run.steps, result_.sightings);
-                });
+            if (self_watch_.is_on()) look_for_crossings();
         }
         const auto& entries = result_.ledger.entries();
         result_.scale = known_scale<Dim>(scene_.energy_scale, result_);
@@ -311,6 +307,18 @@ private:
         const dynamics::LedgerEntry<Dim>& last = entries.back();
         if (entries.size() == 1 || last.energy - last.pseudo_energy <= sound_share * scale)
             sound_.keep(*integrator_, result_.dt);
+    }
+
+    void look_for_crossings() {
+        try {
+            whole_.show(*integrator_, [&](const auto& run, auto& solid) {
+                whole_.evaluate(run, solid);
+                self_watch_.look(solid, run.q, run.time, run.steps, result_.sightings);
+            });
+        } catch (const Diverged&) {
+            tell({.sound = whole_.of(integrator_->state()), .lost = nullptr, .cells = {}});
+            throw;
+        }
     }
 
     /// At the end, and at evenly spaced records before it: a look costs about as much as a tenth of a step.

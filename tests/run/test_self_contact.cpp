@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "abut/base/error.hpp"
 #include "abut/mesh/shapes/shapes.hpp"
 #include "abut/run/simulation.hpp"
 
@@ -107,11 +108,19 @@ TEMPLATE_TEST_CASE_SIG("a C that claps its ends keeps pseudo-energy and momenta,
         if (!touches && kinematics == solid::Kinematics::finite) continue;  // arms that pass through each other fold
         options.contact.search.self_contact = touches;
         Depth<Dim> depth(scene.mesh);
+        if (!touches) {
+            try {  // fast arms may be through each other between two looks
+                static_cast<void>(run::simulate<Dim>(scene, options, depth));
+            } catch (const Diverged& error) {
+                CHECK_THAT(error.what(), Catch::Contains("goes through itself"));
+            }
+            CHECK(depth.deepest > 0.3 * cell);
+            continue;
+        }
         const auto result = run::simulate<Dim>(scene, options, depth);
-        CAPTURE(depth.deepest, touches);
-        CHECK((result.contact.active_pairs_max > 0) == touches);
-        CHECK((depth.deepest > 0.3 * cell) == !touches);
-        if (!touches) continue;
+        CAPTURE(depth.deepest);
+        CHECK(result.contact.active_pairs_max > 0);
+        CHECK(depth.deepest <= 0.3 * cell);
         CHECK(result.contact.missed_contacts == 0);
         CHECK(result.ledger.pseudo_energy_drift() < 1e-11 * result.ledger.largest_energy());
         const double momentum = scene.solid.materials[0].density * 0.16;  // of the whole at 1 m/s, at most
