@@ -13,8 +13,7 @@
 namespace abut::contact {
 namespace {
 
-// Of two facets of one body: n_1 . n_2, by how much it changes while a list is valid, and by how much n turns [rad].
-constexpr double looks_the_same_way = 0.5;
+// Of two facets of one body: by how much n_1 . n_2 changes while a list is valid, and by how much n turns [rad].
 constexpr double turns_at_most = 0.1;
 constexpr double turns_in_all = 0.2;
 
@@ -40,6 +39,7 @@ NodeLaw<Dim>::NodeLaw(BevelledSurface<Dim> surface, const NodalOptions& options,
       inside_(acting().facets().view(), touches_itself(acting(), options_.search)),
       pairs_(options_.facing, options_.friction, options_.interference, sharing),
       ramps_(options_.interference),
+      looks_away_(std::cos(std::acos(std::clamp(options_.facing.none, -1.0, 1.0)) - turns_in_all)),
       law_(options_.events, options_.friction, sharing) {
     const Surface<Dim>& facets = surface_.host().facets();
     for (std::int32_t facet = 0; facet < facets.size(); ++facet)
@@ -106,14 +106,14 @@ void NodeLaw<Dim>::place_facets(State x) {
 }
 
 /// Of two facets of one body, when no corner moves by more than `reach`. They are neighbours on its surface, and turn little
-/// against each other while a list is valid: those that look much the same way, and those that are far above, behind or beside
+/// against each other while a list is valid: those that look too much the same way, and those that are far above, behind or beside
 /// each other seen along n, come together after the next search at the earliest. What has a mark comes out only if it is shallow
 /// and the facets look at each other.
 template <int Dim>
 bool NodeLaw<Dim>::may_come_together(FacetPair pair, double reach) const {
     const auto facet_1 = static_cast<std::size_t>(pair.facet_1), facet_2 = static_cast<std::size_t>(pair.facet_2);
     const double facing = normal_[facet_1].dot(normal_[facet_2]);
-    if (facing > looks_the_same_way) return false;
+    if (facing > looks_away_) return false;
     const Vector<Dim> between = middle_[facet_2] - middle_[facet_1];
     const double height = between.dot((normal_[facet_1] - normal_[facet_2]).normalized()), distance = between.norm();
     const double sizes = radius_[facet_1] + radius_[facet_2], turned = turns_in_all * distance;

@@ -110,6 +110,7 @@ private:
     std::vector<double> radius_;                // and at rest
     NodalPairs<Dim> pairs_;
     InterferenceRamps ramps_;
+    double looks_away_;  // n_1 . n_2 of two facets of one body that have no weight for as long as a list is valid
     PairPotential<Dim> law_;
     std::int32_t least_force_size_ = 0;  // nodes up to the last one of a deformable face
 };

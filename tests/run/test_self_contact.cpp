@@ -129,3 +129,19 @@ TEMPLATE_TEST_CASE_SIG("a C that claps its ends keeps pseudo-energy and momenta,
         CHECK(result.sightings.near_themselves.empty());
     }
 }
+
+TEST_CASE("a cube that flies and turns has no pair of itself in the list: to touch itself costs nothing", "[run][self]") {
+    run::Scene<3> scene;
+    scene.mesh = mesh::structured_box<3>(Vector<3>::Zero(), Vector<3>::Ones(), {6, 6, 6}, mesh::CellShape::tetrahedron);
+    scene.solid.materials = {{.young = 1.0, .poisson = 0.3, .density = 1.0}};
+    scene.solid.kinematics = {GENERATE(solid::Kinematics::finite, solid::Kinematics::floating)};
+    scene.velocity = {Vector<3>(0.1, 0.0, 0.0)};  // a tenth of the speed of waves
+    scene.added_velocity = [](const Vector<3>& x) { return Vector<3>(-0.02 * (x.y() - 0.5), 0.02 * (x.x() - 0.5), 0.0); };
+    scene.time = 4.0;
+    run::RunOptions options{.interval = 10};
+    options.contact.search.self_contact = true;
+    const auto result = run::simulate<3>(scene, options);
+    CHECK(result.contact.rebuilds > 1);
+    CHECK(result.contact.candidates == 0);
+    CHECK(result.contact.missed_contacts == 0);
+}
