@@ -247,7 +247,8 @@ void Solid<Dim>::book_losses() {
     const auto book = [&](double dynamics::Losses::*of) {
         dissipated_.*of += part_->sum_of_cells([&](std::int32_t c) { return ccg_.step_loss(c).*of; });
     };
-    if (any_inelastic())
+    const bool none_flows = part_->is_whole() && !ccg_.may_have_flowed();  // several ranks sum what all of them have
+    if (any_inelastic() && !none_flows)
         for (double dynamics::Losses::*of :
              {&dynamics::Losses::in_cells, &dynamics::Losses::in_jumps, &dynamics::Losses::on_faces})
             book(of);

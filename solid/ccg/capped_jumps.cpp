@@ -12,8 +12,7 @@ namespace {
 constexpr double cap_of_simplices = 0.1, cap_of_others = 0.3;
 constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 constexpr double never_reached = std::numeric_limits<double>::max();
-constexpr double jump_rounding = 1e-9;  // more than what sums of very many steps make of a jump, over the cap
-constexpr double same_normal = 1e-10;   // 1 - |cos| of two normals that count as one
+constexpr double same_normal = 1e-10;  // 1 - |cos| of two normals that count as one
 
 template <int Dim>
 bool is_simplex(const mesh::Mesh<Dim>& mesh, std::int32_t cell) {
@@ -97,17 +96,6 @@ Vector<Dim> CappedJumps<Dim>::excess(std::ptrdiff_t half_face, const Vector<Dim>
     return (1.0 - largest / size) * trial;
 }
 
-/// The jump at the end is twice that in the middle less that at the start.
-template <int Dim>
-bool CappedJumps<Dim>::stays_elastic(std::ptrdiff_t half_face, const Vector<Dim>& mean) {
-    const auto i = static_cast<std::size_t>(half_face);
-    next_elastic_[i] = 2.0 * (mean - memory_[i]) - elastic_[i];
-    const double largest = (1.0 - jump_rounding) * largest_[i];
-    if (!(next_elastic_[i].squaredNorm() <= largest * largest)) return false;  // or not a number
-    next_[i] = memory_[i];
-    return true;
-}
-
 /// With J_b and [u]_b the means of both ends D = k ([u]_b - J_b) . Delta J, which is exact; half of it is of this cell.
 template <int Dim>
 Vector<Dim> CappedJumps<Dim>::advance(std::ptrdiff_t cell, std::ptrdiff_t half_face, const Vector<Dim>& mean,
@@ -117,6 +105,7 @@ Vector<Dim> CappedJumps<Dim>::advance(std::ptrdiff_t cell, std::ptrdiff_t half_f
     const Vector<Dim>& before = memory_[i];
     const Vector<Dim> trial = mean + 0.5 * change - before;
     const Vector<Dim> yielded = excess(half_face, trial);
+    if (!yielded.isZero(0.0)) any_yielded_.store(true, std::memory_order_relaxed);
     next_[i] = before + yielded;
     next_elastic_[i] = trial - yielded;
     const Vector<Dim> lasting = 0.5 * (before + next_[i]);
@@ -172,6 +161,7 @@ void CappedJumps<Dim>::end_step() {
     std::swap(memory_, next_);
     std::swap(elastic_, next_elastic_);
     std::swap(start_, end_);
+    any_yielded_ = false;
 }
 
 template <int Dim>

@@ -1,5 +1,6 @@
 #pragma once
 // Private to the sources of this layer.
+#include <atomic>
 #include <cstdint>
 #include <limits>
 #include <span>
@@ -49,7 +50,15 @@ public:
     }
     /// Whether a half-face that has a cap, of a body whose strains are linear, surely stays below it in a step that begins where the last one
     /// ended, and in whose middle its jump is `mean`: then the step is made. Else `advance` must say.
-    [[nodiscard]] bool stays_elastic(std::ptrdiff_t half_face, const Vector<Dim>& mean);
+    [[nodiscard]] bool stays_elastic(std::ptrdiff_t half_face, const Vector<Dim>& mean) {
+        const auto i = static_cast<std::size_t>(half_face);
+        next_elastic_[i] =
+            2.0 * (mean - memory_[i]) - elastic_[i];  // at the end, by what it was in the middle and at the start
+        const double largest = (1.0 - rounding) * largest_[i];
+        if (!(next_elastic_[i].squaredNorm() <= largest * largest)) return false;  // or not a number
+        next_[i] = memory_[i];
+        return true;
+    }
     /// Lets a half-face of a body whose strains are linear yield in a step in which [u] changes by `change` about `mean`. Returns the
     /// mean of J [m].
     [[nodiscard]] Vector<Dim> advance(std::ptrdiff_t cell, std::ptrdiff_t half_face, const Vector<Dim>& mean,
@@ -70,6 +79,8 @@ public:
     [[nodiscard]] Elastic advance(std::ptrdiff_t cell, std::ptrdiff_t half_face, const Vector<Dim>& jump,
                                   const Matrix<Dim>& gradient, double& defect);
 
+    /// Whether a half-face of a body of linear strains has yielded in the step, or in one before that has not ended.
+    [[nodiscard]] bool any_yielded() const { return any_yielded_.load(std::memory_order_relaxed); }
     /// Energy that a cell's half of its faces has dissipated in the step [J].
     [[nodiscard]] double loss(std::ptrdiff_t cell) const {
         return contains(cell) ? loss_[static_cast<std::size_t>(cell)] : 0.0;
@@ -84,6 +95,7 @@ public:
     void set_memory(std::ptrdiff_t cell, std::span<const double> values);
 
 private:
+    static constexpr double rounding = 1e-9;  // more than what sums of very many steps make of a jump, over the cap
     [[nodiscard]] static Elastic of(const Vector<Dim>& lasting, const Vector<Dim>& jump, const Matrix<Dim>& gradient);
     /// What J changes by, in space, so that `trial` comes back to the cap [m].
     [[nodiscard]] Vector<Dim> excess(std::ptrdiff_t half_face, const Vector<Dim>& trial) const;
@@ -97,6 +109,7 @@ private:
     std::vector<Vector<Dim>> elastic_, next_elastic_;
     std::vector<Elastic> start_, end_;  // by half-face, of finite bodies
     std::vector<double> loss_;          // by cell
+    std::atomic<bool> any_yielded_ = false;
 };
 
 }  // namespace abut::solid

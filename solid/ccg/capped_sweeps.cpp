@@ -26,7 +26,7 @@ Vector<Dim> CcgSweeps<Dim, Real>::jump_change(std::int32_t c, std::int32_t half_
         return load_packed<Dim>(change).times(coefficients_.lever_arms[half_of_cell]);
     };
     const std::int32_t other = c == first ? second : first;
-    const Matrix<Dim> of_other = follows_ ? linear_change(other) : unload(load_tensor<Dim>(g_change_, other));
+    const Matrix<Dim> of_other = change_of_stage(other);
     return unload(of_trace(of_cell, half_face) - of_trace(of_other, half.twin) +
                   (load_packed<Dim>(u_change_, c) - load_packed<Dim>(u_change_, other)));
 }
@@ -41,7 +41,8 @@ void CcgSweeps<Dim, Real>::add_lasting_jumps(std::int32_t c) {
     const auto mean_of_step = [&](std::int32_t i) -> Vector<Dim> {
         const Vector<Dim> mean = unload(jump(c, i));
         if (follows_ && capped_->stays_elastic(i, mean)) return capped_->lasting(i);
-        if (!change) change = follows_ ? linear_change(c) : unload(load_tensor<Dim>(g_change_, c));
+        if (!change) change = change_of_stage(c);
+        wants_change_[static_cast<std::size_t>(c)] = 1;
         return capped_->advance(c, i, mean, jump_change(c, i, *change));
     };
     for (std::int32_t i = arrays_.half_face_offsets[c]; i < arrays_.half_face_offsets[c + 1]; ++i) {

@@ -329,6 +329,11 @@ bool Ccg<Dim>::flows_linearly() const {
 }
 
 template <int Dim>
+bool Ccg<Dim>::may_have_flowed() const {
+    return impl_->finite.any_inelastic() || impl_->plastic.any_flowed() || impl_->capped.any_yielded();
+}
+
+template <int Dim>
 bool Ccg<Dim>::any_face_moves() const {
     return impl_->plastic.any_face_moves();
 }

@@ -176,6 +176,8 @@ public:
     [[nodiscard]] bool any_inelastic() const;
     /// Whether a body of small or floating strains is, on any rank.
     [[nodiscard]] bool flows_linearly() const;
+    /// Whether cells or jumps may have dissipated anything by flow in the step; nothing else than 0 is booked where not.
+    [[nodiscard]] bool may_have_flowed() const;
     /// Whether what flows in the step moves faces that contact may push: they go there as it ends.
     [[nodiscard]] bool any_face_moves() const;
     [[nodiscard]] bool any_damped() const;

@@ -146,9 +146,9 @@ void CcgSweeps<Dim, Real>::displacement_gradients_of_chunk(std::int32_t k) {
         for_runs(cells, [&](std::int32_t c) { set_finite_displacement_gradient(c); });
     }
     if constexpr (takes_finite)
-        if (steps_ && capped_ && !follows_ && !chunks_[k].has_finite)
+        if (steps_ && plastic_ && !chunks_[k].has_finite)
             for_runs(cells, [&](std::int32_t c) {  // for its own stress, and for the jumps of its neighbours
-                if (capped_->contains(c)) store_tensor(load_packed<Dim>(linear_change(c)), g_change_, c);
+                if (makes_change(c)) store_tensor(load_packed<Dim>(linear_change(c)), g_change_, c);
             });
 }
 

@@ -72,6 +72,22 @@ Matrix<Dim> CcgSweeps<Dim, Real>::linear_change(std::int32_t c) const {
     return unload(element_.gradient_of(u_change_.data(), c, relative));
 }
 
+/// Whether the change of a cell is made before stresses ask for it: where it surely is, and where it was asked for in the last step, as what
+/// flows mostly goes on. Elsewhere whoever asks makes it, with the same bits.
+template <int Dim, class Real>
+bool CcgSweeps<Dim, Real>::makes_change(std::int32_t c) {
+    const auto i = static_cast<std::size_t>(c);
+    const bool is_needed = !follows_ && capped_ && capped_->contains(c);
+    has_change_made_[i] = is_needed || wants_change_[i] != 0 ? 1 : 0;
+    wants_change_[i] = 0;
+    return has_change_made_[i] != 0;
+}
+
+template <int Dim, class Real>
+Matrix<Dim> CcgSweeps<Dim, Real>::change_of_stage(std::int32_t c) const {
+    return has_change_made_[static_cast<std::size_t>(c)] != 0 ? unload(load_tensor<Dim>(g_change_, c)) : linear_change(c);
+}
+
 template <int Dim, class Real>
 void CcgSweeps<Dim, Real>::add_stress(std::int32_t c, const Matrix<Dim>& added) {
     LaneTensor<Dim, Real> sum = load_tensor<Dim>(s_, c);
@@ -99,9 +115,8 @@ template <int Dim, class Real>
 Matrix<Dim> CcgSweeps<Dim, Real>::stress_of_flow(std::int32_t c, const Matrix<Dim>& elastic) {
     if (steps_ && plastic_->moves_faces(c)) set_push_of_contact(c);
     if (!steps_ || (follows_ && plastic_->stays_elastic(c, elastic))) return plastic_->stress(c);
-    const bool is_made = !follows_ && capped_ && capped_->contains(c);
-    const Matrix<Dim> mean = gradient_of_stage(c);
-    const Matrix<Dim> half = 0.5 * (is_made ? unload(load_tensor<Dim>(g_change_, c)) : linear_change(c));
+    wants_change_[static_cast<std::size_t>(c)] = 1;
+    const Matrix<Dim> mean = gradient_of_stage(c), half = 0.5 * change_of_stage(c);
     return plastic_->advance(c, mean - half, mean + half, dt_);
 }
 
@@ -473,6 +488,8 @@ double CcgSweeps<Dim, Real>::directed_out_of_plane_stress(std::int32_t c) const 
 
 #define ABUT_INSTANTIATE(Dim)                                                                             \
     template Matrix<Dim> CcgSweeps<Dim>::linear_change(std::int32_t) const;                               \
+    template bool CcgSweeps<Dim>::makes_change(std::int32_t);                                             \
+    template Matrix<Dim> CcgSweeps<Dim>::change_of_stage(std::int32_t) const;                             \
     template void CcgSweeps<Dim>::add_stress(std::int32_t, const Matrix<Dim>&);                           \
     template void CcgSweeps<Dim>::add_linear_stress(std::int32_t);                                        \
     template void CcgSweeps<Dim>::take_ends(const StepEnds<Dim>&);                                        \

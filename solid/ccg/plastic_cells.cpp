@@ -32,7 +32,7 @@ constexpr std::array<std::pair<int, int>, Dim == 2 ? 1 : 3> shears = [] {
 
 /// Less its mean of the normal components, which are the first three.
 template <class Strain>
-Strain deviator_of(Strain strain) {
+[[gnu::always_inline]] inline Strain deviator_of(Strain strain) {
     const double mean = strain.template head<3>().sum() / 3.0;
     strain.template head<3>().array() -= mean;
     return strain;
@@ -183,9 +183,9 @@ Matrix<Dim> PlasticCells<Dim>::tilted(std::ptrdiff_t cell) const {
 template <int Dim>
 auto PlasticCells<Dim>::memory_of(const Cell& cell, const Strain& plastic, double equivalent) const -> Memory {
     const Strain stress = response(cell).stiffness * plastic;
-    return {plastic, equivalent, unpacked(stress),
-            Strain(deviator_of(stress) + two_thirds * cell.material->kinematic_hardening * plastic),
-            slope_of_alpha * cell.material->flow_stress(equivalent)};
+    return {slope_of_alpha * cell.material->flow_stress(equivalent),
+            Strain(deviator_of(stress) + two_thirds * cell.material->kinematic_hardening * plastic), unpacked(stress),
+            equivalent, plastic};
 }
 
 /// The driving force at the end is twice that in the middle less that at the start.
@@ -267,6 +267,7 @@ Matrix<Dim> PlasticCells<Dim>::advance(std::ptrdiff_t cell, const Matrix<Dim>& g
     // Else it waits: a stress beyond the surface is one of a rate.
     of.flows = loss >= 0.0 || !of.material->knows_rates();
     if (!of.flows) return of.memory.stress;
+    any_flowed_.store(true, std::memory_order_relaxed);
     of.loss = loss;
     of.work_of_push = of.measure * g * normal.dot(of.push);
     of.next = memory_of(of, of.memory.plastic + g * normal, of.memory.equivalent + slope_of_alpha * g);
@@ -296,6 +297,7 @@ void PlasticCells<Dim>::end_step() {
         cell.flows = false;
         cell.driving = cell.next_driving;
     });
+    any_flowed_ = false;
 }
 
 template <int Dim>

@@ -1,6 +1,7 @@
 #pragma once
 // Private to the sources of this layer.
 #include <algorithm>
+#include <atomic>
 #include <cstdint>
 #include <limits>
 #include <span>
@@ -82,6 +83,8 @@ public:
     }
     /// The same at the end of the step, which may not have ended yet.
     [[nodiscard]] double end_plastic_strain(std::ptrdiff_t cell) const { return at(cell).end().equivalent; }
+    /// Whether a cell has flowed in the step, or in one before that has not ended.
+    [[nodiscard]] bool any_flowed() const { return any_flowed_.load(std::memory_order_relaxed); }
     /// Energy that a cell has dissipated in the step [J].
     [[nodiscard]] double loss(std::ptrdiff_t cell) const { return contains(cell) ? at(cell).loss : 0.0; }
     /// The next step begins where this one ends.
@@ -109,23 +112,24 @@ private:
     };
     [[nodiscard]] static Response response_of(const Material& material, const std::vector<Strain>& free);
     struct Memory {
-        Strain plastic = Strain::Zero();
-        double equivalent = 0.0;
-        // What follows from them
-        Matrix<Dim> stress = Matrix<Dim>::Zero();
-        Strain shift = Strain::Zero();  // dev C_e : p + 2/3 H p
+        // What follows from the two below
         double radius = 0.0;            // sqrt(2/3) sigma(alpha)
+        Strain shift = Strain::Zero();  // dev C_e : p + 2/3 H p
+        Matrix<Dim> stress = Matrix<Dim>::Zero();
+        double equivalent = 0.0;
+        Strain plastic = Strain::Zero();
     };
+    /// What a step that stays elastic looks at comes first.
     struct Cell {
         const Material* material;
         std::int32_t response;
         double measure;
-        Memory memory{}, next{};
         bool flows = false;  // in the step: it ends with `next`
-        double loss = 0.0, work_of_push = 0.0;
         std::int32_t first_shift = 0, end_shift = 0, tilt = 0;
-        Strain push = Strain::Zero();                          // of contact in the step, on p: a stress
+        double loss = 0.0, work_of_push = 0.0;
         Strain driving = unknown(), next_driving = unknown();  // xi at the start and at the end of the step
+        Strain push = Strain::Zero();                          // of contact in the step, on p: a stress
+        Memory memory{}, next{};
 
         [[nodiscard]] const Memory& end() const { return flows ? next : memory; }
     };
@@ -158,6 +162,7 @@ private:
 
     std::vector<Material> materials_;
     std::vector<Response> responses_;  // of each body inside, then of cells with free faces
+    std::atomic<bool> any_flowed_ = false;
     bool any_ = false;                 // known from materials alone: this rank may have no cell of them
     std::vector<std::int32_t> index_;  // of each cell; empty where no body is of them
     std::vector<Cell> cells_;

@@ -48,7 +48,11 @@ CcgSweeps<Dim, Real>::CcgSweeps(const CcgArrays<Dim>& arrays, const CcgCoefficie
     correction_.resize(width * arrays.boundary_faces.size());
     pair_gradient_.resize(width * arrays.boundary_faces.size());
     free_.resize(finite.free().size());
-    if (finite.any() || capped_) g_change_.resize(s_.size());
+    if (finite.any() || plastic_) g_change_.resize(s_.size());
+    if (plastic_) {
+        wants_change_.assign(arrays.cells.size(), 0);
+        has_change_made_ = wants_change_;
+    }
     flows_.resize(finite.n_inelastic());
     const bool has_gradients = finite.any() && !finite.takes_ends();
     if (has_gradients || viscous_ || plastic_) u_change_.resize(u_.size());

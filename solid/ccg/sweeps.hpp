@@ -158,6 +158,8 @@ private:
     void set_finite_stress(std::int32_t c);
     void load_change(const StepEnds<Dim>& ends);
     [[nodiscard]] Matrix<Dim> linear_change(std::int32_t c) const;
+    [[nodiscard]] bool makes_change(std::int32_t c);
+    [[nodiscard]] Matrix<Dim> change_of_stage(std::int32_t c) const;
     void add_stress(std::int32_t c, const Matrix<Dim>& added);
     /// Whether a step begins where the last one ended, so that what its cells remember of that end holds.
     [[nodiscard]] bool follows_last(const StepEnds<Dim>& ends);
@@ -238,13 +240,15 @@ private:
     PlasticCells<Dim>* plastic_;
     CappedJumps<Dim>* capped_;
     const ThermalCells<Dim>* thermal_;
-    std::vector<double> temperature_;       // BoundaryLoad::temperature of the last call
-    bool steps_ = false;                    // while the sweeps make a step of theirs
-    bool follows_ = false;                  // that step begins where the last one ended
-    bool last_ended_ = false;               // u_end_ is where a step has ended
-    LargeArray<double> u_end_;              // of the last step; empty without `plastic_`
-    std::vector<Vector<Dim>> load_end_;     // BoundaryLoad::displacement there
-    double dt_ = 0.0;                       // of that
+    std::vector<double> temperature_;    // BoundaryLoad::temperature of the last call
+    bool steps_ = false;                 // while the sweeps make a step of theirs
+    bool follows_ = false;               // that step begins where the last one ended
+    std::vector<char> wants_change_;     // cells of `plastic_` that asked for the change of their gradient in the last step
+    std::vector<char> has_change_made_;  // cells whose change is in g_change_
+    bool last_ended_ = false;            // u_end_ is where a step has ended
+    LargeArray<double> u_end_;           // of the last step; empty without `plastic_`
+    std::vector<Vector<Dim>> load_end_;  // BoundaryLoad::displacement there
+    double dt_ = 0.0;                    // of that
     std::vector<Vector<Dim>> load_change_;  // of BoundaryLoad::displacement in it; empty: none
     std::vector<Chunk> chunks_;             // one more at the end
     SweepLists wanted_;
