@@ -172,7 +172,7 @@ void SolidRun<Dim>::write_state(abut_solid_state& state) {
              .friction_energy = entry.friction_energy,
              .sticking_faces = entry.sticking_faces,
              .sliding_faces = entry.sliding_faces,
-             .broken_bonds = solid_->broken_share()};
+             .broken_bonds = solid.broken_share()};
 }
 
 template <int Dim>
