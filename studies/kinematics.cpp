@@ -13,7 +13,6 @@ namespace {
 const std::vector<Part<Options, Row>> parts{
     {"free", "Blocks that spin freely: do they keep their size?", run_free},
     {"means", "Noise in finite bodies that spin: how long does each mean force hold?", run_means},
-    {"rubber", "The same noise in rubber, whose mean force is the closed trapezoid", run_rubber},
     {"tops", "Rigid tops beside their closed forms.", run_tops},
     {"wall", "A spinning square meets a wall: when?", run_wall},
     {"bar", "A slender bar is struck near its end and turns: does it grow?", run_bar},

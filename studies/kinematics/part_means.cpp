@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include "abut/solid/material/material_numbers.hpp"
 #include "abut/solid/option_words.hpp"
 #include "studies/kinematics/rows.hpp"
 #include "studies/kinematics/shapes.hpp"
@@ -8,7 +7,6 @@
 namespace abut::studies::kinematics {
 namespace {
 
-using solid::MaterialLaw;
 using solid::MeanForce;
 
 struct Setting {
@@ -20,15 +18,11 @@ struct Setting {
 
 /// A block that spins fast, with noise: how long does the mean force of its steps hold?
 template <int Dim>
-void spin_with(MaterialLaw law, MeanForce mean, const Setting& setting, const Options& options, const Sink& sink) {
+void spin_with(MeanForce mean, const Setting& setting, const Options& options, const Sink& sink) {
     std::array<int, Dim> cells;
     cells.fill(Dim == 2 ? 12 : 5);
     Case<Dim> one = case_of<Dim>(Dim == 2 ? "square" : "cube", {turned_box<Dim>({.cells = cells})}, Kinematics::finite);
     one.scene.contact = false;
-    for (solid::Material& material : one.scene.solid.materials) {
-        material.law = law;
-        if (law == MaterialLaw::mooney_rivlin) material.second_share = 0.3;
-    }
     constexpr double spin = 0.3;
     if constexpr (Dim == 2)
         one.motion[0].spin = AxialVector<2>(spin);
@@ -47,17 +41,16 @@ void spin_with(MaterialLaw law, MeanForce mean, const Setting& setting, const Op
     solid::Solid<Dim> solid(one.scene.mesh, run::solid_options(one.scene, one.run));
     one.run.dt = setting.of_stable / solid.step_margin() * longest;
     one.run.allow_unstable = true;
-    sink(row_of<Dim>(one,
-                     fmt::format("{}, {}, noise {:g}, {:g} of 2/omega, {}", word_of(solid::material_law_words, law),
-                                 word_of(solid::mean_force_words, mean), setting.noise, setting.of_stable,
-                                 setting.restart > 0 ? fmt::format("restart {}", setting.restart) : "no restart"),
-                     options));
+    sink(row_of<Dim>(
+        one,
+        fmt::format("{}, noise {:g}, {:g} of 2/omega, {}", word_of(solid::mean_force_words, mean), setting.noise,
+                    setting.of_stable, setting.restart > 0 ? fmt::format("restart {}", setting.restart) : "no restart"),
+        options));
 }
 
 }  // namespace
 
 void run_means(const Options& options, const Sink& sink) {
-    constexpr MaterialLaw linear = MaterialLaw::st_venant_kirchhoff;
     const auto each_mean = [&](const auto& run) {
         for (const MeanForce mean : {MeanForce::discrete_gradient, MeanForce::trapezoid, MeanForce::closed_trapezoid})
             run(mean);
@@ -65,19 +58,11 @@ void run_means(const Options& options, const Sink& sink) {
     for (const Setting& setting :
          {Setting{0.01, 0.6, 2'800, 0}, Setting{0.03, 0.6, 56'500, 0}, Setting{0.03, 0.6, 56'500, 50},
           Setting{0.03, 0.8, 42'000, 0}, Setting{0.03, 0.8, 42'000, 50}})
-        each_mean([&](MeanForce mean) { spin_with<2>(linear, mean, setting, options, sink); });
+        each_mean([&](MeanForce mean) { spin_with<2>(mean, setting, options, sink); });
     for (const Setting& setting :
          {Setting{0.01, 0.6, 2'800, 0}, Setting{0.03, 0.6, 20'000, 0}, Setting{0.03, 0.6, 20'000, 50},
           Setting{0.03, 0.8, 20'000, 0}, Setting{0.03, 0.8, 20'000, 50}})
-        each_mean([&](MeanForce mean) { spin_with<3>(linear, mean, setting, options, sink); });
-}
-
-void run_rubber(const Options& options, const Sink& sink) {
-    for (const MaterialLaw law : {MaterialLaw::neo_hookean, MaterialLaw::mooney_rivlin})
-        for (const int restart : {0, 50}) {
-            spin_with<2>(law, MeanForce::closed_trapezoid, {0.03, 0.8, 40'000, restart}, options, sink);
-            spin_with<3>(law, MeanForce::closed_trapezoid, {0.03, 0.6, 20'000, restart}, options, sink);
-        }
+        each_mean([&](MeanForce mean) { spin_with<3>(mean, setting, options, sink); });
 }
 
 }  // namespace abut::studies::kinematics

@@ -14,7 +14,6 @@ struct Options : PartOptions {
 // Each in the file of its subject.
 void run_free(const Options& options, const Sink& sink);
 void run_means(const Options& options, const Sink& sink);
-void run_rubber(const Options& options, const Sink& sink);
 void run_tops(const Options& options, const Sink& sink);
 void run_wall(const Options& options, const Sink& sink);
 void run_bar(const Options& options, const Sink& sink);
