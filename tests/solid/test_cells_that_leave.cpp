@@ -106,6 +106,7 @@ TEMPLATE_TEST_CASE_SIG("what leaves with a cell in contact is told, and what is 
     CHECK((momentum - momentum_of_run(run) - left.momentum).norm() <= 1e-14);
     CHECK(std::abs(energy - run.balance() - left.energy()) <= 1e-14);
     CHECK(run.solid().mesh().n_cells() == stacked<Dim>().n_cells() - 1);
+    CHECK(dynamics::measure(run.memm(), run.solid()).parasitic < 0.2 * thrown<Dim>()[1].velocity.norm());
     check_conservation(run, run.memm().steps() + 200);
     CHECK(run.pairs() > 0);
     CHECK(run.solid().contact_report().missed_contacts == 0);
