@@ -128,12 +128,12 @@ private:
     }
 
     [[noreturn]] void refuse(const NearItself<Dim>& crossing) const {
-        throw Diverged(fmt::format("t = {:.4g} s: body '{}' goes through itself at ({:.4g}): two parts of its surface, {:.3g} m "
-                                   "apart at rest, are {:.3g} m inside each other, and no contact acts within a body. Set "
-                                   "contact.self = true (--self-contact), which lets it act.",
-                                   crossing.time, name_, fmt::join(crossing.position, ", "), crossing.gap_at_rest,
-                                   -crossing.gap),
-                       {.value = crossing.gap, .allowed = 0.0});
+        throw Diverged(
+            fmt::format("t = {:.4g} s: body '{}' goes through itself at ({:.4g}): two parts of its surface, {:.3g} m "
+                        "apart at rest, are {:.3g} m inside each other, and no contact acts within a body. Set "
+                        "contact.self = true (--self-contact), which lets it act.",
+                        crossing.time, name_, fmt::join(crossing.position, ", "), crossing.gap_at_rest, -crossing.gap),
+            {.value = crossing.gap, .allowed = 0.0});
     }
 
     /// Whether two faces look at each other across an opening of the body at rest, so that one that is behind the other has gone through

@@ -1,7 +1,7 @@
 #pragma once
 // Private to the sources of this layer.
+#include <algorithm>
 #include <cstddef>
-#include <cstdint>
 #include <span>
 #include <vector>
 

@@ -7,9 +7,9 @@
 
 #include "abut/base/error.hpp"
 #include "abut/base/messages.hpp"
-#include "abut/solid/value_reader.hpp"
 #include "abut/contact/overlaps.hpp"
 #include "abut/geometry/polygon.hpp"
+#include "abut/solid/value_reader.hpp"
 
 namespace abut::solid {
 namespace {
@@ -93,12 +93,11 @@ private:
                     sides.push_back(static_cast<double>(2 * bond + side));
         if (sides.empty()) return;
         const auto corners = mesh_.face_vertices[face];
-        mine_.insert(mine_.end(), {static_cast<double>(number), static_cast<double>(mesh_.cell_body[cell]),
-                                   cell_depth(mesh_, face), mesh_.face_measure[face],
-                                   mesh_.cell_faces[cell].size() == Dim + 1 ? 1.0 : 0.0,
-                                   static_cast<double>(corners.size()), static_cast<double>(sides.size())});
-        for (const std::int32_t v : corners)
-            mine_.insert(mine_.end(), mesh_.vertices[v].begin(), mesh_.vertices[v].end());
+        mine_.insert(mine_.end(),
+                     {static_cast<double>(number), static_cast<double>(mesh_.cell_body[cell]), cell_depth(mesh_, face),
+                      mesh_.face_measure[face], mesh_.cell_faces[cell].size() == Dim + 1 ? 1.0 : 0.0,
+                      static_cast<double>(corners.size()), static_cast<double>(sides.size())});
+        for (const std::int32_t v : corners) mine_.insert(mine_.end(), mesh_.vertices[v].begin(), mesh_.vertices[v].end());
         mine_.insert(mine_.end(), sides.begin(), sides.end());
     }
 
@@ -212,10 +211,11 @@ private:
                                      overlap.normal});
         }
         if (found_.places.size() == before)
-            throw BadInput(mesh_.name + ": " + side_in_words(mesh_, bond.sides[0], options_.obstacles.size()) + " and " +
-                           side_in_words(mesh_, bond.sides[1], options_.obstacles.size()) +
-                           " are to be bonded, but no face of one lies on one of the other: facing it, and not farther than " +
-                           number(largest_gap) + " of the smaller face's size. Move them together, or leave the bond out.");
+            throw BadInput(
+                mesh_.name + ": " + side_in_words(mesh_, bond.sides[0], options_.obstacles.size()) + " and " +
+                side_in_words(mesh_, bond.sides[1], options_.obstacles.size()) +
+                " are to be bonded, but no face of one lies on one of the other: facing it, and not farther than " +
+                number(largest_gap) + " of the smaller face's size. Move them together, or leave the bond out.");
     }
 
     /// In the mesh of all bodies.

@@ -24,7 +24,8 @@ BondSprings<Dim>::BondSprings(const Bodies<Dim>& bodies, Ccg<Dim>& ccg, const Bo
     if (of_springs.empty()) return;
     const std::vector<double> stiffness =
         faces_.of_owners(1, [&](std::size_t face) { return std::array{ccg.normal_stiffness(faces_[face])}; });
-    const std::vector<double> centroids = faces_.of_owners(Dim, [&](std::size_t face) { return ccg.centroid(faces_[face]); });
+    const std::vector<double> centroids =
+        faces_.of_owners(Dim, [&](std::size_t face) { return ccg.centroid(faces_[face]); });
     const auto centroid = as_vectors<Dim>(std::span<const double>(centroids));
     for (const std::size_t place : of_springs) {
         BondSpring spring{};

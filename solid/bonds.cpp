@@ -9,7 +9,6 @@
 
 #include "abut/base/decompositions.hpp"
 #include "abut/base/error.hpp"
-#include "abut/base/messages.hpp"
 #include "abut/base/sort_unique.hpp"
 #include "abut/solid/kinematics/capabilities.hpp"
 #include "abut/solid/material/orthotropic.hpp"
@@ -85,10 +84,11 @@ void Bonds<Dim>::check_metal(std::span<const std::size_t> of_joints) const {
     for (const std::size_t p : of_joints)
         for (const std::int32_t body : places_[p].bodies)
             if (bodies_.options().materials[static_cast<std::size_t>(body)].law == MaterialLaw::j2)
-                throw BadInput(mesh.name + ": body '" + mesh.body_names[static_cast<std::size_t>(body)] +
-                               "' yields (law = \"j2\") and is bonded to another small one: its cells behind the bond would yield "
-                               "as if nothing pulled there. Let one of both be floating or finite (kinematics), or take another "
-                               "material.");
+                throw BadInput(
+                    mesh.name + ": body '" + mesh.body_names[static_cast<std::size_t>(body)] +
+                    "' yields (law = \"j2\") and is bonded to another small one: its cells behind the bond would yield "
+                    "as if nothing pulled there. Let one of both be floating or finite (kinematics), or take another "
+                    "material.");
 }
 
 template <int Dim>
@@ -114,18 +114,18 @@ Matrix<Dim> Bonds<Dim>::stiffness_of(BoundaryFace b) const {
 template <int Dim>
 void Bonds<Dim>::take_faces() {
     const BondFaces<Dim>& faces = *faces_;
-    const std::vector<double> measure = faces.of_owners(
-        1, [&](std::size_t i) { return std::array{mesh_.face_measure[mesh_face(mesh_, faces[i])]}; });
+    const std::vector<double> measure =
+        faces.of_owners(1, [&](std::size_t i) { return std::array{mesh_.face_measure[mesh_face(mesh_, faces[i])]}; });
     const std::vector<double> stiffness = faces.of_owners(Dim * Dim, [&](std::size_t i) {
         const Matrix<Dim> of_face = stiffness_of(faces[i]);
         return std::vector<double>(of_face.data(), of_face.data() + Dim * Dim);
     });
     for (std::size_t i = 0; i < faces.size(); ++i)
-        of_faces_.push_back({.measure = measure[i],
-                             .stiffness = Eigen::Map<const Matrix<Dim>>(&stiffness[Dim * Dim * i]),
-                             .cell = faces[i] == no_face ? -1 : cell_of(mesh_, faces[i]),
-                             .neighbours = faces.is_own(i) ? boundary_of(cell_of(mesh_, faces[i]))
-                                                           : std::vector<BoundaryFace>{}});
+        of_faces_.push_back(
+            {.measure = measure[i],
+             .stiffness = Eigen::Map<const Matrix<Dim>>(&stiffness[Dim * Dim * i]),
+             .cell = faces[i] == no_face ? -1 : cell_of(mesh_, faces[i]),
+             .neighbours = faces.is_own(i) ? boundary_of(cell_of(mesh_, faces[i])) : std::vector<BoundaryFace>{}});
 }
 
 template <int Dim>
@@ -196,11 +196,6 @@ void Bonds<Dim>::append_slope(std::size_t face, const Vector<Dim>& arm) {
     }
     const Vector<Dim> slope = pseudo_inverse(Eigen::MatrixXd(second_moment), flat) * arm;
     for (const std::int32_t c : cells) slope_.push_back({c, slope.dot(mesh_.cell_centroid[c] - centre)});
-}
-
-template <int Dim>
-bool Bonds<Dim>::any_breaks() const {
-    return std::ranges::any_of(bodies_.options().bonds, [](const Bond& bond) { return std::isfinite(bond.strength); });
 }
 
 // In one state, or along a step --------------------------------------------------------------------------------------
@@ -370,67 +365,6 @@ double Bonds<Dim>::work_of_loads(const BoundaryLoad<Dim>& start, const BoundaryL
         return std::array{gradient_[i].dot(end.displacement[b] - start.displacement[b])};
     });
     return std::accumulate(of_faces.begin(), of_faces.end(), 0.0);
-}
-
-// Breaking -----------------------------------------------------------------------------------------------------------
-
-/// `traction` of the place as if it were whole, `stiffness` of both half cells in its direction.
-template <int Dim>
-void Bonds<Dim>::append_change(std::size_t place, const Vector<Dim>& traction, double stiffness, const Vector<Dim>& normal,
-                               std::vector<BondChange>& changes) const {
-    if (share_[place] == 0.0 || traction.dot(normal) <= 0.0) return;
-    const double share = share_of_bond(bodies_.options().bonds[places_[place].bond], traction.norm(), stiffness);
-    if (share < share_[place]) changes.push_back({place, share_[place], share});
-}
-
-template <int Dim>
-std::vector<BondChange> Bonds<Dim>::changes() const {
-    std::vector<BondChange> changes;
-    for (std::size_t p = 0; p < joints_.size(); ++p) {
-        const Vector<Dim> traction = joints_[p].stiffness * jump_1_[p];
-        const double energy = traction.dot(jump_1_[p]);
-        if (energy > 0.0)
-            append_change(joints_[p].place, traction, traction.squaredNorm() / energy, places_[joints_[p].place].normal,
-                          changes);
-    }
-    springs_->for_each_traction(
-        [&](std::size_t place, const Vector<Dim>& traction, double stiffness, const Vector<Dim>& normal) {
-            append_change(place, traction, stiffness, normal, changes);
-        });
-    std::ranges::sort(changes, {}, &BondChange::place);
-    return changes;
-}
-
-template <int Dim>
-void Bonds<Dim>::set_shares(std::span<const BondChange> changes, When when) {
-    for (const auto& [place, start, end] : changes)
-        share_[place] = when == When::start ? start : when == When::end ? end : 0.5 * (start + end);
-}
-
-/// A bond that opens must take more than half cells give back as it does, straight at least: at the rim of a bond they may give way along the
-/// face without bearing anything.
-template <int Dim>
-void Bonds<Dim>::check_fracture_energy() const {
-    const auto check = [&](std::size_t p, double stiffness) {
-        const Bond& bond = bodies_.options().bonds[places_[p].bond];
-        if (bond.fracture_energy == 0.0) return;
-        const double held = energy_at_strength(bond, stiffness);
-        if (bond.fracture_energy > held) return;
-        const auto body_at = [&](std::size_t side) {
-            return "'" + bodies_.mesh().body_names[static_cast<std::size_t>(places_[p].bodies[side])] + "'";
-        };
-        throw BadInput(mesh_.name + ": the bond of " + body_at(0) + " and " + body_at(1) + " has a fracture energy of " +
-                           number(bond.fracture_energy) + " J/m^2, but at its strength the half cells beside it hold " +
-                           number(held) + " J/m^2, and it would take these at once. Make cells there " +
-                           number(std::ceil(10.0 * held / bond.fracture_energy) / 10.0 + 0.1) +
-                           " times smaller or more, or leave fracture_energy out.",
-                       {.value = bond.fracture_energy, .allowed = held});
-    };
-    for (const Joint& joint : joints_) {
-        const Vector<Dim>& normal = places_[joint.place].normal;
-        check(joint.place, (joint.stiffness * normal).squaredNorm() / normal.dot(joint.stiffness * normal));
-    }
-    springs_->for_each_stiffness(check);
 }
 
 template <int Dim>

@@ -58,7 +58,8 @@ public:
     void follow(std::span<const Vector<Dim>> q_0, const BoundaryLoad<Dim>& load_0, std::span<const Vector<Dim>> q_1,
                 const BoundaryLoad<Dim>& load_1);
     /// delta of `bonded_faces` in a state of small bodies, whatever else is followed (n_bonded_faces) [m]. Valid until the next call.
-    [[nodiscard]] std::span<const Vector<Dim>> displacement_at(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load);
+    [[nodiscard]] std::span<const Vector<Dim>> displacement_at(std::span<const Vector<Dim>> u,
+                                                               const BoundaryLoad<Dim>& load);
     /// Of small bodies here, increasing.
     [[nodiscard]] std::span<const BoundaryFace> bonded_faces() const { return faces_->faces_here(); }
     /// What the bonds add to the corrections of contact. Valid until the next call and as long as those are.
@@ -148,8 +149,8 @@ private:
     std::vector<BondPlace<Dim>> places_;
     std::vector<double> share_;  // by place, from 1, whole, to 0, broken
     std::unique_ptr<BondSprings<Dim>> springs_;
-    std::optional<BondFaces<Dim>> faces_;    // of small bodies
-    std::vector<BondedFace> of_faces_;       // of each
+    std::optional<BondFaces<Dim>> faces_;  // of small bodies
+    std::vector<BondedFace> of_faces_;     // of each
     std::vector<Joint> joints_;
     std::vector<Slope> slope_;
     RankItems sides_;                                  // of joints: 2 joint + side
@@ -158,7 +159,7 @@ private:
     std::vector<Vector<Dim>> of_face_;                 // û, by bonded face here [m]
     std::vector<Vector<Dim>> delta_, delta_here_;      // by bonded face, by those here [m]
     std::vector<Vector<Dim>> jump_at_, delta_at_, delta_here_at_;  // of `displacement_at`
-    std::vector<Vector<Dim>> excess_;                  // of the face's traction over that of its half cell alone, by bonded face [Pa]
+    std::vector<Vector<Dim>> excess_;  // of the face's traction over that of its half cell alone, by bonded face [Pa]
     std::vector<Vector<Dim>> gradient_;                // dV/dû through the corrections, by bonded face [N]
     FaceCorrections<Dim> of_others_;                   // of contact and springs
     MergedCorrections<Dim> merged_;

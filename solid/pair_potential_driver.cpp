@@ -50,7 +50,7 @@ std::function<bool(contact::Face, contact::Face)> wanted_beside(const CornerSurf
             bonded.emplace_back(bonds.places()[place].numbers[side], bonds.places()[place].bodies[1 - side], place);
     std::ranges::sort(bonded);
     return [bonded = std::move(bonded), body_of = corners.bodies_of_faces(), &bonds](contact::Face face_1,
-                                                                                    contact::Face face_2) {
+                                                                                     contact::Face face_2) {
         const auto is_bonded_to = [&](contact::Face of, contact::Face other) {
             const auto face = static_cast<std::size_t>(of);
             const std::int32_t body = body_of[static_cast<std::size_t>(other)];

@@ -5,10 +5,10 @@
 #include <utility>
 
 #include "abut/base/sort_unique.hpp"
-#include "abut/solid/value_reader.hpp"
 #include "abut/solid/contact_faces.hpp"
 #include "abut/solid/contact_patches.hpp"
 #include "abut/solid/rank_sharing.hpp"
+#include "abut/solid/value_reader.hpp"
 
 namespace abut::solid {
 namespace {

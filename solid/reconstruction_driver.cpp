@@ -142,8 +142,8 @@ void ReconstructionDriver<Dim>::couple_to_bonds() {
     const contact::FaceCoupling<Dim> coupling = ccg_.coupling(all);
     for (std::size_t i = 0; i < boundary_of_listed_.size(); ++i) {
         const auto row = static_cast<std::size_t>(std::ranges::lower_bound(all, boundary_of_listed_[i]) - all.begin());
-        for (auto k = static_cast<std::size_t>(coupling.offsets[row]); k < static_cast<std::size_t>(coupling.offsets[row + 1]);
-             ++k) {
+        for (auto k = static_cast<std::size_t>(coupling.offsets[row]);
+             k < static_cast<std::size_t>(coupling.offsets[row + 1]); ++k) {
             const auto at = std::ranges::lower_bound(bonded, all[static_cast<std::size_t>(coupling.columns[k])]);
             if (at != bonded.end() && *at == all[static_cast<std::size_t>(coupling.columns[k])])
                 bond_answers_.push_back(

@@ -10,8 +10,8 @@
 
 #include "abut/contact/contact.hpp"
 #include "abut/mesh/mesh.hpp"
-#include "abut/solid/ccg/ccg.hpp"
 #include "abut/solid/bonds.hpp"
+#include "abut/solid/ccg/ccg.hpp"
 #include "abut/solid/contact_driver.hpp"
 #include "abut/solid/contact_patches.hpp"
 #include "abut/solid/list_watch.hpp"
@@ -109,8 +109,7 @@ private:
     void evaluate_faces(std::span<const Vector<Dim>> q, const BoundaryLoad<Dim>& load, double time,
                         std::vector<Vector<Dim>>& displacement, std::vector<Vector<Dim>>& gradient);
     void couple_to_bonds();
-    void answer_to_bonds(std::span<const Vector<Dim>> q, const BoundaryLoad<Dim>& load,
-                         std::span<Vector<Dim>> gradient);
+    void answer_to_bonds(std::span<const Vector<Dim>> q, const BoundaryLoad<Dim>& load, std::span<Vector<Dim>> gradient);
     [[nodiscard]] std::size_t obstacle_of(contact::Face face) const {
         return static_cast<std::size_t>(surface_.body[static_cast<std::size_t>(face)] - mesh_.n_bodies());
     }

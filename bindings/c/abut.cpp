@@ -92,7 +92,8 @@ void add_interference(const abut_options& given, std::int32_t index_base, contac
     if (given.interferes == nullptr) return;
     interference.of = [given, index_base](contact::Face face_1, contact::Face face_2) {
         return call_host([&] {
-            return given.interferes(number_of(face_1) + index_base, number_of(face_2) + index_base, given.user) != 0 ? 0 : -1;
+            return given.interferes(number_of(face_1) + index_base, number_of(face_2) + index_base, given.user) != 0 ? 0
+                                                                                                                     : -1;
         });
     };
 }

@@ -62,10 +62,9 @@ TEMPLATE_TEST_CASE_SIG("a support that shakes bonded bodies does the same work o
     const auto mesh = two_bars<Dim>(Dim == 2 ? mesh::CellShape::quadrangle : mesh::CellShape::hexahedron);
     auto options = bonded<Dim>(solid::Kinematics::small, solid::Kinematics::small);
     // Its faces are beside bonded ones, which answer to them.
-    options.boundary.dirichlet = {
-        {.group = "left.ymin", .history = [](double t, const Vector<Dim>&) -> Vector<Dim> {
-             return 0.01 * std::sin(5.0 * t) * Vector<Dim>::Unit(0);
-         }}};
+    options.boundary.dirichlet = {{.group = "left.ymin", .history = [](double t, const Vector<Dim>&) -> Vector<Dim> {
+                                       return 0.01 * std::sin(5.0 * t) * Vector<Dim>::Unit(0);
+                                   }}};
     const std::vector<Vector<Dim>> velocity(2, Vector<Dim>::Zero());
     check_same_bits<Dim>(all, mesh, options, velocity, 20, parts(all, mesh), {.waves = 0.05});
 }
@@ -128,8 +127,9 @@ TEMPLATE_TEST_CASE_SIG("bodies that overlap on purpose come to push each other w
         std::array<int, Dim> n;
         n.fill(Dim == 2 ? 5 + i : 2 + i);
         n[0] *= 2;
-        blocks.push_back(mesh::structured_box<Dim>(
-            lower, upper, n, Dim == 2 ? mesh::CellShape::triangle : mesh::CellShape::tetrahedron, i == 0 ? "left" : "right"));
+        blocks.push_back(mesh::structured_box<Dim>(lower, upper, n,
+                                                   Dim == 2 ? mesh::CellShape::triangle : mesh::CellShape::tetrahedron,
+                                                   i == 0 ? "left" : "right"));
     }
     const auto mesh = mesh::combine<Dim>(blocks);
     auto options = bonded<Dim>(kinematics, kinematics);

@@ -106,8 +106,9 @@ TEMPLATE_TEST_CASE_SIG("boxes that overlap on purpose come to push each other on
     const Communicator all = world();
     NodalScene<Dim> scene;
     append_box<Dim>(scene, Vector<Dim>::Zero(), Vector<Dim>::Ones(), counts<Dim>(Dim == 2 ? 12 : 4), 3.0, 0.1);
-    append_box<Dim>(scene, 0.98 * up<Dim>() + 0.1 * axis<Dim>(0), Vector<Dim>::Ones() + 0.98 * up<Dim>() + 0.1 * axis<Dim>(0),
-                    counts<Dim>(Dim == 2 ? 13 : 5), 5.0, 0.1, false);
+    append_box<Dim>(scene, 0.98 * up<Dim>() + 0.1 * axis<Dim>(0),
+                    Vector<Dim>::Ones() + 0.98 * up<Dim>() + 0.1 * axis<Dim>(0), counts<Dim>(Dim == 2 ? 13 : 5), 5.0, 0.1,
+                    false);
     contact::NodalOptions options;
     options.interference.times = {9.0, 7.0};  // steps of 1 s
     options.interference.of = [](Face face_1, Face face_2) { return (number_of(face_1) + number_of(face_2)) % 2; };

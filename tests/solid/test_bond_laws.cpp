@@ -67,8 +67,7 @@ TEMPLATE_TEST_CASE_SIG("bonded blocks pass the patch test under the modified rec
         mesh::BoundaryGroup outside{"outside", {}};
         for (const std::int32_t f : mesh.boundary_faces)
             for (int axis = 0; axis < Dim; ++axis)
-                if (const double x = mesh.face_centroid[f][axis];
-                    x < box.lower[axis] + 1e-9 || x > box.upper[axis] - 1e-9) {
+                if (const double x = mesh.face_centroid[f][axis]; x < box.lower[axis] + 1e-9 || x > box.upper[axis] - 1e-9) {
                     outside.faces.push_back(f);
                     break;
                 }
@@ -146,12 +145,8 @@ TEST_CASE("what bonds under the modified reconstruction cannot do is refused", "
 namespace {
 
 /// Of steel in units of its yield strain: E = rho = 1.
-const Material yielding{.young = 1.0,
-                        .poisson = 0.3,
-                        .density = 1.0,
-                        .law = solid::MaterialLaw::j2,
-                        .yield_stress = 2e-3,
-                        .hardening = 0.05};
+const Material yielding{
+    .young = 1.0, .poisson = 0.3, .density = 1.0, .law = solid::MaterialLaw::j2, .yield_stress = 2e-3, .hardening = 0.05};
 
 /// How two halves of a bar that are flung apart, stretching it beyond yield, end.
 struct Stretched {
