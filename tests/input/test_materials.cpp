@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <string>
@@ -74,6 +75,38 @@ TEST_CASE("a body takes a table of hardening, with units, and its yield stress f
     CHECK(fault_of("[[0, 1, 2]]").find("a list of rows") != std::string::npos);
     CHECK(fault_of("[[0, '1 m']]").find("hardening_table, row 1") != std::string::npos);
     CHECK(fault_of("[[0, 2], [0.1, 1]]").find("must not fall") != std::string::npos);
+}
+
+TEST_CASE("a body takes the constants and axes of an orthotropic material, and a temperature that varies",
+          "[input][materials]") {
+    const std::string ply =
+        "law = \"orthotropic\"\nyoung = \"140 GPa\"\nyoung_2 = \"10 GPa\"\nyoung_3 = 9e9\npoisson_13 = 0.3\npoisson_23 = "
+        "0.45\n"
+        "shear_12 = 5e9\nshear_13 = 5e9\nshear_23 = 3.4e9\ndensity = 1600\nthermal_expansion = -0.5e-6\nthermal_expansion_2 "
+        "= 26e-6\n";
+    const solid::Material plane = of_block(ply + "axis_angle = \"30 deg\"");
+    CHECK(plane.law == solid::MaterialLaw::orthotropic);
+    CHECK(plane.young_2 == 10e9);
+    CHECK(plane.poisson_23 == 0.45);
+    CHECK(plane.axis_angle == Approx(std::acos(-1.0) / 6.0));
+    CHECK(plane.thermal_expansion_2 == 26e-6);
+    const std::string block = "[bodies.block]\nshape = \"structured_box\"\n";
+    const WrittenScene space(
+        "dim = 3\n" + block + "lower = [0, 0, 0]\nupper = [1, 1, 1]\ncounts = [3, 3, 3]\n" + ply +
+        "axis_1 = [0, 1, 1]\naxis_2 = [0, -1, 1]\ntemperature_rise = \"100*t + 20*x\"\n[run]\nsteps = 1\n");
+    const auto scene = input::SceneFile(space.path()).scene<3>();
+    CHECK(scene.solid.materials.front().axis_1 == std::array{0.0, 1.0, 1.0});
+    CHECK(scene.solid.materials.front().axis_2 == std::array{0.0, -1.0, 1.0});
+    REQUIRE(scene.solid.temperature_rise.size() == 1);
+    CHECK(scene.solid.temperature_rise.front().varies);
+    CHECK(scene.solid.temperature_rise.front().value(2.0, {0.5, 0.0, 0.0}) == 210.0);
+    const auto fault_of = [&](const std::string& set) {
+        const auto checked = input::check_scene(space.path(), {.set = {set}});
+        REQUIRE_FALSE(checked.faults.empty());
+        return input::text_of(checked.faults);
+    };
+    CHECK(fault_of("bodies.block.axis_2=[0, 1, 0]").find("cosine between axis_1 and axis_2") != std::string::npos);
+    CHECK(fault_of("bodies.block.kinematics=finite").find("temperature") != std::string::npos);
 }
 
 TEST_CASE("a material of the scene goes before the known one of its name", "[input][materials]") {

@@ -44,6 +44,9 @@ class Material:
     def hardening_table(self, rows: Iterable[Sequence[Union[float, str]]]) -> None: ...
     kinematic_hardening: float
     jump_cap: float
+    thermal_expansion: float
+    thermal_expansion_2: float
+    thermal_expansion_3: float
     mass_damping: float
     stiffness_damping: float
     linear_viscosity: float
