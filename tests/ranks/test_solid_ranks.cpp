@@ -126,6 +126,29 @@ TEMPLATE_TEST_CASE_SIG("damped metal bodies that flow as they strike each other 
     CHECK(report.events > 0);
 }
 
+TEMPLATE_TEST_CASE_SIG("orthotropic bodies that strike each other have the bits of one rank", "[ranks][solid][contact]",
+                       ((int Dim), Dim), 2, 3) {
+    const ranks::Communicator all = test::world();
+    const auto mesh = two_round_bodies<Dim>();
+    solid::SolidOptions<Dim> options;
+    solid::Material ply{.young = 4.0, .poisson = 0.3, .density = 1.0, .law = solid::MaterialLaw::orthotropic};
+    ply.young_2 = ply.young_3 = 1.0;
+    ply.poisson_13 = ply.poisson_23 = 0.3;
+    ply.shear_12 = ply.shear_13 = 0.5;
+    ply.shear_23 = 0.4;
+    if constexpr (Dim == 2)
+        ply.axis_angle = 0.5;
+    else
+        ply.axis_1 = {1.0, 1.0, 0.0}, ply.axis_2 = {1.0, -1.0, 0.0};
+    options.materials = {ply, steel};
+    options.materials[0].stiffness_damping = 0.01;
+    options.kinematics = {GENERATE(solid::Kinematics::small, solid::Kinematics::floating), solid::Kinematics::finite};
+    options.contact = contact::ContactOptions{};
+    const auto report = check_same_bits<Dim>(all, mesh, options, towards_each_other<Dim>(0.1), Dim == 2 ? 120 : 50,
+                                             parts(all, mesh), {.waves = 0.01, .spin = 0.05});
+    CHECK(report.events > 0);
+}
+
 TEST_CASE("a bar that bends far, and one that turns without contact, have the bits of one rank", "[ranks][solid]") {
     const ranks::Communicator all = test::world();
     const auto mesh = bar<2>(mesh::CellShape::triangle);

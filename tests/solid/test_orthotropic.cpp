@@ -318,6 +318,16 @@ TEMPLATE_TEST_CASE_SIG("an orthotropic body knows no rigid motion, and one that 
         }
 }
 
+TEST_CASE("the stable step of an orthotropic body is that of its highest mode, however its axes lie", "[solid][material]") {
+    for (const double angle : {0.0, 0.4, 1.2})
+        for (const auto& [name, mesh] : boxes<2>()) {
+            CAPTURE(name, angle);
+            solid::Solid<2> solid(mesh, alone_as<2>(turned_ply<2>(angle), Kinematics::small));
+            CHECK(dynamics::stable_step(solid).dt / solid.step_margin() ==
+                  Approx(2.0 / highest_frequency(solid)).epsilon(0.02));
+        }
+}
+
 TEMPLATE_TEST_CASE_SIG("orthotropic bodies collide under both laws of contact and keep H~ and momentum", "[solid][material]",
                        ((int Dim), Dim), 2, 3) {
     for (const auto law : {solid::ContactLaw::reconstruction, solid::ContactLaw::pair_potential}) {
