@@ -224,6 +224,26 @@ TEMPLATE_TEST_CASE_SIG(
         }
 }
 
+TEST_CASE("bonded pieces whose temperatures vary keep H~ - W, small ones and those that turn", "[solid][material][bonds]") {
+    const auto mesh = together(mesh::structured_box<2>({0.0, -0.4}, {2.0, 0.0}, {8, 3}, CellShape::quadrangle, "lower"),
+                               mesh::structured_box<2>({0.0, 0.0}, {2.0, 0.6}, {6, 3}, CellShape::triangle, "upper"));
+    for (const Kinematics kinematics : {Kinematics::small, Kinematics::floating}) {
+        CAPTURE(static_cast<int>(kinematics));
+        auto options = bodies<2>(2);
+        options.contact.reset();
+        options.materials.assign(2, steel());
+        options.bonds = {{.sides = {0, 1}}};
+        for (const double amplitude : {200.0, -100.0})
+            options.temperature_rise.push_back(
+                {.value = [amplitude](double t, const Vector<2>& x) { return amplitude * (std::sin(2.0 * t) + 0.3 * x[1]); },
+                 .varies = true});
+        TurningScene<2> scene(mesh, options, std::vector<Motion<2>>(2), 0.6, kinematics);
+        scene.run(400);
+        CHECK(std::abs(scene.solid.work()) > 1e-3 * scene.ledger.largest_energy());
+        CHECK(scene.drifts().pseudo_energy <= 1e-12);
+    }
+}
+
 TEST_CASE("a run with a temperature goes on from its state with the same bits", "[solid][material]") {
     const auto mesh = unit_disc(0.5);
     auto options = warm<2>(steel());
