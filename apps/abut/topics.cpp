@@ -43,8 +43,8 @@ without a unit is in SI.
 Other consistent units work as well, since nothing but ratios matters: mm, tonne and s go with MPa and mJ.
 Files of surfaces in millimetres are scaled by their key scale = 1e-3.
 
-Numbers may be formulas in quotes, "sqrt(2)/2"; where a value may vary they know t [s], and those of supports
-and tractions x, y, z [m], too.)"};
+Numbers may be formulas in quotes, "sqrt(2)/2"; where a value may vary they know t [s], those of supports,
+tractions and temperature_rise also x, y, z [m].)"};
 
 const Topic materials{
     "materials", "Materials",
@@ -54,7 +54,8 @@ Green, good for strains up to 0.2. Beyond, `law` = "neo_hookean" or "mooney_rivl
 `second_share`; at small strains all are the same. `law` = "j2" is metal: beyond `yield_stress` it flows, hardens by
 `hardening`, `saturation` and, unless it is finite, `kinematic_hardening`, and remembers. `mass_damping` and
 `stiffness_damping` are Rayleigh's, `linear_viscosity` and `quadratic_viscosity` are for shocks. What all of these
-dissipate is booked. A rigid body uses its density alone.
+dissipate is booked. `law` = "orthotropic" has other moduli along three axes, which `axis_angle` or `axis_1` and
+`axis_2` lay. `thermal_expansion` acts with `temperature_rise` of a body. A rigid body uses its density alone.
 Bodies share those of [materials.NAME]; some are known by their names, material = "steel S235": `abut materials`.
 
 Poisson's ratio is below 0.5: an incompressible body has no stable explicit step. `eta` [Pa] is the stiffness
