@@ -38,7 +38,7 @@ public:
     std::vector<Warning> warnings;
 };
 
-void add_mesh(Counts& counts, const mesh::BuildReport& report) {
+void add_mesh(Counts& counts, const mesh::BuildReport& report, bool with_contact) {
     for (const std::string& warning : report.warnings)
         counts.warnings.push_back({WarningKind::mesh_file, Severity::warning, fmt::format("mesh file: {}", warning),
                                    std::numeric_limits<double>::quiet_NaN(), 0.0});
@@ -52,7 +52,7 @@ void add_mesh(Counts& counts, const mesh::BuildReport& report) {
     counts.add(WarningKind::cut_cells, Severity::note, report.n_cut_cells,
                fmt::format("{} cells are cut into tetrahedra, for {} faces that are not planar", report.n_cut_cells,
                            report.n_non_planar_faces));
-    counts.add(WarningKind::coincident_vertices, Severity::warning, report.n_coincident_vertices,
+    counts.add(WarningKind::coincident_vertices, Severity::warning, with_contact ? report.n_coincident_vertices : 0,
                fmt::format("{} vertices lie on a vertex of another body: meshes that match are a special case of contact",
                            report.n_coincident_vertices));
 }
@@ -266,7 +266,7 @@ void add_looks(Counts& counts, const RunResult<Dim>& result) {
 template <int Dim>
 std::vector<Warning> warnings_before(const Scene<Dim>& scene, const RunResult<Dim>& result) {
     Counts counts;
-    add_mesh(counts, scene.mesh.report);
+    add_mesh(counts, scene.mesh.report, scene.contact);
     add_unjoined(counts, result);
     add_inertia(counts, scene, result);
     const auto& stencils = result.stencils;

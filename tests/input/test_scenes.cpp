@@ -46,7 +46,7 @@ TEST_CASE("every scene of the project has no fault, starts, and keeps its pseudo
         file.dimension() == 2 ? run_some_steps<2>(file) : run_some_steps<3>(file);
         ++n;
     }
-    CHECK(n == 46);
+    CHECK(n == 47);
 }
 
 TEST_CASE("a ring whose ends meet, and a needle that falls on its point, press by no more than 0.3 of a cell",
