@@ -12,6 +12,15 @@ KnownMaterial material(std::string name, double young, double poisson, double de
     return {std::move(name), {.young = young, .poisson = poisson, .density = density}, yield_stress, std::move(source)};
 }
 
+/// With B, n and C of Johnson and Cook, C at a rate of 1/s.
+KnownMaterial hardened(KnownMaterial material, double b, double n, double c) {
+    material.power_hardening = b;
+    material.power_exponent = n;
+    material.johnson_cook_rate = 1.0;
+    material.johnson_cook_factor = c;
+    return material;
+}
+
 std::string stress(double value) {
     if (value == 0.0) return "";
     return value < 1e9 ? fmt::format("{:g} MPa", value / 1e6) : fmt::format("{:g} GPa", value / 1e9);
@@ -31,8 +40,12 @@ const std::vector<KnownMaterial>& known_materials() {
         material("cast iron GJL-250", 110e9, 0.26, 7200.0, 0.0, "EN 1561 (E is 103 to 118 GPa there: a value between)"),
         material("cast iron GJS-400-15", 169e9, 0.275, 7100.0, 250e6, "EN 1563"),
         material("aluminium 6061-T6", 68.9e9, 0.33, 2700.0, 276e6, "ASM Metals Handbook, volume 2: typical values"),
-        material("copper OFHC", 124e9, 0.34, 8960.0, 90e6,
-                 "Johnson and Cook 1983 (density; yield stress: their A, annealed); Johnson and Holmquist 1989 (E, nu)"),
+        hardened(
+            material(
+                "copper OFHC", 124e9, 0.34, 8960.0, 90e6,
+                "Johnson and Cook 1983 (density; yield stress: their A, annealed; with law = \"j2\" also their B = 292 MPa, "
+                "n = 0.31, C = 0.025); Johnson and Holmquist 1989 (E, nu)"),
+            292e6, 0.31, 0.025),
         material("brass 70/30", 100.6e9, 0.35, 8530.0, 0.0,
                  "Kaye and Laby, Tables of Physical and Chemical Constants (E, nu); Copper Development Association, C26000 "
                  "(density)"),
@@ -59,6 +72,17 @@ const std::vector<KnownMaterial>& known_materials() {
 const KnownMaterial* known_material(const std::string& name) {
     const auto found = std::ranges::find(known_materials(), name, &KnownMaterial::name);
     return found == known_materials().end() ? nullptr : &*found;
+}
+
+void take_flow(solid::Material& material, const KnownMaterial& known) {
+    material.yield_stress = known.yield_stress;
+    if (material.hardening == 0.0 && material.saturation == 0.0 && material.power_hardening == 0.0) {
+        material.power_hardening = known.power_hardening;
+        material.power_exponent = known.power_exponent;
+    }
+    if (material.knows_rates()) return;
+    material.johnson_cook_rate = known.johnson_cook_rate;
+    material.johnson_cook_factor = known.johnson_cook_factor;
 }
 
 std::string table_of_materials() {

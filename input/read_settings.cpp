@@ -90,7 +90,7 @@ void take_material(BodySettings& body, const Node& name, const std::string& path
                                    path, name.text, hint_of_name(name.text, names)));
 }
 
-/// That of the table, or of a material known by its name, where the law needs one and the scene gives none.
+/// That of the table, or of a material known by its name, with its hardening and rates, where the law needs one and the scene gives none.
 void take_yield_stress(BodySettings& body, const std::vector<MaterialSettings>& materials) {
     if (body.material.law != solid::MaterialLaw::j2 || body.material.yield_stress > 0.0) return;
     if (const auto& table = body.material.hardening_table; !table.empty()) {
@@ -98,7 +98,7 @@ void take_yield_stress(BodySettings& body, const std::vector<MaterialSettings>& 
         return;
     }
     if (std::ranges::find(materials, body.material_name, &MaterialSettings::name) != materials.end()) return;
-    if (const KnownMaterial* known = known_material(body.material_name)) body.material.yield_stress = known->yield_stress;
+    if (const KnownMaterial* known = known_material(body.material_name)) take_flow(body.material, *known);
 }
 
 /// Tables within that of a body that are none of its keys: each of a body of its file, or of a region.

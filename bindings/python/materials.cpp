@@ -84,7 +84,7 @@ solid::Material material_of(const std::optional<std::string>& name, const py::kw
     if (!material.hardening_table.empty())
         material.yield_stress = material.hardening_table.front().stress;
     else if (known && material.law == solid::MaterialLaw::j2)
-        material.yield_stress = known->yield_stress;
+        input::take_flow(material, *known);
     return material;
 }
 

@@ -48,6 +48,15 @@ TEST_CASE("a known material gives its yield stress to the law that needs one, un
     const std::string yields = "material = \"steel S355\"\nlaw = \"j2\"\nkinematics = \"finite\"\n";
     CHECK(of_block(yields).yield_stress == 355e6);
     CHECK(of_block(yields + "yield_stress = \"400 MPa\"").yield_stress == 400e6);
+    // Johnson and Cook 1983, table 1: OFHC copper has A = 90 MPa, B = 292 MPa, n = 0.31, C = 0.025.
+    const solid::Material copper = of_block("material = \"copper OFHC\"\nlaw = \"j2\"");
+    CHECK(copper.yield_stress == 90e6);
+    CHECK(copper.flow_stress(0.2) == Approx(90e6 + 292e6 * std::pow(0.2, 0.31)));
+    CHECK(copper.rate_factor(1e4) == Approx(1.0 + 0.025 * std::log(1e4)));
+    const solid::Material own = of_block("material = \"copper OFHC\"\nlaw = \"j2\"\nhardening = 1e8");
+    CHECK(own.power_hardening == 0.0);
+    CHECK(own.knows_rates());
+    CHECK(of_block("material = \"copper OFHC\"").power_hardening == 0.0);
     const WrittenScene written(two_blocks());
     const auto glass = input::check_scene(written.path(), {.set = {"bodies.left.material='glass soda-lime'",
                                                                    "bodies.left.law=j2", "bodies.left.kinematics=finite"}});
