@@ -220,7 +220,9 @@ double PlasticCells<Dim>::flow(const Cell& cell, const FlowStress& stress, const
     const double size = trial.norm();
     if (size <= cell.memory.radius) return 0.0;
     const Response& of = response(cell);
-    if (&of == &response_inside(cell)) {
+    // Contact gives way as the face flows, and knows by how much: what it pushes with is no dead load. Flow that goes as far as where
+    // faces are held never goes too far; what is left beyond the surface flows in the next steps.
+    if (&of == &response_inside(cell) || !cell.push.isZero(0.0)) {
         normal = trial / size;
         return flow_inside(cell, stress, size);
     }
@@ -249,6 +251,13 @@ double PlasticCells<Dim>::flow(const Cell& cell, const FlowStress& stress, const
     return g;
 }
 
+/// By how much xi at the end is beyond the surface where a cell flows as if its faces were held.
+template <int Dim>
+auto PlasticCells<Dim>::beyond_surface(const Cell& cell, const Strain& normal, double g) const -> Strain {
+    const auto deviator = [&](const Response& of) { return deviator_of(Strain(of.stiffness * normal)); };
+    return g * (deviator(response_inside(cell)) - deviator(response(cell)));
+}
+
 template <int Dim>
 Matrix<Dim> PlasticCells<Dim>::advance(std::ptrdiff_t cell, const Matrix<Dim>& g_0, const Matrix<Dim>& g_1, double dt) {
     Cell& of = at(cell);
@@ -263,7 +272,8 @@ Matrix<Dim> PlasticCells<Dim>::advance(std::ptrdiff_t cell, const Matrix<Dim>& g
     const double g = flow(of, stress, of.next_driving + of.push, normal);
     if (!(g > 0.0)) return of.memory.stress;
     const double radius = slope_of_alpha * stress.at(slope_of_alpha * g).stress;
-    const double loss = 0.5 * of.measure * g * (normal.dot(elastic(g_0) - of.memory.shift + of.push) + radius);
+    const double beyond = of.push.isZero(0.0) ? 0.0 : normal.dot(beyond_surface(of, normal, g));
+    const double loss = 0.5 * of.measure * g * (normal.dot(elastic(g_0) - of.memory.shift + of.push) + radius + beyond);
     // Else it waits: a stress beyond the surface is one of a rate.
     of.flows = loss >= 0.0 || !of.material->knows_rates();
     if (!of.flows) return of.memory.stress;

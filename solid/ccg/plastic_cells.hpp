@@ -144,6 +144,7 @@ private:
     [[nodiscard]] static Strain unknown() { return Strain::Constant(std::numeric_limits<double>::quiet_NaN()); }
     [[nodiscard]] Memory memory_of(const Cell& cell, const Strain& plastic, double equivalent) const;
     [[nodiscard]] double flow(const Cell& cell, const FlowStress& stress, const Strain& trial, Strain& normal) const;
+    [[nodiscard]] Strain beyond_surface(const Cell& cell, const Strain& normal, double g) const;
     [[nodiscard]] double flow_inside(const Cell& cell, const FlowStress& stress, double trial) const;
     [[nodiscard]] Cell& at(std::ptrdiff_t cell) {
         return cells_[static_cast<std::size_t>(index_[static_cast<std::size_t>(cell)])];
