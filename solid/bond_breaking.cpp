@@ -45,6 +45,19 @@ template <int Dim>
 void Bonds<Dim>::set_shares(std::span<const BondChange> changes, When when) {
     for (const auto& [place, start, end] : changes)
         share_[place] = when == When::start ? start : when == When::end ? end : 0.5 * (start + end);
+    in_middle_.clear();
+    if (when == When::middle) in_middle_.assign(changes.begin(), changes.end());
+}
+
+template <int Dim>
+double Bonds<Dim>::energy_at_end(std::span<const Vector<Dim>> q_1, const BoundaryLoad<Dim>& load_1) {
+    if (!any()) return 0.0;
+    springs_->see_end(q_1, load_1);
+    const std::vector<BondChange> changes = in_middle_;
+    set_shares(changes, When::end);
+    const double energy_then = energy();
+    set_shares(changes, When::middle);
+    return energy_then;
 }
 
 /// A bond that opens must take more than half cells give back as it does, straight at least: at the rim of a bond they may give way along the
@@ -79,6 +92,7 @@ void Bonds<Dim>::check_fracture_energy() const {
                                             std::vector<BondChange>&) const;                             \
     template std::vector<BondChange> Bonds<Dim>::changes() const;                                        \
     template void Bonds<Dim>::set_shares(std::span<const BondChange>, When);                             \
+    template double Bonds<Dim>::energy_at_end(std::span<const Vector<Dim>>, const BoundaryLoad<Dim>&);   \
     template void Bonds<Dim>::check_fracture_energy() const;
 ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)

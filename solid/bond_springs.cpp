@@ -94,6 +94,15 @@ void BondSprings<Dim>::stand_at(std::span<const Vector<Dim>> q, const BoundaryLo
 }
 
 template <int Dim>
+void BondSprings<Dim>::see_end(std::span<const Vector<Dim>> q_1, const BoundaryLoad<Dim>& load_1) {
+    if (!any()) return;
+    frames_.displacement(region_.input_cells, q_1, frames_.end(), u_);
+    evaluate_own(u_, load_1, StepState::end, end_);
+    bring({&end_});
+    place(frames_.end(), end_, x_1_);
+}
+
+template <int Dim>
 void BondSprings<Dim>::follow(std::span<const Vector<Dim>> q_0, const BoundaryLoad<Dim>& load_0,
                               std::span<const Vector<Dim>> q_1, const BoundaryLoad<Dim>& load_1) {
     if (!any()) return;

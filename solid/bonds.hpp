@@ -70,6 +70,8 @@ public:
     [[nodiscard]] std::span<const BodyPush<Dim>> pushes(std::span<const BodyPush<Dim>> others);
     /// What V has beside the energy of the cells with these corrections, in one state [J].
     [[nodiscard]] double energy() const;
+    /// The same at the end of the step that was followed, with what cells remember now. A call of all ranks.
+    [[nodiscard]] double energy_at_end(std::span<const Vector<Dim>> q_1, const BoundaryLoad<Dim>& load_1);
     /// The part of the work of prescribed displacements and tractions in a step from `start` to `end` that is done through the
     /// corrections, with the gradient that was added last [J].
     [[nodiscard]] double work_of_loads(const BoundaryLoad<Dim>& start, const BoundaryLoad<Dim>& end) const;
@@ -147,7 +149,8 @@ private:
     const mesh::Mesh<Dim>& mesh_;  // of the bodies that deform
     const Ccg<Dim>& ccg_;
     std::vector<BondPlace<Dim>> places_;
-    std::vector<double> share_;  // by place, from 1, whole, to 0, broken
+    std::vector<double> share_;          // by place, from 1, whole, to 0, broken
+    std::vector<BondChange> in_middle_;  // whose share is the mean of both ends of a step
     std::unique_ptr<BondSprings<Dim>> springs_;
     std::optional<BondFaces<Dim>> faces_;  // of small bodies
     std::vector<BondedFace> of_faces_;     // of each

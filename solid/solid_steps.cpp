@@ -288,14 +288,18 @@ void Solid<Dim>::add_drag(const Ends& ends, double dt, std::span<Vector<Dim>> fo
     });
 }
 
-/// Cells remember the step. Where they have moved faces in contact as they flowed contact goes with these, and what that takes out of it is
-/// dissipated.
+/// Cells remember the step. Where they have moved faces as they flowed contact and bonds go with these, and what that takes out of them
+/// is dissipated.
 template <int Dim>
 void Solid<Dim>::flow_faces(std::span<const Vector<Dim>> q_1) {
-    const bool moves = contact_ && ccg_.flows_linearly() && ranks().largest(ccg_.any_face_moves() ? 1.0 : 0.0) > 0.0;
-    const double before = moves ? contact_->energy_at_end(q_1) : 0.0;
+    const bool moves = (contact_ || bonds_->any()) && ccg_.flows_linearly() &&
+                       ranks().largest(ccg_.any_face_moves() ? 1.0 : 0.0) > 0.0;
+    const auto energy_on_faces = [&] {
+        return bonds_->energy_at_end(q_1, loads_->end()) + (contact_ ? contact_->energy_at_end(q_1) : 0.0);
+    };
+    const double before = moves ? energy_on_faces() : 0.0;
     ccg_.end_step();
-    if (moves) dissipated_.on_faces += before - contact_->energy_at_end(q_1);
+    if (moves) dissipated_.on_faces += before - energy_on_faces();
 }
 
 /// The next step begins where this one ends.

@@ -115,7 +115,8 @@ const Topic exit_codes{"exit-codes", "Exit codes",
   143  the same by SIGTERM
   129  the same by SIGHUP: the terminal is gone
 
-A second signal ends a run at once, as SIGKILL does; energy.csv.partial then holds the records so far.)"};
+A second signal, half a second later or more, ends a run at once, as SIGKILL does; energy.csv.partial
+then holds the records so far.)"};
 
 constexpr std::size_t entry_indent = 2;
 

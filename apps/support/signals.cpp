@@ -2,14 +2,21 @@
 
 #include <atomic>
 #include <cstddef>
+#include <cstdint>
+#include <ctime>
 
 namespace abut::apps {
 namespace {
 
 constexpr std::array<int, StopSignals::n_signals> stop_signals = {SIGINT, SIGTERM, SIGHUP};
 
+/// timeout(1) and launchers send a signal to a process and to its group: this soon after the first it is the same [ns].
+constexpr std::int64_t time_of_same = 500'000'000;
+
 std::atomic<int> noted{0};
-static_assert(std::atomic<int>::is_always_lock_free, "a handler may touch nothing that waits");
+std::atomic<std::int64_t> noted_at{0};  // [ns]
+static_assert(std::atomic<int>::is_always_lock_free && std::atomic<std::int64_t>::is_always_lock_free,
+              "a handler may touch nothing that waits");
 
 void set_action(int signal, void (*handler)(int)) {
     struct sigaction action {};
@@ -20,10 +27,21 @@ void set_action(int signal, void (*handler)(int)) {
     sigaction(signal, &action, nullptr);
 }
 
+std::int64_t now() {
+    timespec time{};
+    clock_gettime(CLOCK_MONOTONIC, &time);
+    return std::int64_t{time.tv_sec} * 1'000'000'000 + time.tv_nsec;
+}
+
 /// Calls only what a handler may call.
 void note(int signal) {
-    noted.store(signal);
-    for (const int other : stop_signals) set_action(other, SIG_DFL);
+    if (noted.load() == 0) {
+        noted_at.store(now());
+        noted.store(signal);
+    } else if (now() - noted_at.load() >= time_of_same) {
+        set_action(signal, SIG_DFL);
+        raise(signal);  // once this handler has returned
+    }
 }
 
 }  // namespace

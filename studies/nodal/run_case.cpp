@@ -143,7 +143,7 @@ CaseResult<Dim> run_case(const Case<Dim>& one, const std::filesystem::path& fold
                         edges->edge_1.body, edges->edge_2.body, -edges->facing());
     Account<Dim> account(one, folder, bodies, steps, records);
     const auto run = [&](auto& scheme) {
-        dynamics::Remedies remedies(bodies, options.filter, options.restart);
+        dynamics::Remedies remedies(bodies, options.filter, std::max(0, options.restart));  // not given: none
         if constexpr (std::remove_cvref_t<decltype(scheme)>::takes_node_restart) remedies.prepare(scheme);
         follow<Dim>(scheme, account, steps, watch, figures);
         result.velocity = velocities<Dim>(scheme, bodies);

@@ -230,7 +230,7 @@ TEST_CASE("bash completes commands, options, words and topics", "[programs][aske
     }
     const auto help = completed("help ''");
     for (const std::string& topic : topics) CHECK(std::ranges::count(help, topic) == 1);
-    const auto files = completed(fmt::format("run '{}/falling'", ABUT_SCENES));
+    const auto files = completed(fmt::format("run '{}/falling_b'", ABUT_SCENES));
     CHECK(files == std::vector<std::string>{fmt::format("{}/falling_bar.toml", ABUT_SCENES)});
 }
 
@@ -248,7 +248,7 @@ TEST_CASE("fish completes commands, options, words and files", "[programs][asked
         const auto options = options_of(answer(command + " --help"));
         CHECK(std::set<std::string>(offered.begin(), offered.end()) == options);
     }
-    const auto files = completed_by_fish(fmt::format("run {}/falling", ABUT_SCENES));
+    const auto files = completed_by_fish(fmt::format("run {}/falling_b", ABUT_SCENES));
     CHECK(files == std::vector<std::string>{fmt::format("{}/falling_bar.toml", ABUT_SCENES)});
 }
 
