@@ -17,9 +17,9 @@ struct BondPlace {
     /// Of the faces among all boundary faces of the bodies that deform, of all ranks
     std::array<std::size_t, 2> numbers;
     std::array<std::int32_t, 2> bodies;  ///< in the mesh
-    double area;                        ///< of the overlap [m^(Dim-1)]
-    Vector<Dim> position;               ///< [m]
-    Vector<Dim> normal;                 ///< from the first face into the second
+    double area;                         ///< of the overlap [m^(Dim-1)]
+    Vector<Dim> position;                ///< [m]
+    Vector<Dim> normal;                  ///< from the first face into the second
 };
 
 }  // namespace abut::solid

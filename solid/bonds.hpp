@@ -162,9 +162,9 @@ private:
     std::vector<Vector<Dim>> of_face_;                 // û, by bonded face here [m]
     std::vector<Vector<Dim>> delta_, delta_here_;      // by bonded face, by those here [m]
     std::vector<Vector<Dim>> jump_at_, delta_at_, delta_here_at_;  // of `displacement_at`
-    std::vector<Vector<Dim>> excess_;  // of the face's traction over that of its half cell alone, by bonded face [Pa]
-    std::vector<Vector<Dim>> gradient_;                // dV/dû through the corrections, by bonded face [N]
-    FaceCorrections<Dim> of_others_;                   // of contact and springs
+    std::vector<Vector<Dim>> excess_;    // of the face's traction over that of its half cell alone, by bonded face [Pa]
+    std::vector<Vector<Dim>> gradient_;  // dV/dû through the corrections, by bonded face [N]
+    FaceCorrections<Dim> of_others_;     // of contact and springs
     MergedCorrections<Dim> merged_;
 };
 

@@ -46,12 +46,12 @@ Change<Dim> change(Solid<Dim>& before, const dynamics::IntegratorState& motion, 
     dynamics::IntegratorState& now = changed.state.motion = after.take_over(before, motion, old_cells);
     changed.state.solid = after.state();
     after.restore(changed.state.solid, now.q);
-    changed.left = {.cells = before.mesh().n_cells() - after.mesh().n_cells(),
-                    .mass = mass_of(before) - mass_of(after),
-                    .momentum = momentum_of<Dim>(motion) - momentum_of<Dim>(now),
-                    .kinetic = kinetic_of(before, motion) - kinetic_of(after, now),
-                    .potential = before.potential(motion.q) - after.potential(now.q) -
-                                 (friction_of(after) - friction_of(before))};
+    changed.left = {
+        .cells = before.mesh().n_cells() - after.mesh().n_cells(),
+        .mass = mass_of(before) - mass_of(after),
+        .momentum = momentum_of<Dim>(motion) - momentum_of<Dim>(now),
+        .kinetic = kinetic_of(before, motion) - kinetic_of(after, now),
+        .potential = before.potential(motion.q) - after.potential(now.q) - (friction_of(after) - friction_of(before))};
     return changed;
 }
 

@@ -132,7 +132,7 @@ private:
     std::vector<std::size_t> listed_here_;          // their indices in the list
     mutable std::vector<Vector<Dim>> correction_here_, gradient_here_;  // work arrays of `corrections`
     std::vector<Vector<Dim>> u_0_, u_1_, y_0_,
-        y_1_;                                    // path of the listed faces; between steps _0 is where the last one ended
+        y_1_;  // path of the listed faces; between steps _0 is where the last one ended
     Bonds<Dim>& bonds_;
     /// How the gradient of a listed face answers to the displacement of a bonded one.
     struct BondAnswer {

@@ -257,7 +257,8 @@ template <int Dim>
 void RigidBodies<Dim>::take_over(const RigidBodies& before) {
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
         const Body& from = before.bodies_[i];
-        for (const auto of : {&Body::turn_0, &Body::turn_1, &Body::rate_before, &Body::rate_after}) bodies_[i].*of = from.*of;
+        for (const auto of : {&Body::turn_0, &Body::turn_1, &Body::rate_before, &Body::rate_after})
+            bodies_[i].*of = from.*of;
     }
 }
 

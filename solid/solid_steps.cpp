@@ -292,8 +292,8 @@ void Solid<Dim>::add_drag(const Ends& ends, double dt, std::span<Vector<Dim>> fo
 /// is dissipated.
 template <int Dim>
 void Solid<Dim>::flow_faces(std::span<const Vector<Dim>> q_1) {
-    const bool moves = (contact_ || bonds_->any()) && ccg_.flows_linearly() &&
-                       ranks().largest(ccg_.any_face_moves() ? 1.0 : 0.0) > 0.0;
+    const bool moves =
+        (contact_ || bonds_->any()) && ccg_.flows_linearly() && ranks().largest(ccg_.any_face_moves() ? 1.0 : 0.0) > 0.0;
     const auto energy_on_faces = [&] {
         return bonds_->energy_at_end(q_1, loads_->end()) + (contact_ ? contact_->energy_at_end(q_1) : 0.0);
     };

@@ -51,9 +51,9 @@ private:
 
     std::string mesh_name_;
     std::vector<OfBody> of_body_;
-    std::vector<std::int32_t> body_;       // of each cell
-    std::vector<std::int64_t> label_;      // of each cell, for people
-    std::vector<Vector<Dim>> centroid_;    // of each cell
+    std::vector<std::int32_t> body_;     // of each cell
+    std::vector<std::int64_t> label_;    // of each cell, for people
+    std::vector<Vector<Dim>> centroid_;  // of each cell
 };
 
 }  // namespace abut::solid

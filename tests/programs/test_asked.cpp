@@ -24,7 +24,8 @@ using Catch::Contains;
 namespace fs = std::filesystem;
 
 const std::vector<std::string> topics = {"scene", "units", "materials", "contact", "kinematics", "output", "exit-codes"};
-const std::vector<std::string> commands = {"run", "check", "new", "keys", "materials", "detect", "info", "help", "completion", "man"};
+const std::vector<std::string> commands = {"run",    "check", "new",  "keys",       "materials",
+                                           "detect", "info",  "help", "completion", "man"};
 
 std::string answer(const std::string& arguments, const std::string& before = "") {
     const Outcome outcome = run_program("abut", arguments, "", before);

@@ -169,7 +169,8 @@ TEST_CASE("detect: --self finds the two leaves of a folded sheet, and --rings le
 }
 
 TEST_CASE("detect: every broad phase and any number of threads give the same files", "[programs][detect]") {
-    const std::string scene = "gear:n=500 gear:n=500,x=1.9,turn=0.1571 soup:n=300,size=0.2 --self --rotate gear:0,0,1,10 --steps 3 ";
+    const std::string scene =
+        "gear:n=500 gear:n=500,x=1.9,turn=0.1571 soup:n=300,size=0.2 --self --rotate gear:0,0,1,10 --steps 3 ";
     const auto expected = detect(scene + "--write-every 1", "phase_automatic");
     REQUIRE(read_table(expected, "overlaps.csv").rows.size() > 100);
     for (const std::string choice : {"--broad-phase packed_tree", "--broad-phase embree", "--broad-phase fcl",
