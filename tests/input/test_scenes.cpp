@@ -46,12 +46,13 @@ TEST_CASE("every scene of the project has no fault, starts, and keeps its pseudo
         file.dimension() == 2 ? run_some_steps<2>(file) : run_some_steps<3>(file);
         ++n;
     }
-    CHECK(n == 47);
+    CHECK(n == 48);
 }
 
-TEST_CASE("a ring whose ends meet, and a needle that falls on its point, press by no more than 0.3 of a cell",
-          "[input][scenes]") {
-    const std::string name = GENERATE("c_ring.toml", "falling_needle.toml");
+TEST_CASE(
+    "a ring whose ends meet, a rolled-up sheet, and a needle that falls on its point press by no more than 0.3 of a cell",
+    "[input][scenes]") {
+    const std::string name = GENERATE("c_ring.toml", "falling_needle.toml", "rolled_sheet.toml");
     CAPTURE(name);
     const input::SceneFile file(fs::path(ABUT_SOURCE "/scenes") / name, {});
     const auto result = run::simulate<2>(file.scene<2>(), file.options());
