@@ -50,9 +50,14 @@ void Bonds<Dim>::set_shares(std::span<const BondChange> changes, When when) {
 }
 
 template <int Dim>
+void Bonds<Dim>::see_end(std::span<const Vector<Dim>> q_1, const BoundaryLoad<Dim>& load_1) {
+    springs_->see_end(q_1, load_1, StepState::end);
+}
+
+template <int Dim>
 double Bonds<Dim>::energy_at_end(std::span<const Vector<Dim>> q_1, const BoundaryLoad<Dim>& load_1) {
     if (!any()) return 0.0;
-    springs_->see_end(q_1, load_1);
+    see_end(q_1, load_1);
     const std::vector<BondChange> changes = in_middle_;
     set_shares(changes, When::end);
     const double energy_then = energy();
@@ -92,6 +97,7 @@ void Bonds<Dim>::check_fracture_energy() const {
                                             std::vector<BondChange>&) const;                             \
     template std::vector<BondChange> Bonds<Dim>::changes() const;                                        \
     template void Bonds<Dim>::set_shares(std::span<const BondChange>, When);                             \
+    template void Bonds<Dim>::see_end(std::span<const Vector<Dim>>, const BoundaryLoad<Dim>&);           \
     template double Bonds<Dim>::energy_at_end(std::span<const Vector<Dim>>, const BoundaryLoad<Dim>&);   \
     template void Bonds<Dim>::check_fracture_energy() const;
 ABUT_INSTANTIATE(2)

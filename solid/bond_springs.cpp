@@ -85,19 +85,16 @@ void BondSprings<Dim>::place(std::span<const BodyFrame<Dim>> frames, const Tilte
 template <int Dim>
 void BondSprings<Dim>::stand_at(std::span<const Vector<Dim>> q, const BoundaryLoad<Dim>& load) {
     if (!any()) return;
-    frames_.displacement(region_.input_cells, q, frames_.end(), u_);
-    evaluate_own(u_, load, StepState::given, end_);
-    bring({&end_});
-    place(frames_.end(), end_, x_1_);
+    see_end(q, load, StepState::given);
     x_0_ = x_1_;
     collect();
 }
 
 template <int Dim>
-void BondSprings<Dim>::see_end(std::span<const Vector<Dim>> q_1, const BoundaryLoad<Dim>& load_1) {
+void BondSprings<Dim>::see_end(std::span<const Vector<Dim>> q_1, const BoundaryLoad<Dim>& load_1, StepState state) {
     if (!any()) return;
     frames_.displacement(region_.input_cells, q_1, frames_.end(), u_);
-    evaluate_own(u_, load_1, StepState::end, end_);
+    evaluate_own(u_, load_1, state, end_);
     bring({&end_});
     place(frames_.end(), end_, x_1_);
 }

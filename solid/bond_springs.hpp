@@ -47,8 +47,8 @@ public:
     /// What they push each body with besides others (n_bodies that deform).
     [[nodiscard]] std::span<const BodyPush<Dim>> pushes(std::span<const BodyPush<Dim>> others);
     [[nodiscard]] double energy() const;  ///< at the end of the step [J]
-    /// The end of the step that was followed is evaluated anew, as cells may have moved faces since.
-    void see_end(std::span<const Vector<Dim>> q_1, const BoundaryLoad<Dim>& load_1);
+    /// The end alone: `energy` is that of it. What springs pull with stays.
+    void see_end(std::span<const Vector<Dim>> q_1, const BoundaryLoad<Dim>& load_1, StepState state);
     /// Calls visit(place, traction, stiffness, normal): in space at the end of the step dV/dx_2 per area of a whole place [Pa] and the normal
     /// out of the first face; k_12 [Pa/m].
     template <class Visit>

@@ -70,7 +70,9 @@ public:
     [[nodiscard]] std::span<const BodyPush<Dim>> pushes(std::span<const BodyPush<Dim>> others);
     /// What V has beside the energy of the cells with these corrections, in one state [J].
     [[nodiscard]] double energy() const;
-    /// The same at the end of the step that was followed, with what cells remember now. A call of all ranks.
+    /// `energy` is that of the end of the step that was followed from now on. A call of all ranks.
+    void see_end(std::span<const Vector<Dim>> q_1, const BoundaryLoad<Dim>& load_1);
+    /// That energy with what cells remember now. A call of all ranks.
     [[nodiscard]] double energy_at_end(std::span<const Vector<Dim>> q_1, const BoundaryLoad<Dim>& load_1);
     /// The part of the work of prescribed displacements and tractions in a step from `start` to `end` that is done through the
     /// corrections, with the gradient that was added last [J].

@@ -150,7 +150,9 @@ double Solid<Dim>::energy_lost_by(std::span<const BondChange> changes, const End
     };
     const auto energy_at_end = [&](When when) {
         bonds_->set_shares(changes, when);
-        return stored_energy(ends.end, loads_->end());
+        const double in_cells = stored_energy(ends.end, loads_->end()) - bonds_->energy();
+        bonds_->see_end(ends.end, loads_->end());  // free faces of finite metal are where the step brings them
+        return in_cells + bonds_->energy();
     };
     frames_->stand_at_start();
     const double at_start = energy_at_start(When::start) - energy_at_start(When::middle);

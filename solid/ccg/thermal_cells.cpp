@@ -5,9 +5,16 @@
 #include <string>
 
 #include "abut/base/error.hpp"
+#include "abut/base/messages.hpp"
 #include "abut/solid/material/orthotropic.hpp"
 
 namespace abut::solid {
+namespace {
+
+/// Beyond it strains are not small; a coefficient that lacks its power of ten is far beyond.
+constexpr double largest_thermal_strain = 0.1;
+
+}  // namespace
 
 template <int Dim>
 ThermalCells<Dim>::ThermalCells(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials,
@@ -27,6 +34,9 @@ ThermalCells<Dim>::ThermalCells(const mesh::Mesh<Dim>& mesh, std::span<const Mat
         of.stress = stress.template topLeftCorner<Dim, Dim>();
         of.out_of_plane = stress(2, 2);
         of.twice_energy = stress.cwiseProduct(strain).sum();
+        const Material& material = materials[body];
+        of.strain = std::max({std::abs(material.thermal_expansion), std::abs(material.thermal_expansion_2),
+                              std::abs(material.thermal_expansion_3)});
     }
 }
 
@@ -45,6 +55,13 @@ std::vector<double> ThermalCells<Dim>::rise_at(double time) const {
             throw BadInput(mesh_name_ + ": the rise of the temperature of cell " + std::to_string(label_[c]) +
                                " is not finite. Correct SolidOptions::temperature_rise.",
                            {.cell = static_cast<std::int32_t>(c)});
+        if (const double strain = of.strain * std::abs(rise.back()); strain > largest_thermal_strain)
+            throw BadInput(mesh_name_ + ": cell " + std::to_string(label_[c]) + " is " + number(rise.back()) +
+                               " K warmer at t = " + number(time) + " s, a thermal strain of " + number(strain) + "; " +
+                               number(largest_thermal_strain) +
+                               " is allowed, as strains are linear here. Correct SolidOptions::temperature_rise or the "
+                               "thermal_expansion of its material, which is in 1/K.",
+                           {.cell = static_cast<std::int32_t>(c), .value = strain, .allowed = largest_thermal_strain});
     }
     return rise;
 }

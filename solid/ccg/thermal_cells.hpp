@@ -27,7 +27,7 @@ public:
 
     [[nodiscard]] bool any() const { return !of_body_.empty(); }
     [[nodiscard]] bool varies() const;
-    /// T of all cells at a time [K]. Throws BadInput where it is not finite.
+    /// T of all cells at a time [K]. Throws BadInput where it is not finite, or strains by more than 0.1.
     [[nodiscard]] std::vector<double> rise_at(double time) const;
     /// C : a of a cell, which stress is less by per kelvin [Pa/K].
     [[nodiscard]] const Matrix<Dim>& stress(std::ptrdiff_t cell) const { return of_cell(cell).stress; }
@@ -43,6 +43,7 @@ private:
     struct OfBody {
         Matrix<Dim> stress = Matrix<Dim>::Zero();
         double out_of_plane = 0.0, twice_energy = 0.0;
+        double strain = 0.0;  // largest along an axis
         TemperatureRise<Dim> rise;
     };
     [[nodiscard]] const OfBody& of_cell(std::ptrdiff_t cell) const {

@@ -151,14 +151,15 @@ const Material yielding{
 /// How two halves of a bar that are flung apart, stretching it beyond yield, end.
 struct Stretched {
     Drifts drifts;
-    double in_cells = 0.0, least = 0.0, in_play = 0.0;
+    double in_cells = 0.0, in_bonds = 0.0, least = 0.0, in_play = 0.0;
 };
 
 template <int Dim>
-Stretched flung_apart(const mesh::Mesh<Dim>& mesh, Kinematics kinematics, int n_bodies) {
+Stretched flung_apart(const mesh::Mesh<Dim>& mesh, Kinematics kinematics, int n_bodies, const solid::Bond& bond = {}) {
     SolidOptions<Dim> options;
     options.materials.assign(static_cast<std::size_t>(n_bodies), yielding);
-    if (n_bodies == 2) options.bonds = {{.sides = {0, 1}}};
+    if (n_bodies == 2) options.bonds = {bond};
+    if (n_bodies == 2) options.bonds.front().sides = {0, 1};
     options.contact.emplace();
     TurningScene<Dim> scene(mesh, options, std::vector<Motion<Dim>>(static_cast<std::size_t>(n_bodies)), 0.6,
                             std::vector(static_cast<std::size_t>(n_bodies), kinematics));
@@ -180,6 +181,7 @@ Stretched flung_apart(const mesh::Mesh<Dim>& mesh, Kinematics kinematics, int n_
         before = now;
     }
     result.in_cells = before;
+    result.in_bonds = scene.solid.dissipated().in_bonds;
     result.in_play = ledger.largest_energy();
     result.drifts.pseudo_energy = ledger.pseudo_energy_drift() / result.in_play;
     result.drifts.momentum = ledger.momentum_drift() / momenta;
@@ -203,6 +205,22 @@ TEMPLATE_TEST_CASE_SIG("bonded blocks of metal that yield keep H~ + D, and dissi
     CHECK(two.drifts.pseudo_energy <= 1e-12);
     CHECK(two.drifts.momentum <= 1e-13);
     CHECK(two.in_cells / two.in_play == Approx(one.in_cells / one.in_play).epsilon(0.1));
+}
+
+TEMPLATE_TEST_CASE_SIG("bonds of metal that yields open and break as it flows, and H~ + D closes",
+                       "[solid][bonds][plasticity]", ((int Dim), Dim), 2, 3) {
+    const auto kinematics = GENERATE(Kinematics::floating, Kinematics::finite);
+    const double fracture_energy = GENERATE(0.0, 1e-5);
+    CAPTURE(Dim, static_cast<int>(kinematics), fracture_energy);
+    const CellShape shape = Dim == 2 ? CellShape::triangle : CellShape::tetrahedron;
+    const int n = Dim == 2 ? 6 : 3;
+    const auto two = flung_apart<Dim>(
+        together(box_between<Dim>(-1.0, 0.0, n, n, shape, "left"), box_between<Dim>(0.0, 1.0, n + 1, n + 1, shape, "right")),
+        kinematics, 2, {.sides = {}, .strength = 1.1 * yielding.yield_stress, .fracture_energy = fracture_energy});
+    CHECK(two.in_cells > 0.01 * two.in_play);
+    CHECK(two.in_bonds > 0.0);
+    CHECK(two.drifts.pseudo_energy <= 1e-12);
+    CHECK(two.drifts.momentum <= 1e-13);
 }
 
 }  // namespace abut::test
