@@ -281,6 +281,9 @@ TEST_CASE("a temperature that a body cannot have is refused by name", "[solid][m
     options = warm<2>(steel(), Kinematics::small, std::nan(""));
     refused(options, "is not finite");
     options = warm<2>(steel());
+    options.materials[0].thermal_expansion = 12.0;  // of a million
+    refused(options, "a thermal strain of");
+    options = warm<2>(steel());
     options.temperature_rise.push_back(constant<2>(1.0));
     refused(options, "2 temperatures");
     options = warm<2>(steel());
