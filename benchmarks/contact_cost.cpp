@@ -15,6 +15,7 @@
 #include "abut/dynamics/memm.hpp"
 #include "abut/dynamics/stable_step.hpp"
 #include "abut/solid/body_motion.hpp"
+#include "abut/solid/contact_view.hpp"
 #include "studies/scenes/two_cylinders.hpp"
 #include "support/measure.hpp"
 #include "support/options.hpp"
@@ -65,7 +66,7 @@ public:
                 for (int i = 0; i < steps; ++i) integrator_.step();
             },
             clock_));
-        active_.push_back(solid_.contact_report().active_pairs);
+        active_.push_back(solid_.contact().report().active_pairs);
     }
 
     [[nodiscard]] const std::string& name() const { return name_; }
@@ -104,7 +105,7 @@ double median_ratio(const Scene& scene, const Scene& reference, bool only_active
 }
 
 nlohmann::json to_json(const Scene& scene, const Scene& reference, std::int64_t steps) {
-    const auto report = scene.solid().contact_report();
+    const auto report = scene.solid().contact().report();
     const auto& times = scene.solid().times();
     const double all = times.bulk + times.contact + times.search;
     const auto share = [&](double seconds) { return seconds / all; };
@@ -138,7 +139,7 @@ void check(Scene& scene, const dynamics::LedgerEntry<3>& first) {
     const double kinetic = first.kinetic;
     const double mass = std::accumulate(scene.solid().masses().begin(), scene.solid().masses().end(), 0.0);
     const double momentum = std::sqrt(2.0 * kinetic * mass);  // m v of bodies as heavy and as fast as each other
-    const auto report = scene.solid().contact_report();
+    const auto report = scene.solid().contact().report();
     benchmark::require_small("pseudo-energy over its value, at the end against the start",
                              std::abs(last.pseudo_energy - first.pseudo_energy) / kinetic, 1e-11);
     benchmark::require_small("momentum over m v, at the end against the start",

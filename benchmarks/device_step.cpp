@@ -17,6 +17,7 @@
 #include "abut/dynamics/memm.hpp"
 #include "abut/mesh/mesh.hpp"
 #include "abut/mesh/shapes/shapes.hpp"
+#include "abut/solid/contact_view.hpp"
 #include "abut/solid/solid.hpp"
 #include "support/measure.hpp"
 #include "support/options.hpp"
@@ -127,7 +128,7 @@ nlohmann::json collide(const Choices& choices) {
     for (int i = 0; i < choices.steps; ++i) host.memm.step(), device.memm.step();
     require_same_bits("displacements of a collision", host.memm.q(), device.memm.q());
     require_same_bits("momenta of a collision", host.memm.p_after(), device.memm.p_after());
-    const auto pairs = device.solid.contact_report().active_pairs_max;
+    const auto pairs = device.solid.contact().report().active_pairs_max;
     if (pairs == 0) throw std::runtime_error("the blocks did not meet: take more --steps");
     fmt::print("two blocks, {} cells, {} steps, {} pairs in contact at most: the same bits\n", mesh.n_cells(), choices.steps,
                pairs);

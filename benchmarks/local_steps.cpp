@@ -13,6 +13,7 @@
 #include "abut/dynamics/ledger.hpp"
 #include "abut/dynamics/memm.hpp"
 #include "abut/solid/body_motion.hpp"
+#include "abut/solid/contact_view.hpp"
 #include "abut/solid/local_steps.hpp"
 #include "studies/scenes/two_cylinders.hpp"
 #include "support/measure.hpp"
@@ -66,7 +67,7 @@ void step(Scheme& scheme, solid::Solid<Dim>& solid, int steps, benchmark::Clock 
 template <int Dim, class Scheme>
 void close(const Scheme& scheme, const solid::Solid<Dim>& solid, Record<Dim>& record) {
     record.evaluations = solid.evaluations();
-    record.contact = solid.contact_report();
+    record.contact = solid.contact().report();
     record.times = solid.times();
     record.speed = solid::body_motions<Dim>(scheme, solid)[0].velocity.x();
     const double kinetic = record.ledger.entries().front().kinetic;

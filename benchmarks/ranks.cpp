@@ -9,8 +9,8 @@
 // goes through once more by itself with the answers that it got from the others (recorded_ranks.hpp). Waiting for a processor
 // is left out. Expected: own cells n/P each, work twice as in docs/ranks.md, one message per neighbour and step without
 // contact.
-#include <mpi.h>
 #include <fmt/core.h>
+#include <mpi.h>
 #include <oneapi/tbb/global_control.h>
 
 #include <algorithm>
@@ -27,6 +27,7 @@
 #include "abut/mesh/shapes/shapes.hpp"
 #include "abut/ranks/partition.hpp"
 #include "abut/solid/body_motion.hpp"
+#include "abut/solid/contact_view.hpp"
 #include "abut/solid/solid.hpp"
 #include "recorded_ranks.hpp"
 #include "support/measure.hpp"
@@ -182,7 +183,7 @@ Seconds time_steps(const Choices& choices, const Make& make) {
         const double all = benchmark::seconds_of([&] { run->go(choices.steps); }, benchmark::Clock::processor);
         const double share = all / (benchmark::now(benchmark::Clock::wall) - wall);
         const solid::SolidTimes after = run->solid.times();
-        const std::int64_t lists = has_contact(choices) ? run->solid.contact_report().rebuilds : 0;
+        const std::int64_t lists = has_contact(choices) ? run->solid.contact().report().rebuilds : 0;
         least.take_least({.all = all,
                           .bulk = share * (after.bulk - before.bulk),
                           .contact = share * (after.contact - before.contact),
@@ -277,7 +278,7 @@ nlohmann::json print_steps(const Shared& shared, const Choices& choices, const T
     }
     print("alone", alone);
     if (has_contact(choices)) {
-        const auto report = run.solid.contact_report();
+        const auto report = run.solid.contact().report();
         fmt::print("contact: {} faces, {} candidates, {} active pairs, {} events, {} lists\n",
                    shared.whole.boundary_faces.size(), report.candidates, report.active_pairs_max, report.events,
                    report.rebuilds);

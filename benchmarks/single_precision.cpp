@@ -16,6 +16,7 @@
 #include "abut/dynamics/stable_step.hpp"
 #include "abut/mesh/shapes/shapes.hpp"
 #include "abut/solid/body_motion.hpp"
+#include "abut/solid/contact_view.hpp"
 #include "abut/solid/solid.hpp"
 #include "support/measure.hpp"
 #include "support/options.hpp"
@@ -91,7 +92,7 @@ public:
 
     /// Over the energy and the momentum that a run is measured with.
     [[nodiscard]] nlohmann::json figures(double energy, double momentum) const {
-        const contact::ContactReport report = solid_.contact_report();
+        const contact::ContactReport report = solid_.contact().report();
         return {{"seconds", seconds_},
                 {"steps", memm_.steps()},
                 {"pseudo_energy_drift", ledger_.pseudo_energy_drift() / energy},

@@ -10,6 +10,7 @@
 #include "abut/contact/obstacle.hpp"
 #include "abut/mesh/shapes/shapes.hpp"
 #include "abut/run/simulation.hpp"
+#include "abut/solid/contact_view.hpp"
 
 using namespace abut;
 
@@ -38,7 +39,7 @@ int main() {
     double impulse = 0.0, begin = 0.0, time = 0.0;  // per area of the bar [N s/m^2]; first contact [s]
     run::Scene<2> scene = bar_above_wall();
     scene.after_step = [&](const solid::Solid<2>& solid, double dt) {
-        const double pressure = -solid.obstacle_force(0).y() / width;  // mean of the step [Pa]
+        const double pressure = -solid.contact().obstacle_force(0).y() / width;  // mean of the step [Pa]
         if (pressure > 0.0 && begin == 0.0) begin = time;
         impulse += pressure * dt;
         time += dt;

@@ -25,7 +25,9 @@
 #include "abut/dynamics/stable_step.hpp"
 #include "abut/mesh/shapes/shapes.hpp"
 #include "abut/solid/body_motion.hpp"
+#include "abut/solid/contact_view.hpp"
 #include "abut/solid/outside_faces.hpp"
+#include "abut/solid/outside_view.hpp"
 #include "abut/solid/solid.hpp"
 
 using namespace abut;
@@ -231,7 +233,7 @@ Result run(int n, const std::string& variant) {
     while (memm.time() < arrival + 2.8 * transit) {
         const double dt = std::min(stable, gas.stable_step());
         memm.set_step(dt, dynamics::StepChange::keep);  // its changes are slow and smooth
-        const auto motion = bars.face_motion("bar.xmin", memm.q(), memm.next_q(), memm.time(), dt);
+        const auto motion = bars.outside("bar.xmin").motion(memm.q(), memm.next_q(), memm.time(), dt);
         double on_wall = gas.step(dt, 0.5 * (motion[0].x() + motion[1].x()));
         if (variant == "lagged") std::swap(on_wall, last);
         bars.set_traction("bar.xmin", std::vector<Vector<2>>(2, Vector<2>(on_wall - p_0, 0.0)));  // p_0 acts behind the bars
@@ -263,8 +265,8 @@ Result run(int n, const std::string& variant) {
     result.drift = ledger.pseudo_energy_drift() / work.steps;
     result.excess = ledger.energy_excess() / work.steps;
     result.steps = memm.steps();
-    result.events = bars.contact_report().events;
-    result.missed = bars.contact_report().missed_contacts;
+    result.events = bars.contact().report().events;
+    result.missed = bars.contact().report().missed_contacts;
     return result;
 }
 

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "abut/mesh/shapes/shapes.hpp"
+#include "abut/solid/contact_view.hpp"
 #include "abut/solid/solid.hpp"
 #include "abut/solid/statics.hpp"
 
@@ -46,7 +47,7 @@ int main() {
     std::printf("%s (%d evaluations of the force)\n", solution.report.ending.c_str(), solution.report.evaluations);
 
     double load = 0.0, worst = 0.0;  // of the upper block's faces [N/m]; largest |pressure - p| [Pa]
-    const auto field = solid.contact_field(solution.q);
+    const auto field = solid.contact_at(solution.q).field();
     for (std::size_t b = 0; b < field.pressure.size(); ++b) {
         const std::int32_t face = mesh.boundary_faces[b];
         if (!std::isfinite(field.gap[b])) continue;  // no face is opposite

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "abut/dynamics/ledger.hpp"
+#include "abut/solid/cell_view.hpp"
 #include "abut/solid/solid.hpp"
 
 namespace abut::run {
@@ -14,7 +15,7 @@ template <int Dim>
                                                      const solid::Solid<Dim>& solid) {
     std::vector<double> momentum(p_before.begin(), p_before.end());
     for (std::size_t i = 0; i < momentum.size(); ++i) momentum[i] = 0.5 * (momentum[i] + p_after[i]);
-    return solid.cell_velocity(momentum);
+    return solid.cells().velocity(momentum);
 }
 
 template <int Dim>

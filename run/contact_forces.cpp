@@ -5,6 +5,7 @@
 
 #include "abut/dynamics/ledger.hpp"
 #include "abut/run/scene.hpp"
+#include "abut/solid/contact_view.hpp"
 #include "abut/solid/solid.hpp"
 
 namespace abut::run {
@@ -32,7 +33,7 @@ std::vector<ForceRow<Dim>> ContactForces<Dim>::rows(const dynamics::RunView<Dim>
     const double seconds = run.time - time_;
     time_ = run.time;
     std::vector<ForceRow<Dim>> rows;
-    for (const solid::BodyImpulse<Dim>& pair : solid.contact_impulses()) {
+    for (const solid::BodyImpulse<Dim>& pair : solid.contact().impulses()) {
         solid::BodyImpulse<Dim>& last = last_.try_emplace({pair.body_1, pair.body_2}, none_yet(pair)).first->second;
         const solid::BodyImpulse<Dim> before = std::exchange(last, pair);
         if (is_start) continue;

@@ -10,6 +10,7 @@
 #include "abut/base/error.hpp"
 #include "abut/contact/contact.hpp"
 #include "abut/run/remedies.hpp"
+#include "abut/solid/contact_view.hpp"
 #include "abut/solid/solid.hpp"
 
 namespace abut::run {
@@ -59,7 +60,7 @@ void refuse_diverged(const Scene<Dim>& scene, const RunResult<Dim>& result, doub
 template <int Dim>
 std::string advice_on_law(const Error& error, const solid::Solid<Dim>& solid) {
     constexpr double flat = 0.94;  // of 20 degrees
-    const contact::Contact<Dim>* by_faces = solid.contact();
+    const contact::Contact<Dim>* by_faces = solid.contact().reconstruction();
     const auto [face_1, face_2] = std::pair(error.facts().face_1, error.facts().face_2);
     if (error.kind() != ErrorKind::too_deep || !by_faces || face_1 < 0 || face_2 < 0) return "";
     const auto normal = [&](std::int64_t face) { return by_faces->surface().normal[static_cast<std::size_t>(face)]; };
@@ -81,8 +82,8 @@ std::vector<std::int32_t> named_cells(const Error& error, const dynamics::Ranks&
         if (error.kind() != ErrorKind::too_deep) facts = {};
     }
     std::vector<std::int32_t> cells;
-    for (const std::int64_t cell : {facts.cell, std::int64_t{whole.cell_of_contact_face(facts.face_1)},
-                                    std::int64_t{whole.cell_of_contact_face(facts.face_2)}})
+    for (const std::int64_t cell : {facts.cell, std::int64_t{whole.contact().cell_of_face(facts.face_1)},
+                                    std::int64_t{whole.contact().cell_of_face(facts.face_2)}})
         if (cell >= 0 && cell < n_cells) cells.push_back(static_cast<std::int32_t>(cell));
     return cells;
 }

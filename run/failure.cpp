@@ -7,12 +7,13 @@
 #include <span>
 
 #include "abut/run/cell_velocity.hpp"
+#include "abut/solid/cell_view.hpp"
 
 namespace abut::run {
 
 template <int Dim>
 WorstCell worst_cell(const dynamics::IntegratorState& state, const solid::Solid<Dim>& solid) {
-    const auto displacement = solid.cell_displacement(state.q);
+    const auto displacement = solid.cells().displacement(state.q);
     const auto velocity = cell_velocity<Dim>(state.p_before, state.p_after, solid);
     WorstCell worst{.cell = 0, .speed = -1.0};
     for (std::size_t c = 0; c < velocity.size(); ++c) {

@@ -12,6 +12,7 @@
 #include "abut/run/cell_velocity.hpp"
 #include "abut/run/drawing/cell_map.hpp"
 #include "abut/run/files.hpp"
+#include "abut/solid/cell_view.hpp"
 
 namespace abut::run {
 namespace {
@@ -60,7 +61,7 @@ void write_table(const std::filesystem::path& path, const mesh::Mesh<Dim>& mesh,
 template <int Dim>
 void write_frame(const std::filesystem::path& directory, const std::string& series, const Failure& failure,
                  const std::vector<double>& speed, const solid::Solid<Dim>& solid) {
-    const auto displacement = solid.cell_displacement(failure.sound.q);
+    const auto displacement = solid.cells().displacement(failure.sound.q);
     const auto velocity = cell_velocity<Dim>(failure.sound.p_before, failure.sound.p_after, solid);
     mesh::Frame<Dim> frame{.time = failure.sound.time,
                            .displacement = displacement,
@@ -120,7 +121,7 @@ std::string write_failure(const std::filesystem::path& directory, const std::str
     const std::vector<double> speed = speeds(failure.lost ? *failure.lost : failure.sound, solid);
     std::vector<std::int32_t> cells = failure.cells;
     if (cells.empty()) cells = {worst_cell(failure.sound, solid).cell};
-    std::vector<Vector<Dim>> position = solid.cell_displacement(failure.sound.q);
+    std::vector<Vector<Dim>> position = solid.cells().displacement(failure.sound.q);
     for (std::size_t c = 0; c < position.size(); ++c) position[c] += solid.mesh().cell_centroid[c];
     write_frame(directory, series, failure, speed, solid);
     write_table(directory / (std::string(failure_name) + ".csv"), solid.mesh(), position, speed);

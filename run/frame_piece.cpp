@@ -7,6 +7,9 @@
 
 #include "abut/run/cell_velocity.hpp"
 #include "abut/solid/bond_places.hpp"
+#include "abut/solid/bond_view.hpp"
+#include "abut/solid/cell_view.hpp"
+#include "abut/solid/contact_view.hpp"
 
 namespace abut::run {
 namespace {
@@ -21,7 +24,7 @@ public:
           mesh_(*piece.mesh),
           any_turns_(solid.moment_arms() == dynamics::MomentArms::mid_step),
           is_own_(mesh_.cell_measure.size(), 0) {
-        solid::OwnCells own = solid.own_cells();
+        solid::OwnCells own = solid.cells().own();
         piece.cells = std::move(own.number);
         positions_ = std::move(own.position);
         piece.number = solid.ranks().rank();
@@ -31,15 +34,15 @@ public:
 
     void take_cells(const dynamics::RunView<Dim>& run) {
         static_cast<void>(solid_.potential(run.q));  // leaves the stresses of this state behind
-        const auto displacement = solid_.cell_displacement(run.q);
+        const auto displacement = solid_.cells().displacement(run.q);
         const auto velocity = cell_velocity(run, solid_);
         for (const std::int32_t position : positions_) {
             const auto c = static_cast<std::size_t>(position);
             piece_.displacement.push_back(displacement[c]);
             piece_.velocity.push_back(velocity[c]);
-            piece_.stress.push_back(solid_.stress(position));
-            piece_.out_of_plane_stress.push_back(solid_.out_of_plane_stress(position));
-            if (solid_.any_inelastic()) piece_.plastic_strain.push_back(solid_.plastic_strain(position));
+            piece_.stress.push_back(solid_.cells().stress(position));
+            piece_.out_of_plane_stress.push_back(solid_.cells().out_of_plane_stress(position));
+            if (solid_.ccg().any_inelastic()) piece_.plastic_strain.push_back(solid_.cells().plastic_strain(position));
         }
     }
 
@@ -49,7 +52,7 @@ public:
             if (around[v] > 0) piece_.vertices.push_back(static_cast<std::int32_t>(v));
         if (any_turns_)
             for (const std::int32_t position : positions_)
-                own_gradients_.push_back(solid_.displacement_gradient(position, run.q));
+                own_gradients_.push_back(solid_.cells().displacement_gradient(position, run.q));
         const std::vector<Vector<Dim>> of_all = vertex_means(around);
         for (const std::int32_t v : piece_.vertices)
             piece_.vertex_displacement.push_back(of_all[static_cast<std::size_t>(v)]);
@@ -154,14 +157,14 @@ private:
 
 template <int Dim>
 std::vector<double> left_of_bonds(const solid::Solid<Dim>& solid) {
-    if (solid.bond_places().empty()) return {};
+    if (solid.bonds().places().empty()) return {};
     std::vector<double> left(solid.mesh().boundary_faces.size(), 0.0), area(left);
     std::size_t number = 0;
-    for (const solid::BondPlace<Dim>& place : solid.bond_places()) {
+    for (const solid::BondPlace<Dim>& place : solid.bonds().places()) {
         for (const solid::BoundaryFace b : place.faces) {
             if (b == solid::no_face) continue;
             area[static_cast<std::size_t>(b)] += place.area;
-            left[static_cast<std::size_t>(b)] += solid.bond_share(number) * place.area;
+            left[static_cast<std::size_t>(b)] += solid.bonds().share(number) * place.area;
         }
         ++number;
     }
@@ -177,7 +180,7 @@ FramePiece<Dim> frame_piece(std::int64_t frame, const mesh::Mesh<Dim>& mesh, con
     piece.time = run.time;
     piece.mesh = &mesh;
     PieceMaker<Dim> maker(piece, solid);
-    const solid::ContactField contact = solid.contact_field(run.q);
+    const solid::ContactField contact = solid.contact_at(run.q).field();
     maker.take_cells(run);
     maker.take_vertices(run);
     maker.take_boundary(contact);

@@ -5,6 +5,7 @@
 
 #include "abut/base/vector.hpp"
 #include "abut/run/forward.hpp"
+#include "abut/solid/contact_results.hpp"
 
 namespace abut::run {
 

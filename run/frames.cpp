@@ -13,6 +13,8 @@
 #include "abut/run/scene.hpp"
 #include "abut/run/xdmf_series.hpp"
 #include "abut/solid/boundary_face.hpp"
+#include "abut/solid/cell_view.hpp"
+#include "abut/solid/contact_view.hpp"
 
 namespace abut::run {
 namespace {
@@ -28,8 +30,8 @@ struct Stresses {
     /// Stresses of all cells, as the last evaluation of the solid left them.
     explicit Stresses(solid::Solid<Dim>& solid) {
         for (std::int32_t c = 0; c < solid.mesh().n_cells(); ++c) {
-            add(solid.stress(c), solid.out_of_plane_stress(c));
-            if (solid.any_inelastic()) plastic_strain.push_back(solid.plastic_strain(c));
+            add(solid.cells().stress(c), solid.cells().out_of_plane_stress(c));
+            if (solid.ccg().any_inelastic()) plastic_strain.push_back(solid.cells().plastic_strain(c));
         }
     }
     explicit Stresses(const FramePiece<Dim>& piece) {
@@ -257,12 +259,12 @@ void Frames<Dim>::resume(const Scene<Dim>& scene, const RunResult<Dim>& result, 
 
 template <int Dim>
 void Frames<Dim>::write(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) {
-    const auto contact = solid.contact_field(run.q);
+    const auto contact = solid.contact_at(run.q).field();
     const auto gap = in_contact(contact.gap);
     static_cast<void>(solid.potential(run.q));  // leaves the stresses of this state behind
-    const auto displacement = solid.cell_displacement(run.q);
+    const auto displacement = solid.cells().displacement(run.q);
     std::vector<Vector<Dim>> of_vertices;  // a body that turns is not where the mean displacement of its cells takes it
-    if (solid.moment_arms() == dynamics::MomentArms::mid_step) of_vertices = solid.vertex_displacement(run.q);
+    if (solid.moment_arms() == dynamics::MomentArms::mid_step) of_vertices = solid.cells().vertex_displacement(run.q);
     if (!in_pieces_) {
         const Stresses<Dim> stresses(solid);
         const auto velocity = cell_velocity(run, solid);
@@ -281,7 +283,7 @@ void Frames<Dim>::write(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& so
 template <int Dim>
 void Frames<Dim>::write_pairs(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid,
                               std::span<const Vector<Dim>> displacement, std::span<const Vector<Dim>> of_vertices) {
-    const PairPoints<Dim> points(solid.acting_pairs(run.q), solid, displacement, of_vertices);
+    const PairPoints<Dim> points(solid.contact_at(run.q).acting_pairs(), solid, displacement, of_vertices);
     mesh::PointFrame<Dim> frame = points.frame(run.time, fields_.friction && solid.options().has_friction());
     frame.numbers = bodies_;
     pairs_->write(frame);

@@ -13,6 +13,7 @@
 #include "abut/run/observer.hpp"
 #include "abut/run/simulation.hpp"
 #include "abut/run/warnings.hpp"
+#include "abut/solid/contact_view.hpp"
 #include "abut/solid/law_options.hpp"
 
 namespace abut::run {
@@ -111,7 +112,8 @@ public:
             const double rim = motions[i].spin.norm() * bodies_[i].size, slowness = rim / bodies_[i].wave_speed;
             raise(i, 0.5 * motions[i].mass * rim * rim * slowness * slowness);
         }
-        if (run.steps > 0 && solid.nodal_contact() != nullptr) look_at_contact(solid.nodal_contact()->last());
+        if (run.steps > 0 && solid.contact().pair_potential() != nullptr)
+            look_at_contact(solid.contact().pair_potential()->last());
     }
 
 private:

@@ -13,6 +13,7 @@
 #include "abut/run/cell_velocity.hpp"
 #include "abut/run/frames.hpp"
 #include "abut/run/scene.hpp"
+#include "abut/solid/cell_view.hpp"
 
 namespace abut::run {
 namespace {
@@ -144,7 +145,7 @@ template <int Dim>
 std::vector<std::vector<double>> Probes<Dim>::values(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) {
     const std::vector<ForceRow<Dim>> forces = forces_.rows(run, solid);
     static_cast<void>(solid.potential(run.q));  // leaves the stresses of this state behind
-    const auto displacement = solid.cell_displacement(run.q);
+    const auto displacement = solid.cells().displacement(run.q);
     const auto velocity = cell_velocity(run, solid);
     std::vector<std::vector<double>> rows;
     for (const Watched& probe : probes_) {
@@ -154,11 +155,11 @@ std::vector<std::vector<double>> Probes<Dim>::values(const dynamics::RunView<Dim
         for (std::size_t i = 0; i < probe.cells.size(); ++i) {
             const std::int32_t cell = probe.cells[i];
             const double weight = probe.weights[i];
-            u += weight *
-                 (displacement[static_cast<std::size_t>(cell)] + solid.displacement_gradient(cell, run.q) * probe.arms[i]);
+            u += weight * (displacement[static_cast<std::size_t>(cell)] +
+                           solid.cells().displacement_gradient(cell, run.q) * probe.arms[i]);
             v += weight * velocity[static_cast<std::size_t>(cell)];
-            stress += weight * solid.stress(cell);
-            out_of_plane += weight * solid.out_of_plane_stress(cell);
+            stress += weight * solid.cells().stress(cell);
+            out_of_plane += weight * solid.cells().out_of_plane_stress(cell);
         }
         std::vector<double> values(u.begin(), u.end());
         values.insert(values.end(), v.begin(), v.end());

@@ -7,6 +7,7 @@
 
 #include "abut/base/error.hpp"
 #include "abut/dynamics/ranks.hpp"
+#include "abut/solid/cell_view.hpp"
 
 namespace abut::run {
 namespace {
@@ -141,7 +142,7 @@ std::vector<double> displacement_at_start(const Scene<Dim>& scene, const solid::
     dynamics::agreed(solid.ranks(), [&] {
         for (const Vector<Dim>& x : solid.mesh().cell_centroid) of_cells.push_back(scene.displacement(x));
     });
-    return solid.displacement_of_points(of_cells);
+    return solid.cells().to_q(of_cells);
 }
 
 template <int Dim>
@@ -157,7 +158,7 @@ std::vector<double> momentum_at_start(const Scene<Dim>& scene, const solid::Soli
             "Scene::displacement moves it from there. Turn its mesh instead, and leave the displacement out.");
     std::vector<Vector<Dim>> added_to_cells;
     dynamics::agreed(solid.ranks(), [&] { added_to_cells = added_velocities(scene, solid.mesh()); });
-    const std::vector<double> added = solid.momentum_of_points(added_to_cells);
+    const std::vector<double> added = solid.cells().to_p(added_to_cells);
     for (std::size_t i = 0; i < momentum.size(); ++i) momentum[i] += added[i];
     return momentum;
 }

@@ -16,6 +16,7 @@
 #include "abut/contact/search/candidate_search.hpp"
 #include "abut/geometry/polygon.hpp"
 #include "abut/solid/boundary_face.hpp"
+#include "abut/solid/cell_view.hpp"
 #include "abut/solid/kinematics/body_frame.hpp"
 
 namespace abut::run {
@@ -147,7 +148,7 @@ private:
     /// Adds a body that comes near itself; returns where it has gone through itself.
     [[nodiscard]] std::optional<NearItself<Dim>> look_at_surface(const solid::Solid<Dim>& solid, std::span<const double> q,
                                                                  double time, std::vector<NearItself<Dim>>& found) {
-        const std::vector<Vector<Dim>> u = solid.vertex_displacement(q);
+        const std::vector<Vector<Dim>> u = solid.cells().vertex_displacement(q);
         std::vector<Vector<Dim>> x(surface_.vertices);
         for (std::size_t v = 0; v < x.size(); ++v) x[v] += u[static_cast<std::size_t>(vertices_[v])];
         search_->search_moved(x, x, contact::GapOf::centroids);

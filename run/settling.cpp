@@ -12,6 +12,7 @@
 #include "abut/base/throw_again.hpp"
 #include "abut/dynamics/memm.hpp"
 #include "abut/run/body_names.hpp"
+#include "abut/solid/contact_view.hpp"
 
 namespace abut::run {
 namespace {
@@ -118,7 +119,7 @@ Settled settle(const Scene<Dim>& scene, const solid::SolidOptions<Dim>& options,
         peak_at = motion.steps();
     }
     result.report.steps = motion.steps();
-    result.report.dissipated = solid.contact_report().friction_dissipated;
+    result.report.dissipated = solid.contact().report().friction_dissipated;
     result.q.assign(motion.q().begin(), motion.q().end());
     solid.begin_run();
     result.solid = solid.state();

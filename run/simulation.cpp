@@ -16,6 +16,7 @@
 #include "abut/run/time_loop.hpp"
 #include "abut/run/user_words.hpp"
 #include "abut/solid/body_interference.hpp"
+#include "abut/solid/contact_view.hpp"
 
 namespace abut::run {
 namespace {
@@ -55,8 +56,8 @@ RunResult<Dim> simulated(const Scene<Dim>& scene, const RunOptions& given, Obser
         if (options.interval == 0) options.interval = records_interval<Dim>(result.steps, options.restart);
         result.options = options;
         result.asked_law = options.law;
-        if (start->solid->contact()) result.options.law = solid::ContactLaw::reconstruction;
-        if (start->solid->nodal_contact()) result.options.law = solid::ContactLaw::pair_potential;
+        if (start->solid->contact().reconstruction()) result.options.law = solid::ContactLaw::reconstruction;
+        if (start->solid->contact().pair_potential()) result.options.law = solid::ContactLaw::pair_potential;
         result.threads = static_cast<int>(global_control::active_value(global_control::max_allowed_parallelism));
         result.seconds.setup = seconds.setup;
         take_steps(*start, observer, from);

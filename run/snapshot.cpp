@@ -10,6 +10,7 @@
 #include "abut/run/cell_velocity.hpp"
 #include "abut/run/frames.hpp"
 #include "abut/run/scene.hpp"
+#include "abut/solid/cell_view.hpp"
 
 namespace abut::run {
 namespace {
@@ -118,7 +119,7 @@ template <int Dim>
 Snapshot SnapshotMaker<Dim>::taken(std::string what, const dynamics::RunView<Dim>& run,
                                    const solid::Solid<Dim>& solid) const {
     Snapshot snapshot{.what = std::move(what), .time = run.time};
-    const std::vector<Vector<Dim>> displacement = solid.vertex_displacement(run.q);
+    const std::vector<Vector<Dim>> displacement = solid.cells().vertex_displacement(run.q);
     for (const std::int32_t vertex : polygons_.vertex) {
         const auto v = static_cast<std::size_t>(vertex);
         snapshot.position.push_back(in_space<Dim>(solid.mesh().vertices[v] + displacement[v]));
@@ -139,7 +140,7 @@ std::vector<double> SnapshotMaker<Dim>::values(const dynamics::RunView<Dim>& run
         else if (is_rigid_[body] != 0)
             result.push_back(std::numeric_limits<double>::quiet_NaN());
         else
-            result.push_back(von_mises<Dim>(solid.stress(cell), solid.out_of_plane_stress(cell)));
+            result.push_back(von_mises<Dim>(solid.cells().stress(cell), solid.cells().out_of_plane_stress(cell)));
     }
     return result;
 }

@@ -6,6 +6,7 @@
 
 #include "abut/run/failure.hpp"
 #include "abut/run/scene.hpp"
+#include "abut/solid/contact_view.hpp"
 
 namespace abut::run {
 namespace {
@@ -13,12 +14,12 @@ namespace {
 using Position = Snapshot::Position;
 
 constexpr std::int64_t looks_per_run = 60;
-constexpr double worth_another = 1.05;       // times the force of the snapshot before
+constexpr double worth_another = 1.05;  // times the force of the snapshot before
 
 template <int Dim>
 double normal_impulse(const solid::Solid<Dim>& solid) {
     double sum = 0.0;
-    for (const solid::BodyImpulse<Dim>& pair : solid.contact_impulses()) sum += pair.normal_impulse;
+    for (const solid::BodyImpulse<Dim>& pair : solid.contact().impulses()) sum += pair.normal_impulse;
     return sum;
 }
 

@@ -15,7 +15,9 @@
 #include "abut/run/settling.hpp"
 #include "abut/run/start_contact.hpp"
 #include "abut/solid/bond_places.hpp"
+#include "abut/solid/bond_view.hpp"
 #include "abut/solid/boundary_face.hpp"
+#include "abut/solid/contact_view.hpp"
 #include "abut/solid/local_steps.hpp"
 
 namespace abut::run {
@@ -73,7 +75,7 @@ solid::SolidTimes added(const solid::SolidTimes& sum, const solid::SolidTimes& a
 template <int Dim>
 std::vector<std::array<std::int32_t, 2>> bonded_faces(const solid::Solid<Dim>& solid) {
     std::vector<std::array<std::int32_t, 2>> pairs;
-    for (const solid::BondPlace<Dim>& place : solid.bond_places())
+    for (const solid::BondPlace<Dim>& place : solid.bonds().places())
         pairs.push_back({solid::mesh_face(solid.mesh(), place.faces[0]), solid::mesh_face(solid.mesh(), place.faces[1])});
     return pairs;
 }
@@ -101,8 +103,8 @@ Start<Dim>::Start(const Scene<Dim>& of, const RunOptions& given, std::optional<P
     const auto& kinematics = solid->options().kinematics;
     result.all_may_turn = !kinematics.empty() && std::ranges::find(kinematics, solid::Kinematics::small) == kinematics.end();
     if (share.ranks.rank() == 0) result.inertia = solid::inertia_of_bodies(seen);
-    result.blind_corners = solid->blind_corners();
-    result.unseen_edges = solid->unseen_edges();
+    result.blind_corners = solid->contact().blind_corners();
+    result.unseen_edges = solid->contact().unseen_edges();
     if (share.ranks.rank() == 0) result.unjoined = mesh::find_unjoined_faces(scene.mesh, bonded_faces(seen));
     set_outside();
     set_state();
@@ -134,7 +136,7 @@ void Start<Dim>::set_outside() {
     result.moments_from_outside = forces;
     add_if(result.moments_from_outside, !given.moments.empty(), "moments");
     const bool keeps_moments =
-        result.all_may_turn && given.springs.empty() && (!scene.contact || solid->nodal_contact() != nullptr) &&
+        result.all_may_turn && given.springs.empty() && (!scene.contact || solid->contact().pair_potential() != nullptr) &&
         options.integrator == SolidIntegrator::memm && options.precision == solid::Precision::double_precision;
     if (!keeps_moments || !result.moments_from_outside.empty()) return;
     double sum = 0.0;

@@ -20,6 +20,7 @@
 #include "abut/geometry/convex_proximity.hpp"
 #include "abut/geometry/polygon.hpp"
 #include "abut/run/body_names.hpp"
+#include "abut/solid/contact_view.hpp"
 
 namespace abut::run {
 namespace {
@@ -83,11 +84,11 @@ template <int Dim>
 std::set<std::array<std::int32_t, 2>> pushing_bodies(const solid::Solid<Dim>& solid) {
     std::set<std::array<std::int32_t, 2>> pushing;
     const auto add = [&](std::int32_t a, std::int32_t b) { pushing.insert({std::min(a, b), std::max(a, b)}); };
-    if (const contact::Contact<Dim>* by_faces = solid.contact()) {
+    if (const contact::Contact<Dim>* by_faces = solid.contact().reconstruction()) {
         const auto body_of = [&](contact::Face face) { return by_faces->surface().body[static_cast<std::size_t>(face)]; };
         for (const auto& pair : by_faces->last().pairs) add(body_of(pair.face_1), body_of(pair.face_2));
     }
-    if (const contact::NodalContact<Dim>* by_nodes = solid.nodal_contact()) {
+    if (const contact::NodalContact<Dim>* by_nodes = solid.contact().pair_potential()) {
         // There bodies that deform come first, then those that are rigid.
         const auto& kinematics = solid.options().kinematics;
         std::vector<std::int32_t> mesh_body;
@@ -166,9 +167,10 @@ std::optional<Nearest<Dim>> how_far_apart(const PlacedSurface<Dim>& a, const Pla
 
 template <int Dim>
 void check_start_contact(const Scene<Dim>& scene, solid::Solid<Dim>& solid, std::span<const double> q, double scale) {
-    if (solid.acting_pairs(q).empty()) return;
-    const bool by_nodes = solid.nodal_contact() != nullptr;
-    const double energy = by_nodes ? solid.nodal_contact()->last().energy : solid.contact()->last().energy;
+    if (solid.contact_at(q).acting_pairs().empty()) return;
+    const bool by_nodes = solid.contact().pair_potential() != nullptr;
+    const double energy =
+        by_nodes ? solid.contact().pair_potential()->last().energy : solid.contact().reconstruction()->last().energy;
     if (!(std::abs(energy) > allowed_energy * scale)) return;
     const geometry::SearchOptions search{.method = solid.options().contact->search.broad_phase};
     for (const auto& [a, b] : pushing_bodies(solid)) {

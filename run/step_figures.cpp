@@ -3,6 +3,7 @@
 #include "abut/base/parallel.hpp"
 #include "abut/dynamics/ledger.hpp"
 #include "abut/dynamics/sum_over.hpp"
+#include "abut/solid/contact_view.hpp"
 #include "abut/solid/solid.hpp"
 
 namespace abut::run {
@@ -17,7 +18,7 @@ double largest_speed(const dynamics::RunView<Dim>& run, const solid::Solid<Dim>&
 template <int Dim>
 Vector<Dim> momentum_from_outside(double time, std::int32_t n_bodies, const solid::Solid<Dim>& solid) {
     Vector<Dim> given = Vector<Dim>::Zero();
-    for (const solid::BodyImpulse<Dim>& pair : solid.contact_impulses())
+    for (const solid::BodyImpulse<Dim>& pair : solid.contact().impulses())
         if (pair.body_1 < n_bodies && pair.body_2 >= n_bodies) given -= pair.impulse;
     const auto& acceleration = solid.options().acceleration;
     if (acceleration.empty()) return given;

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "abut/contact/report.hpp"
 #include "abut/run/body_names.hpp"
 #include "abut/run/json.hpp"
 #include "abut/run/option_table.hpp"

@@ -17,6 +17,8 @@
 #include "abut/run/body_names.hpp"
 #include "abut/run/cell_velocity.hpp"
 #include "abut/solid/body_interference.hpp"
+#include "abut/solid/cell_view.hpp"
+#include "abut/solid/contact_view.hpp"
 
 namespace abut::run {
 namespace {
@@ -168,7 +170,7 @@ auto SurfaceWatch<Dim>::points(std::span<const std::int32_t> corners) const -> P
 template <int Dim>
 void SurfaceWatch<Dim>::move(const dynamics::RunView<Dim>& run, const solid::Solid<Dim>& solid) {
     const mesh::Mesh<Dim>& mesh = scene_.mesh;
-    const std::vector<Vector<Dim>> displacement = solid.cell_displacement(run.q);
+    const std::vector<Vector<Dim>> displacement = solid.cells().displacement(run.q);
     const std::size_t n_of_mesh = vertex_.size();
     std::vector<int> n_cells(n_of_mesh, 0);
     std::fill_n(position_.begin(), n_of_mesh, Vector<Dim>(Vector<Dim>::Zero()));
@@ -176,7 +178,7 @@ void SurfaceWatch<Dim>::move(const dynamics::RunView<Dim>& run, const solid::Sol
         for (const Part& part : body.parts) {
             if (part.cell < 0) continue;
             const auto c = static_cast<std::size_t>(part.cell);
-            const Matrix<Dim> gradient = solid.displacement_gradient(part.cell, run.q);
+            const Matrix<Dim> gradient = solid.cells().displacement_gradient(part.cell, run.q);
             for (const std::int32_t corner : part.corners) {
                 const auto v = static_cast<std::size_t>(corner);
                 const Vector<Dim>& x = mesh.vertices[static_cast<std::size_t>(vertex_[v])];
@@ -287,7 +289,7 @@ std::int64_t SurfaceWatch<Dim>::look_at_depths(double time) {
 template <int Dim>
 std::int64_t SurfaceWatch<Dim>::look_at_pairs(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid, double speed) {
     const mesh::Mesh<Dim>& mesh = scene_.mesh;
-    const std::vector<solid::ActingPair<Dim>> pairs = solid.acting_pairs(run.q);
+    const std::vector<solid::ActingPair<Dim>> pairs = solid.contact_at(run.q).acting_pairs();
     const auto of_face = [&](std::int32_t face) {
         Points corners;
         for (const std::int32_t vertex : mesh.face_vertices[face])

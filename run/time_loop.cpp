@@ -28,7 +28,9 @@
 #include "abut/run/surface_watch.hpp"
 #include "abut/run/wanted.hpp"
 #include "abut/run/whole_run.hpp"
+#include "abut/solid/cell_view.hpp"
 #include "abut/solid/change.hpp"
+#include "abut/solid/contact_view.hpp"
 
 namespace abut::run {
 namespace {
@@ -83,7 +85,7 @@ public:
             if (wanted.stop) stop(records);
             if (balance_.is_due(integrator_->steps()) && integrator_->steps() < result_.steps) rebalance();
         }
-        const contact::ContactReport contact = solid_.contact_report();
+        const contact::ContactReport contact = solid_.contact().report();
         whole_.show(*integrator_, [&](const auto& run, auto& solid) {
             result_.end = solid::body_motions<Dim>(run, solid);
             whole_.evaluate(run, solid);
@@ -92,12 +94,12 @@ public:
         });
         result_.looks = watch_.looks();
         result_.local_rotations = solid_.local_rotations(integrator_->q());
-        result_.finite = solid_.finite_extremes();
+        result_.finite = solid_.cells().finite_extremes();
         result_.dissipated = solid_.dissipated();
-        result_.contact = solid_.contact_report();
-        if (const auto* by_nodes = solid_.nodal_contact())
+        result_.contact = solid_.contact().report();
+        if (const auto* by_nodes = solid_.contact().pair_potential())
             result_.overlaps.assign(by_nodes->interference().begin(), by_nodes->interference().end());
-        result_.skin = solid_.skin();
+        result_.skin = solid_.contact().skin();
         result_.evaluations = solid_.evaluations();
         result_.times = added(times_before_, solid_.times(), times_of_setup_);
         if (balance_.is_on()) balance_.end(solid_.ranks(), own_seconds());
@@ -288,7 +290,7 @@ private:
             const dynamics::RunView<Dim> now(*integrator_);
             result_.accounts.record(result_.ledger.entries().back(), largest_speed(now, solid_),
                                     momentum_from_outside(integrator_->time(), scene_.mesh.n_bodies(), solid_));
-            result_.contact = solid_.contact_report();
+            result_.contact = solid_.contact().report();
             result_.sliding.record(result_.contact);
             result_.inadmissible_overlaps_max =
                 std::max(result_.inadmissible_overlaps_max, result_.contact.inadmissible_overlaps);

@@ -5,6 +5,7 @@
 #include "abut/base/error.hpp"
 #include "abut/contact/report.hpp"
 #include "abut/dynamics/mass.hpp"
+#include "abut/solid/contact_view.hpp"
 #include "abut/solid/solid.hpp"
 
 namespace abut::solid {
@@ -33,7 +34,7 @@ double kinetic_of(const Solid<Dim>& solid, const dynamics::IntegratorState& moti
 /// Dissipated so far, with what faces that have left stored as they stuck [J].
 template <int Dim>
 double friction_of(const Solid<Dim>& solid) {
-    return solid.contact_report().friction_dissipated;
+    return solid.contact().report().friction_dissipated;
 }
 
 }  // namespace

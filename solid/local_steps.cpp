@@ -11,8 +11,9 @@
 #include "abut/base/parallel.hpp"
 #include "abut/base/sort_unique.hpp"
 #include "abut/dynamics/mode_search.hpp"
-#include "abut/solid/solid.hpp"
+#include "abut/solid/contact_view.hpp"
 #include "abut/solid/local_step_checks.hpp"
+#include "abut/solid/solid.hpp"
 
 namespace abut::solid {
 namespace {
@@ -238,7 +239,7 @@ template <int Dim>
 SolidLocalSteps local_steps(Solid<Dim>& solid, const dynamics::StableStep& stable, const LocalStepOptions& options) {
     dynamics::refuse_ranks(solid.ranks(), {{"local steps"}});
     require_local_steps(solid.mesh().name, solid.options(),
-                        !solid.options().contact || (solid.contact() && !solid.options().has_friction()));
+                        !solid.options().contact || (solid.contact().reconstruction() && !solid.options().has_friction()));
     const auto& [most_levels, contact_margin, contact_levels] = options;
     if (most_levels < 1 || most_levels > 20 || contact_margin < 0 || contact_levels < 0 || contact_levels > 10)
         throw BadInput("local steps: " + std::to_string(most_levels) + " levels, a margin of " +
@@ -246,7 +247,8 @@ SolidLocalSteps local_steps(Solid<Dim>& solid, const dynamics::StableStep& stabl
                        " more for contact are asked for; 1 to 20, at least 0 and 0 to 10 are allowed.");
     Levels level = levels_of(solid.mesh(), local_growth(solid), most_levels);
     const std::int32_t finest = *std::ranges::max_element(level);
-    const std::vector<std::int32_t> in_contact = solid.contact() ? contact_cells(solid) : std::vector<std::int32_t>{};
+    const std::vector<std::int32_t> in_contact =
+        solid.contact().reconstruction() ? contact_cells(solid) : std::vector<std::int32_t>{};
     for (const std::int32_t c : in_contact) level[c] = std::min(finest, level[c] + contact_margin);
     SolidLocalSteps local;
     const double reached = make_stable(solid, stable.dt, level);

@@ -1,6 +1,7 @@
 #include "abut/solid/outside_faces.hpp"
 
 #include "abut/dynamics/ledger.hpp"
+#include "abut/solid/outside_view.hpp"
 #include "abut/solid/solid.hpp"
 
 namespace abut::solid {
@@ -10,12 +11,12 @@ OutsideFaces<Dim> outside_faces(const dynamics::RunView<Dim>& run, const Solid<D
     std::vector<double> momentum(run.p_before.begin(), run.p_before.end());
     for (std::size_t i = 0; i < momentum.size(); ++i) momentum[i] = 0.5 * (momentum[i] + run.p_after[i]);
     OutsideFaces<Dim> faces;
-    faces.position = solid.face_position(group, run.q);
-    faces.velocity = solid.face_velocity(group, momentum);
-    faces.normal = solid.face_normal(group, run.q);
+    faces.position = solid.outside(group).position(run.q);
+    faces.velocity = solid.outside(group).velocity(momentum);
+    faces.normal = solid.outside(group).normal(run.q);
     for (const std::int32_t face : solid.mesh().group(group).faces)
         faces.area.push_back(solid.mesh().face_measure[static_cast<std::size_t>(face)]);
-    const auto traction = solid.traction(group);
+    const auto traction = solid.outside(group).traction();
     faces.traction.assign(traction.begin(), traction.end());
     return faces;
 }

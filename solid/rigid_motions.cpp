@@ -8,6 +8,8 @@
 #include "abut/base/decompositions.hpp"
 #include "abut/base/messages.hpp"
 #include "abut/solid/bond_places.hpp"
+#include "abut/solid/bond_view.hpp"
+#include "abut/solid/contact_view.hpp"
 
 namespace abut::solid {
 namespace {
@@ -76,7 +78,7 @@ Eigen::MatrixXd hold(Solid<Dim>& solid, std::span<const double> q, const std::ve
         result.template block<n_motions<Dim>, n_motions<Dim>>(first, first) += held.transpose() * held;
     }
     const double size = std::ranges::max_element(frame, {}, [](const Frame<Dim>& one) { return one.radius; })->radius;
-    for (const TouchingPair<Dim>& pair : solid.touching_pairs(q, closed * size)) {
+    for (const TouchingPair<Dim>& pair : solid.contact_at(q).touching_pairs(closed * size)) {
         Eigen::VectorXd row = Eigen::VectorXd::Zero(n);
         const auto add = [&](BoundaryFace b, double sign) {
             if (b == no_face) return;
@@ -87,7 +89,7 @@ Eigen::MatrixXd hold(Solid<Dim>& solid, std::span<const double> q, const std::ve
         add(pair.face_2, 1.0);
         result += row * row.transpose();
     }
-    for (const BondPlace<Dim>& place : solid.bond_places()) {
+    for (const BondPlace<Dim>& place : solid.bonds().places()) {
         Eigen::MatrixXd jump = Eigen::MatrixXd::Zero(Dim, n);
         for (std::size_t side = 0; side < 2; ++side) {
             const std::int32_t body = body_at(place.faces[side]);

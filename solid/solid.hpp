@@ -2,16 +2,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "abut/contact/report.hpp"
 #include "abut/dynamics/point_system.hpp"
 #include "abut/dynamics/ranks.hpp"
 #include "abut/solid/ccg/ccg.hpp"
-#include "abut/solid/contact_results.hpp"
 #include "abut/solid/options.hpp"
 #include "abut/solid/outside_work.hpp"
 
@@ -19,17 +16,6 @@ namespace abut {
 class StateReader;
 class StateWriter;
 }  // namespace abut
-
-namespace abut::contact {
-template <int Dim>
-struct BlindCorner;
-template <int Dim>
-class Contact;
-template <int Dim>
-struct EdgePair;
-template <int Dim>
-class NodalContact;
-}  // namespace abut::contact
 
 namespace abut::dynamics {
 struct ContactCounts;
@@ -40,19 +26,13 @@ struct ContactPatch;
 
 namespace abut::solid {
 
-/// Cells of a rank (n).
-struct OwnCells {
-    std::vector<std::int32_t> number;    ///< of each in the whole mesh, increasing
-    std::vector<std::int32_t> position;  ///< of each in the part of the rank, increasing
-};
-
 template <int Dim>
 class Bodies;
 template <int Dim>
 struct Change;
 struct BondChange;
 template <int Dim>
-struct BondPlace;
+class BondView;
 template <int Dim>
 class Bonds;
 template <int Dim>
@@ -60,7 +40,13 @@ class BodyFrames;
 template <int Dim>
 class BodyRotation;
 template <int Dim>
+class CellView;
+template <int Dim>
 class ContactDriver;
+template <int Dim>
+class ContactState;
+template <int Dim>
+class ContactView;
 template <int Dim>
 class FrameLoads;
 template <int Dim>
@@ -69,6 +55,8 @@ template <int Dim>
 class LocalLevels;
 template <int Dim>
 class OutsideLoads;
+template <int Dim>
+class OutsideView;
 template <int Dim>
 class PointLoads;
 template <int Dim>
@@ -90,8 +78,8 @@ template <int Dim>
 ///
 /// A face whose displacement is prescribed along its normal is a rigid one to what touches it, on the path of the support.
 ///
-/// `force`, `potential`, `contact_field`, `touching_pairs` and `acting_pairs` take any state before the first step, and later
-/// the last state or one that no face has left by more than half the skin since the last search; they throw Misuse for others.
+/// `force`, `potential` and `contact_at` take any state before the first step, and later the last state or one that no face has
+/// left by more than half the skin since the last search; they throw Misuse for others.
 template <int Dim>
 class Solid {
 public:
@@ -101,7 +89,7 @@ public:
     ///
     /// On several ranks `mesh` is that of a part (part_of), and `ranks`, which must outlive the solid, tell whose its points are
     /// (points_of, ranks::PointRanks): those of the solid are the ones of this rank then, and functions that take q or p, `state`
-    /// and `restore` are calls of all ranks together, except `displacement_gradient`. All bits are those of one rank; what is not
+    /// and `restore` are calls of all ranks together, except CellView::displacement_gradient. All bits are those of one rank; what is not
     /// made for several throws BadInput (docs/ranks.md).
     Solid(const mesh::Mesh<Dim>& mesh, SolidOptions<Dim> options, const dynamics::Ranks& ranks = dynamics::one_rank());
     Solid(const Solid&) = delete;
@@ -171,13 +159,6 @@ public:
     /// of the candidate list. Of bodies that turn the change of their frame during a step is left out.
     void end_force_on(std::span<const std::int32_t> points, std::span<const double> q, std::span<Vector<Dim>> force);
 
-    /// In state q; without contact no face has a partner.
-    [[nodiscard]] ContactField contact_field(std::span<const double> q);
-    /// Admitted pairs of state q that share area and are open by at most `gap` [m].
-    [[nodiscard]] std::vector<TouchingPair<Dim>> touching_pairs(std::span<const double> q, double gap);
-    /// Pairs that push each other in state q.
-    [[nodiscard]] std::vector<ActingPair<Dim>> acting_pairs(std::span<const double> q);
-
     /// All that the next steps depend on beside q and p: loads, work, dashpots, rigid bodies, what pairs remember. Bytes,
     /// versioned, with a checksum; the same on all ranks, for any number of them.
     [[nodiscard]] std::vector<std::byte> state() const;
@@ -192,67 +173,30 @@ public:
     friend Change<Dim> change<Dim>(Solid<Dim>& before, const dynamics::IntegratorState& motion, Solid<Dim>& after,
                                    std::span<const std::int32_t> old_cells);
 
-    /// Largest |g|/D of a pair in contact, in the last step or in the state that was evaluated since; 0 without contact [-].
-    [[nodiscard]] double compression() const;
-    /// Throws TooDeep, as a step does, where this is more than `compression_limit`.
-    void require_depth() const;
-    /// Mean force of the last step on an obstacle, with local steps of the common one; after `end_force` that at its end
-    /// [N]. Throws Misuse where there is no such obstacle.
-    [[nodiscard]] Vector<Dim> obstacle_force(std::size_t obstacle) const;
-
-    /// Of all pairs of bodies that have touched so far, by (body_1, body_2): the force between them, integrated in time as the
-    /// scheme does. The difference of two times over the time between is the mean force.
-    [[nodiscard]] std::span<const BodyImpulse<Dim>> contact_impulses() const;
-
-    // Loads from outside: groups with a TractionCondition::from_outside, whose faces come in the order of the group. All throw
-    // BadInput for another group. docs/loads.md; `outside_faces` gives all of it in one value (outside_faces.hpp).
-
-    /// Tractions that act from the next step on until they are set again (n_faces) [Pa]; what that changes in V is booked as
-    /// work. Throws BadInput, and nothing has changed, for another number or one that is not finite.
+    /// Tractions on a group with a TractionCondition::from_outside, in the order of its faces, that act from the next step on until
+    /// they are set again (n_faces) [Pa]; what that changes in V is booked as work. Throws BadInput, and nothing has changed, for
+    /// another group, another number, or one that is not finite. docs/loads.md.
     void set_traction(const std::string& group, std::span<const Vector<Dim>> traction);
-    [[nodiscard]] std::span<const Vector<Dim>> traction(const std::string& group) const;  ///< as set last
-    /// Of the centroids in q, under the tractions of the last step (n_faces) [m].
-    [[nodiscard]] std::vector<Vector<Dim>> face_position(const std::string& group, std::span<const double> q) const;
-    /// Of the centroids at momenta p, while tractions and supports stay (n_faces) [m/s].
-    [[nodiscard]] std::vector<Vector<Dim>> face_velocity(const std::string& group, std::span<const double> p) const;
-    /// By how far the centroids move in a step from q_0 at `time` to q_1 at time + dt (n_faces) [m]: sum of |f| t . this is the
-    /// work of the tractions. It does not depend on them, and with Memm::next_q it is known before the step.
-    [[nodiscard]] std::vector<Vector<Dim>> face_motion(const std::string& group, std::span<const double> q_0,
-                                                       std::span<const double> q_1, double time, double dt) const;
-    /// Out of the body in q, which was stepped to or evaluated last; at rest where it is `small` or `finite` (n_faces).
-    [[nodiscard]] std::vector<Vector<Dim>> face_normal(const std::string& group, std::span<const double> q) const;
-    /// So far; q is where the last step ended.
+    /// What tractions from outside have done so far; q is where the last step ended.
     [[nodiscard]] OutsideWork outside_work(std::span<const double> q) const;
 
+    // Parts, each in a value of its own
+
+    [[nodiscard]] ContactView<Dim> contact() const;  ///< contact_view.hpp
+    /// Contact in state q. contact_view.hpp.
+    [[nodiscard]] ContactState<Dim> contact_at(std::span<const double> q);
+    [[nodiscard]] dynamics::ContactCounts contact_counts() const;  ///< what of it the ledger records
+    [[nodiscard]] BondView<Dim> bonds() const;                     ///< bond_view.hpp
+    [[nodiscard]] CellView<Dim> cells() const;                     ///< stresses, displacements. cell_view.hpp
+    /// Faces of a group that is loaded from outside; its functions throw BadInput for another group. outside_view.hpp.
+    [[nodiscard]] OutsideView<Dim> outside(const std::string& group) const;
+
     [[nodiscard]] const dynamics::Ranks& ranks() const;  ///< that the points are shared out to; one alone has all
-    /// Cells whose points this rank owns, on one rank all. Needs no other rank.
-    [[nodiscard]] OwnCells own_cells() const;
     [[nodiscard]] const mesh::Mesh<Dim>& mesh() const { return mesh_; }
     [[nodiscard]] const SolidOptions<Dim>& options() const { return options_; }
     /// Of the bodies that deform: where some are rigid, with cells and faces numbered without theirs.
     [[nodiscard]] Ccg<Dim>& ccg() { return ccg_; }
     [[nodiscard]] const Ccg<Dim>& ccg() const { return ccg_; }
-    /// Figures of contact since the start; all zero without contact.
-    [[nodiscard]] contact::ContactReport contact_report() const;
-    [[nodiscard]] dynamics::ContactCounts contact_counts() const;  ///< what of it the ledger records
-    /// Null without contact, and under another law.
-    [[nodiscard]] const contact::Contact<Dim>* contact() const;
-    [[nodiscard]] const contact::NodalContact<Dim>* nodal_contact() const;
-    [[nodiscard]] double skin() const;  ///< of the last candidate list; 0 without contact [m]
-    /// Cell of the mesh that has a face which an error of contact names (ErrorFacts::face_1, face_2); -1: none has.
-    [[nodiscard]] std::int32_t cell_of_contact_face(std::int64_t face) const;
-    /// Corners that are too sharp for contact to see them coming, by the law that acts; empty without contact. Bodies are those
-    /// of the mesh, then obstacles. contact/blind_corners.hpp, contact::NodalContact::blind_corners.
-    [[nodiscard]] std::vector<contact::BlindCorner<Dim>> blind_corners() const;
-    /// Edges of two bodies that would cross unseen; nothing without contact. contact/unseen_edges.hpp.
-    [[nodiscard]] std::optional<contact::EdgePair<Dim>> unseen_edges() const;
-    /// Where faces are bonded, whether they are still or not. solid/bond_places.hpp.
-    [[nodiscard]] std::span<const BondPlace<Dim>> bond_places() const;
-    [[nodiscard]] bool is_broken(std::size_t bond_place) const;
-    /// What is left of the pull of a place at the same jump [-]: 1 whole, 0 broken.
-    [[nodiscard]] double bond_share(std::size_t bond_place) const;
-    /// The part of the area of all bonds that is broken [-]; 0 without bonds.
-    [[nodiscard]] double broken_share() const;
     [[nodiscard]] const SolidTimes& times() const { return times_; }
     /// How far each body has turned in q (n_bodies) [rad], 0 to pi: the angle of the nearest rotation. One of
     /// Kinematics::small grows by 1/cos of it, without a force against that. docs/limits.md.
@@ -260,37 +204,12 @@ public:
     /// By how much the cell of a body that turns most turns against its frame in q (n_bodies) [rad]; of a small body against
     /// space, of a rigid or finite one 0. Strains of the others are linear: beyond 0.1 a body should be split, or be finite.
     [[nodiscard]] std::vector<double> local_rotations(std::span<const double> q);
-    /// Of all steps so far: how much cells of bodies of Kinematics::finite were deformed at most. H~ does not show where they
-    /// collapse: a step in which det F of one falls to 0.1 throws Diverged.
-    [[nodiscard]] const FiniteExtremes& finite_extremes() const { return finite_extremes_; }
-    /// Equivalent plastic strain of a cell of the mesh [-]; 0 where its material has none.
-    [[nodiscard]] double plastic_strain(std::int32_t cell) const;
-    [[nodiscard]] bool any_inelastic() const { return ccg_.any_inelastic(); }
-    /// Whether a material remembers and dissipates: only schemes that call `mean_force` may run it.
-    [[nodiscard]] bool any_memory() const { return any_inelastic() || ccg_.any_damped(); }
-    /// In 2D: sigma_zz of a cell, which `stress` does not have [Pa]; of an elastic body that of small strains, nu (sigma_xx +
-    /// sigma_yy). In 3D 0.
-    [[nodiscard]] double out_of_plane_stress(std::int32_t cell) const;
-    /// sigma of a cell of the mesh in space [Pa], of the state that was evaluated last; 0 in rigid bodies.
-    [[nodiscard]] Matrix<Dim> stress(std::int32_t cell) const;
 
-    // Between the cells of the mesh and the points
-
-    /// Displacement of the cells of the mesh (n_cells) [m] in q.
-    [[nodiscard]] std::vector<Vector<Dim>> cell_displacement(std::span<const double> q) const;
-    /// F - I of a cell of the mesh in space, of the state that was evaluated last, in q: a point of the cell that is at X at
-    /// rest is displaced by the displacement of the cell and this times X - x_c. On several ranks of an own cell, without the
-    /// others.
-    [[nodiscard]] Matrix<Dim> displacement_gradient(std::int32_t cell, std::span<const double> q) const;
-    /// Displacement of the vertices of the mesh (n_vertices) [m] in q, which was evaluated last: the mean over the cells around
-    /// each of where these carry it, turned and stretched as they are. Throws BadInput on several ranks.
-    [[nodiscard]] std::vector<Vector<Dim>> vertex_displacement(std::span<const double> q) const;
-    /// Their velocity (n_cells) [m/s] at momenta p.
-    [[nodiscard]] std::vector<Vector<Dim>> cell_velocity(std::span<const double> p) const;
-    /// q (n_points, Dim) for displacements of the cells: rigid bodies take the rigid motion that is nearest [m].
-    [[nodiscard]] std::vector<double> displacement_of_points(std::span<const Vector<Dim>> of_cells) const;
-    /// p (n_points, Dim) for velocities of the cells where they are at rest: the same [kg m/s].
-    [[nodiscard]] std::vector<double> momentum_of_points(std::span<const Vector<Dim>> cell_velocity) const;
+    friend class BondView<Dim>;
+    friend class CellView<Dim>;
+    friend class ContactState<Dim>;
+    friend class ContactView<Dim>;
+    friend class OutsideView<Dim>;
 
 private:
     // By point of this system or, on several ranks, by point of the part (RankPart): all that is private takes the latter.
@@ -303,7 +222,6 @@ private:
     void take_result(std::span<double> of_points) const;
     [[nodiscard]] double potential_here(std::span<const Vector<Dim>> u);
     [[nodiscard]] double stored_energy(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load);
-    void evaluate_contact(std::span<const double> q);
     void meet_other_ranks();
 
     [[nodiscard]] std::span<const Vector<Dim>> of_cells(std::span<const Vector<Dim>> q) const;
@@ -314,7 +232,6 @@ private:
     void add_point_loads(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1, double time, double dt,
                          contact::TakenForce take, std::span<Vector<Dim>> force);
     [[nodiscard]] Matrix<Dim> mean_turn(std::int32_t body) const;
-    [[nodiscard]] std::span<const Vector<Dim>> own_points_of(std::size_t rigid, std::span<const Vector<Dim>> q) const;
     void require_start(double time, double dt) const;
     void follow_loads(std::span<const Vector<Dim>> q_0, double time, double dt);
     [[nodiscard]] double follow_frames(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1);
@@ -335,6 +252,9 @@ private:
     void book_losses();
     void save_memory(StateWriter& state) const;
     void restore_memory(StateReader& state);
+    [[nodiscard]] bool any_inelastic() const { return ccg_.any_inelastic(); }
+    /// Whether a material remembers and dissipates: only schemes that call `mean_force` may run it.
+    [[nodiscard]] bool any_memory() const { return any_inelastic() || ccg_.any_damped(); }
     void refuse_memory(const char* why) const;
     [[nodiscard]] dynamics::IntegratorState take_over(const Solid& before, const dynamics::IntegratorState& motion,
                                                       std::span<const std::int32_t> old_cells);

@@ -15,6 +15,7 @@
 #include "abut/dynamics/integrator.hpp"
 #include "abut/dynamics/sparse.hpp"
 #include "abut/solid/boundary_face.hpp"
+#include "abut/solid/contact_view.hpp"
 #include "abut/solid/kinematics/capabilities.hpp"
 #include "abut/solid/rigid_motions.hpp"
 
@@ -143,7 +144,7 @@ public:
         base_ = x;
         base_gradient_ = gradient;
         report_.residual = report_.residual_elsewhere = residual_;
-        report_.compression = solid_.compression();
+        report_.compression = solid_.contact().compression();
         report_.iterations.push_back(
             {report_.evaluations, residual_, descent_ == Descent::potential ? value : solid_.potential(q_)});
         if (residual_ <= options_.tolerance) throw Finished{Ending::balanced};
@@ -160,12 +161,12 @@ public:
         const std::vector<double> reached = q();
         std::vector<BoundaryFace> faces;
         for (const TouchingPair<Dim>& pair :
-             solid_.touching_pairs(reached, nearly_closed * smallest_cell_depth(solid_.mesh())))
+             solid_.contact_at(reached).touching_pairs(nearly_closed * smallest_cell_depth(solid_.mesh())))
             for (const BoundaryFace face : {pair.face_1, pair.face_2})
                 if (face != no_face) faces.push_back(face);
         sort_unique(faces);
         solid_.force(reached, force_);
-        report_.compression = solid_.compression();
+        report_.compression = solid_.contact().compression();
         report_.residual = residual();
         report_.residual_elsewhere = residual(solid_.ccg().region_of_faces(faces).input_cells);
         touches_ = !faces.empty();
@@ -345,7 +346,7 @@ StaticSolution solve_statics(Solid<Dim>& solid, std::vector<double> q_0, const S
     report.ending = text(ending, options);
     std::vector<double> q = objective.q();
     static_cast<void>(solid.potential(q));
-    solid.require_depth();
+    solid.contact().require_depth();
     if (report.converged) return {std::move(q), std::move(report)};
     if (const auto motion = free_rigid_motion(solid, std::span<const double>(q)))
         throw BadInput("statics: after " + std::to_string(report.iterations.size()) + " iterations " + *motion +

@@ -11,6 +11,8 @@
 #include "studies/program/entry.hpp"
 #include "studies/scenes/bars.hpp"
 
+#include "abut/solid/contact_view.hpp"
+
 namespace abut::studies::bouncing_strip_study {
 namespace {
 
@@ -92,7 +94,7 @@ run::Scene<2> bar(const StripOptions& options, Impacts& impacts) {
                       .eta = options.eta},
                      options.cells);
     scene.after_step = [&impacts, area = strip_width(the_bar, options.cells)](const solid::Solid<2>& solid, double dt) {
-        impacts.add(-solid.obstacle_force(0).y() * dt / area, dt);
+        impacts.add(-solid.contact().obstacle_force(0).y() * dt / area, dt);
     };
     scene.findings = [&impacts](const run::RunResult<2>& result) { return findings(impacts, result); };
     return scene;

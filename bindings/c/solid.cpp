@@ -20,7 +20,10 @@
 #include "abut/mesh/io/read_mesh.hpp"
 #include "abut/mesh/shapes/shapes.hpp"
 #include "abut/solid/body_motion.hpp"
+#include "abut/solid/bond_view.hpp"
+#include "abut/solid/contact_view.hpp"
 #include "abut/solid/outside_faces.hpp"
+#include "abut/solid/outside_view.hpp"
 #include "abut/solid/solid.hpp"
 #include "abut/solid/stepped_run.hpp"
 #include "arguments.hpp"
@@ -59,7 +62,9 @@ public:
         for (std::int32_t i = 0; i < view.size(); ++i) values.push_back(view[i]);
         run_->solid().set_traction(group, values);
     }
-    [[nodiscard]] std::int64_t n_faces(const std::string& group) const { return std::ssize(run_->solid().traction(group)); }
+    [[nodiscard]] std::int64_t n_faces(const std::string& group) const {
+        return std::ssize(run_->solid().outside(group).traction());
+    }
     [[nodiscard]] bool has_begun() const { return run_.has_value(); }
     [[nodiscard]] solid::SteppedRun<Dim>& run() { return *run_; }
     void write_state(abut_solid_state& state);
@@ -136,7 +141,7 @@ void SolidRun<Dim>::write_faces(const std::string& group, const abut_solid_face_
     require_size(faces.n_faces, "abut_solid_face_arrays");
     auto& memm = run_->memm();
     const std::vector<Vector<Dim>> motion =
-        run_->solid().face_motion(group, memm.q(), memm.next_q(), memm.time(), memm.dt());
+        run_->solid().outside(group).motion(memm.q(), memm.next_q(), memm.time(), memm.dt());
     const std::pair<const abut_array&, const std::vector<Vector<Dim>>&> arrays[] = {
         {faces.position, now.position}, {faces.velocity, now.velocity}, {faces.normal, now.normal}, {faces.motion, motion}};
     for (const auto& [to, values] : arrays)
@@ -167,12 +172,12 @@ void SolidRun<Dim>::write_state(abut_solid_state& state) {
              .restart_jumps = entry.restart_jumps,
              .parasitic = entry.parasitic,
              .active_pairs = entry.active_pairs,
-             .missed_contacts = solid.contact_report().missed_contacts,
+             .missed_contacts = solid.contact().report().missed_contacts,
              .dissipated = entry.dissipated,
              .friction_energy = entry.friction_energy,
              .sticking_faces = entry.sticking_faces,
              .sliding_faces = entry.sliding_faces,
-             .broken_bonds = solid.broken_share()};
+             .broken_bonds = solid.bonds().broken_share()};
 }
 
 template <int Dim>

@@ -20,7 +20,9 @@
 #include "abut/run/summary.hpp"
 #include "abut/run/verdict.hpp"
 #include "abut/run/warnings.hpp"
+#include "abut/solid/contact_view.hpp"
 #include "abut/solid/option_words.hpp"
+#include "abut/solid/outside_view.hpp"
 #include "abut/solid/stepped_run.hpp"
 #include "in_use.hpp"
 #include "record.hpp"
@@ -168,8 +170,8 @@ public:
     [[nodiscard]] py::dict faces(const std::string& group) {
         const bindings::Use use(in_use_, run_in_use);
         return faces_of<Dim>(solid::outside_faces<Dim>(run_->memm(), run_->solid(), group),
-                             run_->solid().face_motion(group, run_->memm().q(), run_->memm().next_q(), run_->memm().time(),
-                                                       run_->memm().dt()));
+                             run_->solid().outside(group).motion(run_->memm().q(), run_->memm().next_q(),
+                                                                 run_->memm().time(), run_->memm().dt()));
     }
     [[nodiscard]] py::dict outside_work() const {
         const bindings::Use use(in_use_, run_in_use);
@@ -209,7 +211,7 @@ public:
     }
     [[nodiscard]] py::dict contact() const {
         const bindings::Use use(in_use_, run_in_use);
-        return report_of(run_->solid().contact_report());
+        return report_of(run_->solid().contact().report());
     }
 
     /// The present state, while somebody looks at it.

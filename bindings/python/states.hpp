@@ -11,6 +11,8 @@
 #include "abut/run/frames.hpp"
 #include "abut/run/observer.hpp"
 #include "abut/run/scene.hpp"
+#include "abut/solid/cell_view.hpp"
+#include "abut/solid/contact_view.hpp"
 #include "abut/solid/solid.hpp"
 #include "meshes.hpp"
 #include "vectors.hpp"
@@ -26,38 +28,40 @@ public:
     [[nodiscard]] std::int64_t steps() const { return view_.steps; }
     [[nodiscard]] double time() const { return view_.time; }
     [[nodiscard]] py::array_t<double> displacement() const {
-        return copy_of_vectors<Dim>(solid_.cell_displacement(view_.q));
+        return copy_of_vectors<Dim>(solid_.cells().displacement(view_.q));
     }
     [[nodiscard]] py::array_t<double> velocity() const {
         std::vector<double> momentum(view_.p_before.begin(), view_.p_before.end());
         for (std::size_t i = 0; i < momentum.size(); ++i) momentum[i] = 0.5 * (momentum[i] + view_.p_after[i]);
-        return copy_of_vectors<Dim>(solid_.cell_velocity(momentum));
+        return copy_of_vectors<Dim>(solid_.cells().velocity(momentum));
     }
     [[nodiscard]] py::array_t<double> stress() const {
         static_cast<void>(solid_.potential(view_.q));  // leaves the stresses of this state behind
         const py::ssize_t n = solid_.mesh().n_cells();
         py::array_t<double> stress({n, py::ssize_t{Dim}, py::ssize_t{Dim}});
         for (py::ssize_t c = 0; c < n; ++c)  // symmetric: the order of rows and columns is free
-            Eigen::Map<Matrix<Dim>>(stress.mutable_data(c)) = solid_.stress(static_cast<std::int32_t>(c));
+            Eigen::Map<Matrix<Dim>>(stress.mutable_data(c)) = solid_.cells().stress(static_cast<std::int32_t>(c));
         return stress;
     }
     [[nodiscard]] py::array_t<double> von_mises() const {
         static_cast<void>(solid_.potential(view_.q));
         std::vector<double> equivalent;
         for (std::int32_t c = 0; c < solid_.mesh().n_cells(); ++c)
-            equivalent.push_back(run::von_mises<Dim>(solid_.stress(c), solid_.out_of_plane_stress(c)));
+            equivalent.push_back(run::von_mises<Dim>(solid_.cells().stress(c), solid_.cells().out_of_plane_stress(c)));
         return copy_of(equivalent);
     }
     [[nodiscard]] py::array_t<double> plastic_strain() const {
         std::vector<double> of_cells;
-        for (std::int32_t c = 0; c < solid_.mesh().n_cells(); ++c) of_cells.push_back(solid_.plastic_strain(c));
+        for (std::int32_t c = 0; c < solid_.mesh().n_cells(); ++c) of_cells.push_back(solid_.cells().plastic_strain(c));
         return copy_of(of_cells);
     }
-    [[nodiscard]] py::array_t<double> contact_pressure() const { return copy_of(solid_.contact_field(view_.q).pressure); }
+    [[nodiscard]] py::array_t<double> contact_pressure() const {
+        return copy_of(solid_.contact_at(view_.q).field().pressure);
+    }
     /// As files show it: a body that turns is not where the mean displacement of its cells takes it.
     [[nodiscard]] py::array_t<double> point_displacement() const {
         if (solid_.moment_arms() == dynamics::MomentArms::mid_step)
-            return copy_of_vectors<Dim>(solid_.vertex_displacement(view_.q));
+            return copy_of_vectors<Dim>(solid_.cells().vertex_displacement(view_.q));
         return at_points(solid_.mesh(), Packed<double>(displacement()));
     }
 
@@ -110,7 +114,7 @@ public:
 
     void begin(const run::Scene<Dim>&, const run::RunResult<Dim>& result) override { result_ = &result; }
     void look(const dynamics::RunView<Dim>& view, solid::Solid<Dim>& solid) override {
-        if (view.steps == result_->steps) final_displacement = solid.cell_displacement(view.q);
+        if (view.steps == result_->steps) final_displacement = solid.cells().displacement(view.q);
         if (!has_look_) return;
         const py::gil_scoped_acquire lock;
         auto glance = std::make_shared<Glance<Dim>>();

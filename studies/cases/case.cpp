@@ -13,6 +13,7 @@
 #include "abut/contact/nodal_contact.hpp"
 #include "abut/run/report/result_files.hpp"
 #include "abut/run/simulation.hpp"
+#include "abut/solid/contact_view.hpp"
 
 namespace abut::studies {
 namespace {
@@ -72,14 +73,14 @@ public:
         steps_ = run.steps;
         excess_ = std::max(excess_, excess_of(run, solid));
         if (run.steps == 0) scales_ = momentum_scales<Dim>(run, solid.rest_positions());
-        report_ = solid.contact_report();
+        report_ = solid.contact().report();
         if (watch_) watch_(run, solid);
         if (run.steps < n_steps_) return;
         for (const auto& motion : solid::body_motions<Dim>(run, solid)) velocity_.push_back(motion.velocity);
     }
     void after_step(const solid::Solid<Dim>& solid) {
-        if (solid.nodal_contact() == nullptr) return;
-        const contact::NodalStep<Dim>& step = solid.nodal_contact()->last();
+        if (solid.contact().pair_potential() == nullptr) return;
+        const contact::NodalStep<Dim>& step = solid.contact().pair_potential()->last();
         double forces = 0.0;
         for (const auto& pair : step.pairs) forces += pair.force.norm();
         pair_steps_ += static_cast<std::int64_t>(step.pairs.size());

@@ -4,6 +4,8 @@
 #include "studies/kinematics/rows.hpp"
 #include "studies/kinematics/shapes.hpp"
 
+#include "abut/solid/cell_view.hpp"
+
 namespace abut::studies::kinematics {
 namespace bar_part {
 namespace {
@@ -12,7 +14,7 @@ constexpr double length = 1.0, height = 0.1, radians = 5.0;
 
 /// Mean position of the cells of the bar beyond x = `from` at rest.
 Vector<2> end_of(const dynamics::RunView<2>& run, const solid::Solid<2>& solid, bool right, double from) {
-    const auto u = solid.cell_displacement(run.q);
+    const auto u = solid.cells().displacement(run.q);
     Vector<2> sum = Vector<2>::Zero();
     double measure = 0.0;
     for (std::int32_t c = 0; c < solid.mesh().n_cells(); ++c) {

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "abut/mesh/shapes/shapes.hpp"
+#include "abut/solid/cell_view.hpp"
 #include "abut/solid/statics.hpp"
 #include "studies/kinematics/closed_forms.hpp"
 #include "studies/kinematics/rows.hpp"
@@ -66,7 +67,7 @@ void bend(const Cantilever& beam, Kinematics kinematics, double alpha, double al
     one.scene.energy_scale = {.name = "V0", .value = at_rest.potential(q)};
     one.scene.time = (options.quick || beam.across > 4 ? 0.2 : 4.0) * period;
     solid::FiniteExtremes extremes;
-    const Watch<2> watch = [&](const auto&, const auto& solid) { extremes = solid.finite_extremes(); };
+    const Watch<2> watch = [&](const auto&, const auto& solid) { extremes = solid.cells().finite_extremes(); };
     const auto setting = fmt::format("{}, {} x {}, alpha {:g}", run::name_of(kinematics), beam.along, beam.across, alpha);
     Row row = row_of<2>(one, setting, options, nullptr, watch);
     row.quantities.near("deflection of the tip, beside the elastica", tip / beam.length(), elastica_tip(alpha), allowed);

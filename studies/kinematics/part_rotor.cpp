@@ -7,6 +7,8 @@
 #include "studies/kinematics/rows.hpp"
 #include "studies/kinematics/shapes.hpp"
 
+#include "abut/solid/contact_view.hpp"
+
 namespace abut::studies::kinematics {
 namespace rotor_part {
 namespace {
@@ -72,7 +74,7 @@ public:
 private:
     /// Its impulse on the plates in the last step: as an obstacle says, or as a body has lost to other things than its hinge.
     Vector<2> push_of_rotor(const dynamics::RunView<2>& run, const solid::Solid<2>& solid, double dt) {
-        if (!solid.options().obstacles.empty()) return -dt * solid.obstacle_force(0);
+        if (!solid.options().obstacles.empty()) return -dt * solid.contact().obstacle_force(0);
         const Centre centre = centre_of(run, solid, plates);
         const double angle = angle_of(run, solid, plates);
         turning_.follow(angle);

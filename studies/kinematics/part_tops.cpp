@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "abut/mesh/shapes/shapes.hpp"
+#include "abut/solid/cell_view.hpp"
 #include "studies/kinematics/closed_forms.hpp"
 #include "studies/kinematics/rows.hpp"
 
@@ -25,7 +26,7 @@ Case<3> top(const std::string& name, const Vector<3>& sides, const Vector<3>& sp
 
 /// How the body has turned, fitted to its cells.
 Matrix<3> turn_of(const dynamics::RunView<3>& run, const solid::Solid<3>& solid) {
-    const auto u = solid.cell_displacement(run.q);
+    const auto u = solid.cells().displacement(run.q);
     const auto& rest = solid.mesh().cell_centroid;
     Vector<3> mean = Vector<3>::Zero(), moved = Vector<3>::Zero();
     for (std::size_t c = 0; c < u.size(); ++c) mean += rest[c], moved += rest[c] + u[c];

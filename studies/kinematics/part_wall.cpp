@@ -4,6 +4,8 @@
 #include "studies/kinematics/rows.hpp"
 #include "studies/kinematics/shapes.hpp"
 
+#include "abut/solid/contact_view.hpp"
+
 namespace abut::studies::kinematics {
 namespace wall_part {
 namespace {
@@ -49,7 +51,7 @@ void meet(Kinematics kinematics, solid::ContactLaw law, const Options& options, 
     double met = 0.0;
     solid::BodyMotion<2> end{};
     const Watch<2> watch = [&](const auto& run, const auto& solid) {
-        if (met == 0.0 && solid.contact_report().active_pairs_max > 0) met = run.time;
+        if (met == 0.0 && solid.contact().report().active_pairs_max > 0) met = run.time;
         end = solid::body_motions<2>(run, solid).front();
     };
     const bool tilts = law != solid::ContactLaw::reconstruction;

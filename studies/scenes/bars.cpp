@@ -11,6 +11,7 @@
 #include "abut/mesh/shapes/shapes.hpp"
 #include "abut/run/option_table.hpp"
 #include "abut/run/simulation.hpp"
+#include "abut/solid/contact_view.hpp"
 #include "apps/support/comparison.hpp"
 #include "apps/support/log.hpp"
 #include "apps/support/run_options.hpp"
@@ -94,14 +95,14 @@ public:
         if (std::ranges::count(nodes_, view.steps) > 0) keep_profile(view, solid);
         momentum_ = momentum;
         history.time.push_back(view.time);
-        history.gap.push_back(std::ranges::min(solid.contact_field(view.q).gap));
+        history.gap.push_back(std::ranges::min(solid.contact_at(view.q).field().gap));
         history.speed.push_back(speed);
     }
 
 private:
     /// Of the wall, or of the lower bar on the upper one: with nothing else acting on it, the change of its momentum.
     double force(const solid::Solid<Dim>& solid, const std::array<double, 2>& momentum, double dt) const {
-        if (!solid.options().obstacles.empty()) return -solid.obstacle_force(0)[bar_axis<Dim>];
+        if (!solid.options().obstacles.empty()) return -solid.contact().obstacle_force(0)[bar_axis<Dim>];
         return (momentum[1] - momentum_[1]) / dt;
     }
     void keep_profile(const dynamics::RunView<Dim>& view, const solid::Solid<Dim>& solid) {

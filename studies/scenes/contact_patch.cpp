@@ -7,6 +7,7 @@
 
 #include "abut/contact/obstacle.hpp"
 #include "abut/mesh/shapes/shapes.hpp"
+#include "abut/solid/contact_view.hpp"
 #include "abut/solid/solid.hpp"
 
 namespace abut::studies {
@@ -85,7 +86,7 @@ ContactPatchErrors errors(solid::Solid<Dim>& solid, const PatchOptions& options,
     const std::array<Uniform, 2> exact{uniform<Dim>(materials[0], options.sides, p),
                                        uniform<Dim>(materials[1], options.sides, p)};
     ContactPatchErrors result;
-    const auto field = solid.contact_field(q);
+    const auto field = solid.contact_at(q).field();
     const auto is_of_the_interface = [&](std::size_t b) {  // and not at a wall
         return std::isfinite(field.gap[b]) && std::abs(mesh.face_normal[mesh.boundary_faces[b]][Dim - 1]) > 0.5;
     };

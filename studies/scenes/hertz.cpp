@@ -11,6 +11,7 @@
 #include "abut/base/stopwatch.hpp"
 #include "abut/contact/obstacle.hpp"
 #include "abut/mesh/shapes/shapes.hpp"
+#include "abut/solid/contact_view.hpp"
 #include "abut/solid/solid.hpp"
 
 namespace abut::studies {
@@ -106,7 +107,7 @@ solid::SolidOptions<Dim> solid_options(const HertzOptions& options, const mesh::
 template <int Dim>
 std::vector<double> touching(solid::Solid<Dim>& solid, double depth) {
     std::vector<double> q(solid.size(), 0.0);
-    const auto gap = solid.contact_field(q).gap;
+    const auto gap = solid.contact_at(q).field().gap;
     const double moved = *std::ranges::min_element(gap) + depth;
     for (std::int32_t c = 0; c < solid.mesh().n_cells(); ++c)
         if (solid.mesh().cell_body[c] == 0) q[static_cast<std::size_t>(c) * Dim + Dim - 1] = -moved;
@@ -141,7 +142,7 @@ double exact_pressure(const HertzSolution& exact, const mesh::Mesh<Dim>& mesh, s
 template <int Dim>
 void read_faces(solid::Solid<Dim>& solid, const std::vector<double>& q, HertzResult<Dim>& result) {
     const mesh::Mesh<Dim>& mesh = solid.mesh();
-    const auto field = solid.contact_field(q);
+    const auto field = solid.contact_at(q).field();
     std::vector<double> force(solid.size());
     solid.force(q, force);  // sets the stresses
     for (std::size_t b = 0; b < field.pressure.size(); ++b) {

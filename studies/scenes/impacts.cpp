@@ -9,6 +9,7 @@
 #include "abut/base/stopwatch.hpp"
 #include "abut/contact/obstacle.hpp"
 #include "abut/mesh/shapes/shapes.hpp"
+#include "abut/solid/contact_view.hpp"
 #include "apps/support/log.hpp"
 #include "apps/support/progress.hpp"
 
@@ -153,7 +154,7 @@ void ImpactObserver<Dim>::look(const dynamics::RunView<Dim>& run, solid::Solid<D
         sample.velocity[body] = bodies.mass[body] > 0.0 ? Vector<Dim>(bodies.momentum[body] / bodies.mass[body])
                                                         : Vector<Dim>(Vector<Dim>::Zero());
     if constexpr (Dim == 2) sample.spin = spin(run, solid);
-    sample.in_contact = solid.contact_report().active_pairs > 0;
+    sample.in_contact = solid.contact().report().active_pairs > 0;
     if (sample.in_contact) {
         if (std::isnan(first_)) first_ = run.time - dt;
         last_ = run.time;

@@ -7,6 +7,8 @@
 #include "studies/trade/round_bodies.hpp"
 #include "studies/trade/runs.hpp"
 
+#include "abut/solid/contact_view.hpp"
+
 namespace abut::studies::trade {
 namespace {
 
@@ -22,7 +24,7 @@ Outcome solve_bar(const run::RunOptions& run, int cells, const Reference&, doubl
     ContactHistory history{.time = {0.0}, .gap = {}, .speed = {}, .pressure = {}};
     scene.after_step = [&history, width = strip_width(bar, cells)](const solid::Solid<2>& solid, double dt) {
         history.time.push_back(history.time.back() + dt);
-        history.pressure.push_back(-solid.obstacle_force(0).y() / width);
+        history.pressure.push_back(-solid.contact().obstacle_force(0).y() / width);
     };
     const TimedRun<2> timed = run_for<2>(scene, run, limit);
     Outcome outcome = outcome_of<2>(scene, timed, ExactBounce::speed);

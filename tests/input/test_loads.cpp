@@ -7,6 +7,8 @@
 #include <string>
 
 #include "abut/run/simulation.hpp"
+#include "abut/solid/cell_view.hpp"
+#include "abut/solid/contact_view.hpp"
 #include "input/scenes.hpp"
 
 namespace {
@@ -20,7 +22,7 @@ class MeanPull : public run::Observer<2> {
 public:
     explicit MeanPull(const mesh::Mesh<2>& mesh) : mesh_(mesh) {}
     void look(const dynamics::RunView<2>& view, solid::Solid<2>& solid) override {
-        const auto u = solid.cell_displacement(view.q);
+        const auto u = solid.cells().displacement(view.q);
         for (std::size_t cell = 0; cell < u.size(); ++cell) moment_ += mesh_.cell_measure[cell] * u[cell].x();
         ++n_;
     }
@@ -35,7 +37,7 @@ private:
 /// Pairs of bodies that have touched by the end of a run.
 struct ContactSeen : public run::Observer<2> {
     void look(const dynamics::RunView<2>&, solid::Solid<2>& solid) override {
-        for (const auto& pair : solid.contact_impulses()) pairs.insert({pair.body_1, pair.body_2});
+        for (const auto& pair : solid.contact().impulses()) pairs.insert({pair.body_1, pair.body_2});
     }
     std::set<std::array<std::int32_t, 2>> pairs;
 };

@@ -16,6 +16,7 @@
 #include "abut/mesh/part.hpp"
 #include "abut/ranks/partition.hpp"
 #include "abut/solid/body_motion.hpp"
+#include "abut/solid/contact_view.hpp"
 #include "abut/solid/share_out.hpp"
 #include "abut/solid/solid.hpp"
 #include "ranks/world.hpp"
@@ -148,13 +149,14 @@ contact::ContactReport check_same_bits(const ranks::Communicator& all, const mes
         REQUIRE(everywhere(all, same_bits(entry, entry_here)));
     }
     CHECK(alone.state() == solid.state());
-    const contact::ContactReport of_alone = alone.contact_report(), report = solid.contact_report();
+    const contact::ContactReport of_alone = alone.contact().report(), report = solid.contact().report();
     CHECK(of_alone.events == report.events);
     CHECK(of_alone.candidates == report.candidates);
     CHECK(of_alone.rebuilds == report.rebuilds);
     CHECK(of_alone.missed_contacts == report.missed_contacts);
-    for (std::size_t i = 0; i < options.obstacles.size(); ++i) CHECK(alone.obstacle_force(i) == solid.obstacle_force(i));
-    const auto impulses = alone.contact_impulses(), of_shared = solid.contact_impulses();
+    for (std::size_t i = 0; i < options.obstacles.size(); ++i)
+        CHECK(alone.contact().obstacle_force(i) == solid.contact().obstacle_force(i));
+    const auto impulses = alone.contact().impulses(), of_shared = solid.contact().impulses();
     REQUIRE(everywhere(all, impulses.size() == of_shared.size()));
     for (std::size_t i = 0; i < impulses.size(); ++i) CHECK(impulses[i].impulse == of_shared[i].impulse);
     CHECK(alone.work() == solid.work());

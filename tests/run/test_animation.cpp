@@ -15,6 +15,7 @@
 #include "abut/run/animation.hpp"
 #include "abut/run/frames.hpp"
 #include "abut/run/simulation.hpp"
+#include "abut/solid/cell_view.hpp"
 #include "run/folder.hpp"
 #include "run/scenes.hpp"
 
@@ -94,11 +95,12 @@ struct Seen : run::Observer<Dim> {
     std::map<double, State> states;
     void look(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) override {
         State& state = states[run.time];
-        state.position = solid.vertex_displacement(run.q);
+        state.position = solid.cells().vertex_displacement(run.q);
         for (std::size_t v = 0; v < state.position.size(); ++v) state.position[v] += solid.mesh().vertices[v];
         static_cast<void>(solid.potential(run.q));
         const auto add = [&](std::int32_t cell) {
-            state.most = std::max(state.most, run::von_mises<Dim>(solid.stress(cell), solid.options().materials[0].poisson));
+            state.most =
+                std::max(state.most, run::von_mises<Dim>(solid.cells().stress(cell), solid.options().materials[0].poisson));
         };
         if constexpr (Dim == 2)
             for (std::int32_t cell = 0; cell < solid.mesh().n_cells(); ++cell) add(cell);

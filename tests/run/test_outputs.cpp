@@ -11,6 +11,7 @@
 #include "abut/run/probe_file.hpp"
 #include "abut/run/report/result_files.hpp"
 #include "abut/run/simulation.hpp"
+#include "abut/solid/contact_view.hpp"
 #include "run/folder.hpp"
 #include "run/scenes.hpp"
 
@@ -117,7 +118,7 @@ struct PairWitness : run::Observer<2> {
         Vector<2> on_right = Vector<2>::Zero();
         for (std::size_t i = 0; i < solid.masses().size(); ++i)
             if (solid.body_of_points()[i] == 1) on_right += as_vectors<2>(std::span<const double>(force))[i];
-        const auto pairs = solid.acting_pairs(view.q);
+        const auto pairs = solid.contact_at(view.q).acting_pairs();
         most_pairs = std::max(most_pairs, pairs.size());
         for (const solid::ActingPair<2>& pair : pairs) {
             largest_force = std::max(largest_force, pair.force.norm());

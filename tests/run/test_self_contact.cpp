@@ -8,6 +8,7 @@
 #include "abut/base/error.hpp"
 #include "abut/mesh/shapes/shapes.hpp"
 #include "abut/run/simulation.hpp"
+#include "abut/solid/cell_view.hpp"
 
 using namespace abut;
 
@@ -73,7 +74,7 @@ class Depth : public run::Observer<Dim> {
 public:
     explicit Depth(const mesh::Mesh<Dim>& mesh) : mesh_(mesh) {}
     void look(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) override {
-        const std::vector<Vector<Dim>> u = solid.vertex_displacement(run.q);
+        const std::vector<Vector<Dim>> u = solid.cells().vertex_displacement(run.q);
         const auto moved = [&](std::size_t v) { return Vector<Dim>(mesh_.vertices[v] + u[v]); };
         const auto at = [&](const Vector<Dim>& rest) {
             return static_cast<std::size_t>(

@@ -7,6 +7,7 @@
 #include "abut/mesh/shapes/shapes.hpp"
 #include "abut/run/observer.hpp"
 #include "abut/run/simulation.hpp"
+#include "abut/solid/contact_view.hpp"
 
 using namespace abut;
 using solid::Kinematics;
@@ -42,7 +43,7 @@ struct Look final : run::Observer<2> {
     bool wants_look(std::int64_t step) const override { return step == 0 || step == 2000; }
     void look(const dynamics::RunView<2>& run, solid::Solid<2>& solid) override {
         (run.steps == 0 ? first : last).assign(run.q.begin(), run.q.end());
-        if (run.steps > 0) push = solid.obstacle_force(0);
+        if (run.steps > 0) push = solid.contact().obstacle_force(0);
     }
 
     std::vector<double> first, last;

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "abut/mesh/without_cells.hpp"
+#include "abut/solid/contact_view.hpp"
 #include "abut/solid/stepped_run.hpp"
 #include "solid/stacked_scenes.hpp"
 
@@ -77,7 +78,7 @@ public:
     /// What is to stay [J].
     [[nodiscard]] double balance() {
         return memm().pseudo_energy() - solid().work() + solid().dissipated().total() +
-               solid().contact_report().friction_dissipated;
+               solid().contact().report().friction_dissipated;
     }
 
 private:

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "abut/contact/obstacle.hpp"
+#include "abut/solid/contact_view.hpp"
 #include "solid/scenes.hpp"
 
 namespace abut::test {
@@ -24,8 +25,8 @@ dynamics::Ledger<Dim> run(const mesh::Mesh<Dim>& mesh, const std::vector<Vector<
         integrator.step();
         ledger.record(dynamics::measure(integrator, solid));
     }
-    CHECK(solid.contact_report().missed_contacts == 0);
-    CHECK(solid.contact_report().active_pairs_max > 0);
+    CHECK(solid.contact().report().missed_contacts == 0);
+    CHECK(solid.contact().report().active_pairs_max > 0);
     if (end) end->assign(integrator.q().begin(), integrator.q().end());
     return ledger;
 }
@@ -63,11 +64,11 @@ FallResult fall(const Falling& scene, double time, const Make& make) {
     double impulse = 0.0;
     while (integrator.time() < time) {
         integrator.step();
-        impulse -= solid.obstacle_force(0).y() * integrator.dt();
+        impulse -= solid.contact().obstacle_force(0).y() * integrator.dt();
         ledger.record(dynamics::measure(integrator, solid));
     }
     CHECK(impulse > 0.0);
-    CHECK(solid.contact_report().active_pairs == 0);  // it has bounced off
+    CHECK(solid.contact().report().active_pairs == 0);  // it has bounced off
     const auto& start = ledger.entries().front();
     const auto& end = ledger.entries().back();
     const double weight = 0.5 * 0.02;

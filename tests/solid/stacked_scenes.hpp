@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "abut/contact/obstacle.hpp"
+#include "abut/solid/outside_view.hpp"
 #include "solid/turning_scenes.hpp"
 
 namespace abut::test {
@@ -85,7 +86,7 @@ solid::SolidOptions<Dim> pushed(const std::vector<Kinematics>& kinematics) {
 template <int Dim>
 void push(solid::Solid<Dim>& solid, std::int64_t step) {
     if (solid.options().boundary.traction.empty() || !solid.options().boundary.traction[0].from_outside) return;
-    std::vector<Vector<Dim>> traction(solid.traction(top<Dim>()).size());
+    std::vector<Vector<Dim>> traction(solid.outside(top<Dim>()).traction().size());
     for (std::size_t i = 0; i < traction.size(); ++i)
         traction[i] = -0.01 * (1.0 + 0.1 * static_cast<double>(i) + 0.5 * std::sin(0.2 * static_cast<double>(step / 4))) *
                       Vector<Dim>::Unit(Dim - 1);

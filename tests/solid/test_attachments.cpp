@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "abut/dynamics/leapfrog.hpp"
+#include "abut/solid/cell_view.hpp"
 #include "solid/turning_scenes.hpp"
 
 using namespace abut;
@@ -56,7 +57,7 @@ TEST_CASE("a hinged bar swings with the period of a physical pendulum", "[solid]
     for (double before = 0.0; crossed == 0.0;) {
         memm.step();
         raise(drift, std::abs(memm.pseudo_energy() - energy));
-        const auto q = solid.cell_displacement(memm.q());
+        const auto q = solid.cells().displacement(memm.q());
         const Vector<2> rest = mesh.cell_centroid.back() - mesh.cell_centroid.front(), now = rest + q.back() - q.front();
         const double down = std::atan2(moment<2>(rest, now)[0], rest.dot(now)) + angle;
         if (before > 0.0 && down <= 0.0) crossed = memm.time();

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "abut/geometry/box.hpp"
+#include "abut/solid/contact_view.hpp"
 #include "abut/solid/statics.hpp"
 #include "solid/turning_scenes.hpp"
 
@@ -102,7 +103,7 @@ TEMPLATE_TEST_CASE_SIG("bonds and contact under the modified reconstruction have
         const std::vector<double> q = random_state(solid.size(), 1, 1e-3);
         std::vector<double> force(solid.size());
         solid.force(q, force);
-        CHECK(!solid.acting_pairs(q).empty());
+        CHECK(!solid.contact_at(q).acting_pairs().empty());
         const std::vector<double> direction = random_state(solid.size(), 2, 1.0);
         std::vector<double> forward = q, backward = q;
         double slope = 0.0, size = 0.0;
@@ -129,8 +130,8 @@ TEMPLATE_TEST_CASE_SIG("bonded blocks that bounce on a floor keep H~ under the m
                                 std::vector<Motion<Dim>>(2, moving<Dim>(-0.02 * Vector<Dim>::Unit(1))), 0.6,
                                 options.kinematics);
         scene.run(Dim == 2 ? 300 : 150);
-        CHECK(scene.solid.contact_report().active_pairs_max > 0);
-        CHECK(scene.solid.contact_report().missed_contacts == 0);
+        CHECK(scene.solid.contact().report().active_pairs_max > 0);
+        CHECK(scene.solid.contact().report().missed_contacts == 0);
         CHECK(scene.drifts().pseudo_energy <= 1e-13);
     }
 }

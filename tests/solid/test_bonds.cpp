@@ -6,6 +6,8 @@
 #include "abut/geometry/box.hpp"
 #include "abut/solid/bond_law.hpp"
 #include "abut/solid/bond_places.hpp"
+#include "abut/solid/bond_view.hpp"
+#include "abut/solid/contact_view.hpp"
 #include "abut/solid/statics.hpp"
 #include "solid/turning_scenes.hpp"
 
@@ -308,7 +310,7 @@ TEMPLATE_TEST_CASE_SIG("forces of bonded bodies are the slope of V, and K is sym
         CHECK(std::abs(measured - slope) <= (is_quadratic ? 1e-10 : 1e-6) * size);
     }
     if (stands) {
-        CHECK(!solid.acting_pairs(q).empty());
+        CHECK(!solid.contact_at(q).acting_pairs().empty());
         return;
     }
     const Eigen::MatrixXd k = dense_stiffness(solid);
@@ -364,7 +366,7 @@ TEMPLATE_TEST_CASE_SIG("bonded blocks keep H~ and momentum, and turn with J~ and
     CHECK(ledger.pseudo_energy_drift() / ledger.largest_energy() <= 1e-13);
     CHECK(ledger.momentum_drift() / momenta <= 1e-13);
     CHECK(moment_drift / moments <= 1e-13);
-    CHECK(scene.solid.contact_report().active_pairs_max == 0);
+    CHECK(scene.solid.contact().report().active_pairs_max == 0);
 }
 
 namespace {
@@ -397,20 +399,20 @@ TEMPLATE_TEST_CASE_SIG("a bond that breaks dissipates what V loses, and the bala
         least = std::min(least, now - dissipated);
         dissipated = now;
     }
-    CHECK(scene.solid.broken_share() == 1.0);
+    CHECK(scene.solid.bonds().broken_share() == 1.0);
     CHECK(dissipated > 1e-4 * scene.ledger.largest_energy());
     CHECK(least >= -1e-15 * scene.ledger.largest_energy());
     const Drifts drifts = scene.drifts();
     CHECK(drifts.pseudo_energy <= 1e-12);
     CHECK(drifts.momentum <= 1e-13);
     if (kinematics[0] != Kinematics::small) CHECK(drifts.pseudo_moment <= 1e-13);
-    CHECK(scene.solid.contact_report().missed_contacts == 0);
+    CHECK(scene.solid.contact().report().missed_contacts == 0);
 }
 
 TEST_CASE("a bond that is stronger than what pulls at it holds", "[solid][bonds]") {
     auto scene = parting<2>(1.0, {Kinematics::floating, Kinematics::floating});
     scene.run(400);
-    CHECK(scene.solid.broken_share() == 0.0);
+    CHECK(scene.solid.bonds().broken_share() == 0.0);
     CHECK(scene.solid.dissipated().in_bonds == 0.0);
 }
 
@@ -432,17 +434,17 @@ TEMPLATE_TEST_CASE_SIG("a bond that opens takes its fracture energy per area, wh
                                 {kinematics, kinematics});
         double dissipated = 0.0, least = 0.0;
         bool any_open = false;
-        for (int i = 0; i < 600 && scene.solid.broken_share() < 1.0; ++i) {
+        for (int i = 0; i < 600 && scene.solid.bonds().broken_share() < 1.0; ++i) {
             scene.run(1, 1);
-            any_open = any_open || (scene.solid.bond_share(0) > 0.0 && scene.solid.bond_share(0) < 1.0);
+            any_open = any_open || (scene.solid.bonds().share(0) > 0.0 && scene.solid.bonds().share(0) < 1.0);
             const double now = scene.solid.dissipated().in_bonds;
             least = std::min(least, now - dissipated);
             dissipated = now;
         }
         CHECK(any_open);
-        CHECK(scene.solid.broken_share() == 1.0);
+        CHECK(scene.solid.bonds().broken_share() == 1.0);
         double area = 0.0;
-        for (const auto& place : scene.solid.bond_places()) area += place.area;
+        for (const auto& place : scene.solid.bonds().places()) area += place.area;
         CHECK(area == Approx(1.0).epsilon(1e-12));
         // At the rim of bricks of small bodies half cells hold more than G along the face, and give it at once.
         CHECK(dissipated == Approx(energy * area).epsilon(kinematics == Kinematics::small ? 0.05 : 0.01));
@@ -472,22 +474,22 @@ TEST_CASE("bodies whose bond is broken touch each other", "[solid][bonds]") {
     options.kinematics = {Kinematics::small, Kinematics::small};
     Scene<2> scene(mesh, options, {{-0.02, 0.0}, {0.02, 0.0}}, -0.6);
     scene.run_until(80.0);
-    CHECK(scene.solid.broken_share() == 1.0);
-    CHECK(scene.solid.contact_report().active_pairs_max > 0);
-    CHECK(scene.solid.contact_report().missed_contacts == 0);
+    CHECK(scene.solid.bonds().broken_share() == 1.0);
+    CHECK(scene.solid.contact().report().active_pairs_max > 0);
+    CHECK(scene.solid.contact().report().missed_contacts == 0);
     CHECK(scene.ledger.pseudo_energy_drift() <= 1e-12 * scene.ledger.largest_energy());
 }
 
 TEST_CASE("a saved state goes on with the bonds that were broken, bit by bit", "[solid][bonds]") {
     auto whole = parting<2>(0.02, {Kinematics::floating, Kinematics::floating});
     int steps = 0;
-    while (whole.solid.broken_share() == 0.0) {
+    while (whole.solid.bonds().broken_share() == 0.0) {
         whole.run(1);
         REQUIRE(++steps < 400);
     }
     auto other = parting<2>(0.02, {Kinematics::floating, Kinematics::floating});
     other.solid.restore(whole.solid.state(), whole.memm.q());
-    CHECK(other.solid.broken_share() == whole.solid.broken_share());
+    CHECK(other.solid.bonds().broken_share() == whole.solid.bonds().broken_share());
     CHECK(other.solid.dissipated().in_bonds == whole.solid.dissipated().in_bonds);
     std::vector<double> expected(whole.solid.size()), found(expected);
     whole.solid.force(whole.memm.q(), expected);

@@ -2,6 +2,8 @@
 
 #include "solid/scenes.hpp"
 
+#include "abut/solid/contact_view.hpp"
+
 using namespace abut;
 using namespace abut::test;
 using solid::Constraint;
@@ -215,8 +217,8 @@ TEMPLATE_TEST_CASE_SIG("H~ gains the work of driven boundaries and tractions exa
         GENERATE(FreeFaceRule::local_equilibrium, FreeFaceRule::extrapolate, FreeFaceRule::adjacent);
     Scene<Dim> scene(blocks.mesh, blocks.options, std::vector<Vector<Dim>>(2, Vector<Dim>::Zero()));
     CHECK(relative_drift(scene, 300) < 1e-12);
-    CHECK(scene.solid.contact_report().active_pairs_max > 3);
-    CHECK(scene.solid.contact_report().events > 10);
+    CHECK(scene.solid.contact().report().active_pairs_max > 3);
+    CHECK(scene.solid.contact().report().events > 10);
 }
 
 TEMPLATE_TEST_CASE_SIG(
@@ -229,6 +231,6 @@ TEMPLATE_TEST_CASE_SIG(
     };
     Scene<Dim> scene(blocks.mesh, blocks.options, std::vector<Vector<Dim>>(2, Vector<Dim>::Zero()));
     CHECK(relative_drift(scene, 200) < 1e-12);
-    CHECK(scene.solid.contact_report().active_pairs_max > 3);
-    CHECK(scene.solid.contact_report().missed_contacts == 0);
+    CHECK(scene.solid.contact().report().active_pairs_max > 3);
+    CHECK(scene.solid.contact().report().missed_contacts == 0);
 }

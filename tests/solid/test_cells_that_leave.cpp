@@ -2,7 +2,11 @@
 #include <catch2/catch.hpp>
 
 #include "abut/solid/bond_places.hpp"
+#include "abut/solid/bond_view.hpp"
 #include "abut/solid/boundary_face.hpp"
+#include "abut/solid/cell_view.hpp"
+#include "abut/solid/contact_view.hpp"
+#include "abut/solid/outside_view.hpp"
 #include "solid/changing_run.hpp"
 
 namespace abut::test {
@@ -92,8 +96,8 @@ TEMPLATE_TEST_CASE_SIG("what leaves with a cell in contact is told, and what is 
     REQUIRE(run.solid().contact_counts().active_pairs > 0);
     const std::int32_t cell = at_contact ? lowest_cell(run.mesh()) : inner_cell(run.mesh());
     const double mass = run.mesh().cell_measure[cell];  // the density is 1
-    const Vector<Dim> before = run.solid().cell_velocity(run.memm().p_before())[cell];
-    const Vector<Dim> after = run.solid().cell_velocity(run.memm().p_after())[cell];
+    const Vector<Dim> before = run.solid().cells().velocity(run.memm().p_before())[cell];
+    const Vector<Dim> after = run.solid().cells().velocity(run.memm().p_after())[cell];
     const double energy = run.balance();
     const Vector<Dim> momentum = momentum_of_run(run);
 
@@ -109,8 +113,8 @@ TEMPLATE_TEST_CASE_SIG("what leaves with a cell in contact is told, and what is 
     CHECK(dynamics::measure(run.memm(), run.solid()).parasitic < 0.2 * thrown<Dim>()[1].velocity.norm());
     check_conservation(run, run.memm().steps() + 200);
     CHECK(run.pairs() > 0);
-    CHECK(run.solid().contact_report().missed_contacts == 0);
-    CHECK((run.solid().contact_report().friction_dissipated > 0.0) == (collision.friction > 0.0));
+    CHECK(run.solid().contact().report().missed_contacts == 0);
+    CHECK((run.solid().contact().report().friction_dissipated > 0.0) == (collision.friction > 0.0));
 }
 
 TEST_CASE("a body falls on the cells behind one that has left", "[solid][change]") {
@@ -131,7 +135,7 @@ TEST_CASE("a body falls on the cells behind one that has left", "[solid][change]
         while (run.memm().time() < 25.0) {
             run.run(run.memm().steps() + 1);
             double depth = 0.0;
-            const auto u = run.solid().cell_displacement(run.memm().q());
+            const auto u = run.solid().cells().displacement(run.memm().q());
             for (std::int32_t c = 0; c < run.mesh().n_cells(); ++c)
                 if (run.mesh().cell_body[c] == 1) raise(depth, -u[c].y());
             raise(lowest, depth);
@@ -146,39 +150,40 @@ TEST_CASE("cells that are left remember how they have flowed, bonds how they hav
     ChangingRun<2> metal(stacked<2>(), of_metal<2>(Kinematics::small), thrown<2>());
     metal.run(150);
     std::vector<double> strain;
-    for (std::int32_t c = 0; c < metal.mesh().n_cells(); ++c) strain.push_back(metal.solid().plastic_strain(c));
+    for (std::int32_t c = 0; c < metal.mesh().n_cells(); ++c) strain.push_back(metal.solid().cells().plastic_strain(c));
     REQUIRE(*std::ranges::max_element(strain) > 0.0);
     const NewMesh<2> left = mesh_without(metal.mesh(), {lowest_cell(metal.mesh()), 3});
     metal.change(left);
     for (std::size_t c = 0; c < left.old_cells.size(); ++c)
-        REQUIRE(metal.solid().plastic_strain(static_cast<std::int32_t>(c)) == strain[left.old_cells[c]]);
+        REQUIRE(metal.solid().cells().plastic_strain(static_cast<std::int32_t>(c)) == strain[left.old_cells[c]]);
 
     const Bonded<2> bonded;
     ChangingRun<2> bonds(bonded.mesh, bonded.options, bonded.motion);
     bonds.run(100);
     std::vector<double> shares;
-    for (std::size_t p = 0; p < bonds.solid().bond_places().size(); ++p) shares.push_back(bonds.solid().bond_share(p));
+    for (std::size_t p = 0; p < bonds.solid().bonds().places().size(); ++p) shares.push_back(bonds.solid().bonds().share(p));
     REQUIRE(*std::ranges::min_element(shares) < 1.0);
     // A cell of the left block that is bonded, whose places come first in each row of places.
-    const auto& place = bonds.solid().bond_places().front();
+    const auto& place = bonds.solid().bonds().places().front();
     const std::int32_t cell = solid::cell_of(bonds.mesh(), place.faces[0]);
     const auto is_of_cell = [&](const auto& of) { return solid::cell_of(bonds.mesh(), of.faces[0]) == cell; };
     std::vector<double> kept;
     for (std::size_t p = 0; p < shares.size(); ++p)
-        if (!is_of_cell(bonds.solid().bond_places()[p])) kept.push_back(shares[p]);
+        if (!is_of_cell(bonds.solid().bonds().places()[p])) kept.push_back(shares[p]);
     REQUIRE(kept.size() < shares.size());
     bonds.change(mesh_without(bonds.mesh(), {cell}));
-    REQUIRE(bonds.solid().bond_places().size() == kept.size());
-    for (std::size_t p = 0; p < kept.size(); ++p) CHECK(bonds.solid().bond_share(p) == kept[p]);
+    REQUIRE(bonds.solid().bonds().places().size() == kept.size());
+    for (std::size_t p = 0; p < kept.size(); ++p) CHECK(bonds.solid().bonds().share(p) == kept[p]);
 
     ChangingRun<2> loaded(stacked<2>(), pushed<2>({Kinematics::small, Kinematics::small}), thrown<2>());
     loaded.run(10);
     const std::vector<std::int32_t> faces = loaded.mesh().group(top<2>()).faces;
-    std::vector<Vector<2>> tractions(loaded.solid().traction(top<2>()).begin(), loaded.solid().traction(top<2>()).end());
+    std::vector<Vector<2>> tractions(loaded.solid().outside(top<2>()).traction().begin(),
+                                     loaded.solid().outside(top<2>()).traction().end());
     REQUIRE(tractions[1] != tractions[2]);
     loaded.change(mesh_without(loaded.mesh(), {loaded.mesh().face_cells[faces[1]][0]}));
     tractions.erase(tractions.begin() + 1);
-    CHECK(std::ranges::equal(loaded.solid().traction(top<2>()), tractions));
+    CHECK(std::ranges::equal(loaded.solid().outside(top<2>()).traction(), tractions));
 }
 
 TEMPLATE_TEST_CASE_SIG("metal that flows keeps H~ + D as its cells leave one after the other", "[solid][change]",

@@ -4,6 +4,10 @@
 
 #include "solid/changing_run.hpp"
 
+#include "abut/solid/bond_view.hpp"
+#include "abut/solid/cell_view.hpp"
+#include "abut/solid/contact_view.hpp"
+
 namespace abut::test {
 namespace {
 
@@ -87,11 +91,11 @@ void check_same_bits(ChangingRun<Dim>& run, ChangingRun<Dim>& other) {
     CHECK(run.balance() == other.balance());
     CHECK(run.solid().work() == other.solid().work());
     CHECK(run.solid().evaluations() == other.solid().evaluations());
-    CHECK(run.solid().contact_report().events == other.solid().contact_report().events);
-    CHECK(run.solid().broken_share() == other.solid().broken_share());
+    CHECK(run.solid().contact().report().events == other.solid().contact().report().events);
+    CHECK(run.solid().bonds().broken_share() == other.solid().bonds().broken_share());
     const auto of_run = run.solid().outside_work(run.memm().q()), of_other = other.solid().outside_work(other.memm().q());
     CHECK(of_run.steps == of_other.steps);
-    CHECK(std::ranges::equal(run.solid().contact_impulses(), other.solid().contact_impulses(), {},
+    CHECK(std::ranges::equal(run.solid().contact().impulses(), other.solid().contact().impulses(), {},
                              &solid::BodyImpulse<Dim>::impulse, &solid::BodyImpulse<Dim>::impulse));
 }
 
@@ -107,8 +111,8 @@ std::array<double, 2> differences(const ChangingRun<Dim>& run, const ChangingRun
         }
         return worst / largest;
     };
-    return {of(run.solid().cell_displacement(run.memm().q()), other.solid().cell_displacement(other.memm().q())),
-            of(run.solid().cell_velocity(run.memm().p_after()), other.solid().cell_velocity(other.memm().p_after()))};
+    return {of(run.solid().cells().displacement(run.memm().q()), other.solid().cells().displacement(other.memm().q())),
+            of(run.solid().cells().velocity(run.memm().p_after()), other.solid().cells().velocity(other.memm().p_after()))};
 }
 
 /// Rounding grows to as much in a run whose numbers are others before its first step, when there is nothing to be
@@ -139,8 +143,8 @@ void check_renumbering(const mesh::Mesh<Dim>& mesh, const SolidOptions<Dim>& opt
     CHECK(changed.solid().work() - whole.solid().work() == rounding);
     CHECK(changed.solid().dissipated().total() - whole.solid().dissipated().total() == rounding);
     for (std::size_t c = 0; c < other.old_cells.size(); ++c)
-        CHECK(changed.solid().plastic_strain(static_cast<std::int32_t>(c)) -
-                  whole.solid().plastic_strain(other.old_cells[c]) ==
+        CHECK(changed.solid().cells().plastic_strain(static_cast<std::int32_t>(c)) -
+                  whole.solid().cells().plastic_strain(other.old_cells[c]) ==
               rounding);
 }
 

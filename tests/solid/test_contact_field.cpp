@@ -4,6 +4,7 @@
 
 #include "abut/base/error.hpp"
 #include "abut/contact/contact.hpp"
+#include "abut/solid/contact_view.hpp"
 #include "solid/scenes.hpp"
 
 using namespace abut;
@@ -33,7 +34,7 @@ TEMPLATE_TEST_CASE_SIG("the pressures of two flat bodies on each other add up to
     for (int i = 0; i < 60; ++i) {
         scene->run(1);
         const auto q = scene->memm.q();
-        const auto field = scene->solid.contact_field(q);
+        const auto field = scene->solid.contact_at(q).field();
         std::array<double, 2> pressed{};
         for (std::size_t b = 0; b < field.pressure.size(); ++b) {
             const std::int32_t f = mesh.boundary_faces[b];
@@ -62,8 +63,8 @@ TEST_CASE("H~ is exact for steps that change slowly through an impact, with list
         scene.memm.step((0.8 + 0.2 * std::sin(0.05 * i)) * dt, dynamics::StepChange::keep);
         scene.record();
     }
-    CHECK(scene.solid.contact_report().events > 10);
-    CHECK(scene.solid.contact_report().rebuilds > 3);
+    CHECK(scene.solid.contact().report().events > 10);
+    CHECK(scene.solid.contact().report().rebuilds > 3);
     CHECK(scene.ledger.pseudo_energy_drift() < 1e-11 * scene.kinetic_start());
     CHECK(scene.ledger.momentum_drift() < 1e-12);
 }
@@ -130,7 +131,7 @@ TEMPLATE_TEST_CASE_SIG("a run starts from its own state, whatever state was look
         memm.step();
     }
     CHECK(ledger.pseudo_energy_drift() < 1e-12 * ledger.largest_energy());
-    CHECK(solid.contact_report().missed_contacts == 0);
+    CHECK(solid.contact().report().missed_contacts == 0);
 }
 
 TEMPLATE_TEST_CASE_SIG("in the middle of a run a state beyond the candidate list is refused, and so is another run",
@@ -138,12 +139,12 @@ TEMPLATE_TEST_CASE_SIG("in the middle of a run a state beyond the candidate list
     const auto scene = impact<Dim>();
     scene->run(10);
     CHECK_THROWS_AS(scene->solid.potential(upper_moved(scene->mesh, 1.0)), Misuse);
-    CHECK_THROWS_WITH(scene->solid.contact_field(upper_moved(scene->mesh, 1.0)),
+    CHECK_THROWS_WITH(scene->solid.contact_at(upper_moved(scene->mesh, 1.0)).field(),
                       Catch::Matchers::Contains("half the skin") && Catch::Matchers::Contains("CandidateOptions::skin"));
     try {
         static_cast<void>(scene->solid.potential(upper_moved(scene->mesh, 1.0)));
     } catch (const Error& error) {
-        CHECK(error.facts().allowed == 0.5 * scene->solid.contact()->skin());
+        CHECK(error.facts().allowed == 0.5 * scene->solid.contact().reconstruction()->skin());
         CHECK(error.facts().value > error.facts().allowed);
     }
     const std::vector<double> q(scene->memm.q().begin(), scene->memm.q().end()), zero(q.size(), 0.0);
@@ -151,7 +152,7 @@ TEMPLATE_TEST_CASE_SIG("in the middle of a run a state beyond the candidate list
     CHECK_THROWS_WITH(again.step(), Catch::Matchers::Contains("make a Solid for every run"));
     scene->run(50);  // none of it has done any harm
     CHECK(scene->ledger.pseudo_energy_drift() < 1e-11 * scene->kinetic_start());
-    CHECK(scene->solid.contact_report().active_pairs_max > 0);
+    CHECK(scene->solid.contact().report().active_pairs_max > 0);
 }
 
 TEST_CASE("a state that a long step has reached is within the list, however thin the skin", "[solid][contact]") {
@@ -159,7 +160,7 @@ TEST_CASE("a state that a long step has reached is within the list, however thin
     options.contact->search.skin = 1e-6;
     Scene<2> scene(two_discs(0.8, 0.3), options, disc_velocities);
     scene.run(80);  // a record after every step asks for the potential
-    CHECK(scene.solid.contact_report().rebuilds >= 80);
-    CHECK(scene.solid.contact_report().events > 0);
+    CHECK(scene.solid.contact().report().rebuilds >= 80);
+    CHECK(scene.solid.contact().report().events > 0);
     CHECK(scene.ledger.pseudo_energy_drift() < 1e-11 * scene.kinetic_start());
 }

@@ -5,6 +5,7 @@
 #include <array>
 #include <utility>
 
+#include "abut/solid/contact_view.hpp"
 #include "solid/scenes.hpp"
 
 #include "abut/contact/contact.hpp"
@@ -204,7 +205,7 @@ TEMPLATE_TEST_CASE_SIG(
     options.materials = {material};
     options.boundary.corner_rule = solid::CornerRule::fixed;
     solid::Solid<Dim> solid(mesh, options);
-    const auto& surface = solid.contact()->surface();
+    const auto& surface = solid.contact().reconstruction()->surface();
     for (std::size_t b = 0; b < mesh.boundary_faces.size(); ++b) {
         const std::int32_t f = mesh.boundary_faces[b], c = mesh.face_cells[f][0];
         const double stiffness = 2.4 * mesh.face_measure[f] / mesh.cell_measure[c];

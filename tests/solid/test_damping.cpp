@@ -9,6 +9,8 @@
 
 #include "abut/base/error.hpp"
 #include "abut/contact/obstacle.hpp"
+#include "abut/solid/cell_view.hpp"
+#include "abut/solid/contact_view.hpp"
 #include "solid/finite_scenes.hpp"
 
 using namespace abut;
@@ -124,8 +126,8 @@ TEMPLATE_TEST_CASE_SIG("damped bodies collide and keep H~ + D and momentum, unde
                 mesh = two_boxes(3);
             TurningScene<Dim> small(mesh, options, motion, 0.6, Kinematics::small);
             small.run(steps_of_collision<Dim>);
-            CHECK(small.solid.contact_report().active_pairs_max > 0);
-            CHECK(small.solid.contact_report().missed_contacts == 0);
+            CHECK(small.solid.contact().report().active_pairs_max > 0);
+            CHECK(small.solid.contact().report().missed_contacts == 0);
             CHECK(by_rates(small.solid) > 1e-4 * small.ledger.largest_energy());
             CHECK(small.drifts().pseudo_energy <= 1e-12);
             CHECK(small.drifts().momentum <= 1e-13);
@@ -276,7 +278,8 @@ TEST_CASE("viscosity makes a shock of halves that meet: stress, place and energy
         const double time = memm.time();
         double peak = 0.0, front = 1.0;
         for (std::int32_t c = 0; c < mesh.n_cells(); ++c) {
-            const double stretch = 1.0 + solid.displacement_gradient(c, memm.q())(0, 0), x = mesh.cell_centroid[c][0];
+            const double stretch = 1.0 + solid.cells().displacement_gradient(c, memm.q())(0, 0),
+                         x = mesh.cell_centroid[c][0];
             if (std::abs(x - 0.5) > 0.05) raise(peak, Stiffening::stress_of(stretch) / Stiffening::stress_of(f) - 1.0);
             if (1.0 - stretch > 0.5 * (1.0 - f)) front = std::min(front, x - 0.5 / cells);
         }

@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "abut/dynamics/leapfrog.hpp"
+#include "abut/solid/contact_view.hpp"
 #include "solid/scenes.hpp"
 
 using namespace abut;
@@ -96,7 +97,7 @@ TEST_CASE("bodies that step on a device meet and part with the bits of the host"
     };
     CHECK(same_bits(q(*device), q(*host)));
     CHECK(same_bits(p(*device), p(*host)));
-    CHECK(device->solid.contact_report().active_pairs_max > 0);
+    CHECK(device->solid.contact().report().active_pairs_max > 0);
 }
 
 TEST_CASE("what is not made on a device is refused", "[solid][device]") {

@@ -2,6 +2,8 @@
 
 #include "solid/scenes.hpp"
 
+#include "abut/solid/contact_view.hpp"
+
 using namespace abut;
 using namespace abut::test;
 
@@ -32,11 +34,11 @@ TEST_CASE("a box that slides off the edge or the corner of another loses no ener
     std::int64_t steps_in_contact = 0;
     while (scene.memm.time() < time) {
         scene.run(1);
-        steps_in_contact += scene.solid.contact_report().active_pairs > 0;
+        steps_in_contact += scene.solid.contact().report().active_pairs > 0;
         for (std::size_t i = 0; i < scene.solid.size(); ++i)
             raise(fastest, std::abs(scene.memm.p_after()[i] * scene.solid.inverse_mass()[i]));
     }
-    const auto report = scene.solid.contact_report();
+    const auto report = scene.solid.contact().report();
     CHECK(steps_in_contact > 30);
     CHECK(report.events > 100);
     CHECK(report.missed_contacts == 0);

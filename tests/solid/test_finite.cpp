@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "abut/base/error.hpp"
+#include "abut/solid/cell_view.hpp"
 #include "abut/solid/statics.hpp"
 #include "solid/finite_scenes.hpp"
 
@@ -230,7 +231,7 @@ TEST_CASE("a finite body that collapses is refused by the name of the cell, and 
         }
         dynamics::Memm memm(solid, std::vector<double>(p.size(), 0.0), p, 0.4 * dynamics::stable_step(solid).dt);
         while (memm.time() < 4.0) memm.step();
-        return solid.finite_extremes();
+        return solid.cells().finite_extremes();
     };
     const auto slow = run(0.05), faster = run(0.2);
     CHECK(slow.determinant < 1.0);

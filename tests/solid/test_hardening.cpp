@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "abut/base/error.hpp"
+#include "abut/solid/cell_view.hpp"
 #include "solid/finite_scenes.hpp"
 
 using namespace abut;
@@ -71,8 +72,8 @@ Pulled pull(Material material, double strain, double duration) {
     (void)scene.solid.potential(scene.memm.q());
     double stress = 0.0, plastic = 0.0;
     for (std::int32_t c = 0; c < mesh.n_cells(); ++c) {
-        stress += mesh.cell_measure[c] / 3.0 * scene.solid.stress(c)(0, 0);
-        plastic += mesh.cell_measure[c] / 3.0 * scene.solid.plastic_strain(c);
+        stress += mesh.cell_measure[c] / 3.0 * scene.solid.cells().stress(c)(0, 0);
+        plastic += mesh.cell_measure[c] / 3.0 * scene.solid.cells().plastic_strain(c);
     }
     return {stress, plastic, scene.drifts().pseudo_energy};
 }
@@ -107,8 +108,8 @@ struct Sheared {
     }
     [[nodiscard]] Shear now() {
         (void)solid.potential(q_0);
-        const Matrix<2> stress = solid.stress(0);
-        return {std::sqrt(0.75) * (stress(0, 0) - stress(1, 1)), solid.plastic_strain(0)};
+        const Matrix<2> stress = solid.cells().stress(0);
+        return {std::sqrt(0.75) * (stress(0, 0) - stress(1, 1)), solid.cells().plastic_strain(0)};
     }
 
 private:
@@ -128,7 +129,7 @@ Shear of_small(const Material& material, double rate, double most, int steps) {
     Sheared body(material);
     shear_at(rate, most, steps, [&](double strain, double dt) { body.to(strain, dt); });
     const Shear shear = body.now();
-    CHECK(std::abs(body.solid.out_of_plane_stress(0)) <= 1e-15);
+    CHECK(std::abs(body.solid.cells().out_of_plane_stress(0)) <= 1e-15);
     return shear;
 }
 

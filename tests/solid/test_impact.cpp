@@ -7,6 +7,7 @@
 #include "solid/scenes.hpp"
 
 #include "abut/contact/contact.hpp"
+#include "abut/solid/contact_view.hpp"
 
 using namespace abut;
 using namespace abut::test;
@@ -48,7 +49,7 @@ double mass_of_first(const Scene<Dim>& scene) {
 /// All pairs that touch in state q without being refused for their depth, by looking at every face against every other.
 template <int Dim>
 std::set<std::pair<std::int32_t, std::int32_t>> touching_pairs(Scene<Dim>& scene) {
-    const auto& surface = scene.solid.contact()->surface();
+    const auto& surface = scene.solid.contact().reconstruction()->surface();
     std::vector<Vector<Dim>> u(static_cast<std::size_t>(surface.size()));
     scene.solid.ccg().boundary_displacement(as_vectors<Dim>(scene.memm.q()), {}, u);
     std::vector<std::pair<std::int32_t, std::int32_t>> facing;
@@ -76,7 +77,7 @@ TEMPLATE_TEST_CASE_SIG("over impact, slip and release H~ drifts by less than 1e-
     const auto [mesh, velocity, time] = impact<Dim>(name);
     Scene<Dim> scene(mesh, reconstructed_bodies<Dim>(2), velocity, -part);
     scene.run_until(time, 5);
-    const auto report = scene.solid.contact_report();
+    const auto report = scene.solid.contact().report();
     const auto motion = solid::body_motions<Dim>(scene.memm, scene.solid);
     const double excess = scene.ledger.energy_excess() / scene.kinetic_start();
     CHECK(scene.ledger.pseudo_energy_drift() < 1e-11 * scene.kinetic_start());
@@ -148,15 +149,15 @@ TEMPLATE_TEST_CASE_SIG(
         for (int i = 0; i < every; ++i) scene.memm.step();
         auto touching = touching_pairs(scene);
         found += touching.size();
-        const contact::PairStore& store = scene.solid.contact()->pair_store();
+        const contact::PairStore& store = scene.solid.contact().reconstruction()->pair_store();
         for (std::size_t i = 0; i < store.pairs().size(); ++i)
             if (store.memory()[i].admitted)
                 touching.erase({number_of(store.pairs()[i].facet_1), number_of(store.pairs()[i].facet_2)});
         REQUIRE(touching.empty());
     }
     CHECK(found > 50);
-    CHECK(scene.solid.contact_report().rebuilds > 2);
-    CHECK(scene.solid.contact_report().missed_contacts == 0);
+    CHECK(scene.solid.contact().report().rebuilds > 2);
+    CHECK(scene.solid.contact().report().missed_contacts == 0);
 }
 
 TEMPLATE_TEST_CASE_SIG("bodies that never meet move as without contact, bit for bit, and no pair or event is looked for",
@@ -183,7 +184,7 @@ TEMPLATE_TEST_CASE_SIG("bodies that never meet move as without contact, bit for 
         bulk.step();
     }
     CHECK(std::ranges::equal(run.q(), bulk.q()));
-    const auto report = with.contact_report();
+    const auto report = with.contact().report();
     CHECK(report.candidates_max == 0);
     CHECK(report.active_pairs_max == 0);
     CHECK(report.events == 0);
@@ -199,20 +200,20 @@ TEST_CASE("where contacts were looked at before a run begins does not matter to 
     auto away = start;
     for (std::int32_t c = 0; c < mesh.n_cells(); ++c)
         if (mesh.cell_body[c] == 1) away[static_cast<std::size_t>(c) * 2] = 0.0999;  // within half the skin of the start
-    (void)used.contact_field(away);
+    (void)used.contact_at(away).field();
     const auto momentum = solid::uniform_momentum<2>(fresh, disc_velocities);
     const double dt = 0.9 * dynamics::stable_step(fresh).dt;
     REQUIRE(0.0999 + 0.05 * dt > 0.1);
     dynamics::Memm<solid::Solid<2>> run(fresh, start, momentum, dt), other(used, start, momentum, dt);
-    REQUIRE(used.contact_report().rebuilds == 1);
+    REQUIRE(used.contact().report().rebuilds == 1);
     while (run.time() < 6.0) {
         run.step();
         other.step();
         // One step is enough to leave the reach of what was looked at.
-        if (run.steps() == 1) CHECK(used.contact_report().rebuilds == 2);
+        if (run.steps() == 1) CHECK(used.contact().report().rebuilds == 2);
     }
-    CHECK(fresh.contact_report().active_pairs_max > 0);
-    CHECK(used.contact_report().missed_contacts == 0);
+    CHECK(fresh.contact().report().active_pairs_max > 0);
+    CHECK(used.contact().report().missed_contacts == 0);
     CHECK(std::ranges::equal(run.q(), other.q()));
 }
 

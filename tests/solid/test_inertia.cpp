@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "abut/solid/body_inertia.hpp"
+#include "abut/solid/cell_view.hpp"
 #include "solid/turning_scenes.hpp"
 
 using namespace abut;
@@ -47,7 +48,7 @@ TEMPLATE_TEST_CASE_SIG(
             const AxialVector<Dim> spin = AxialVector<Dim>::Unit(k);
             std::vector<Vector<Dim>> velocity;
             for (const Vector<Dim>& x : mesh.cell_centroid) velocity.push_back(dynamics::turning_velocity<Dim>(spin, x));
-            const std::vector<double> p = floating.momentum_of_points(velocity);
+            const std::vector<double> p = floating.cells().to_p(velocity);
             AxialVector<Dim> angular = AxialVector<Dim>::Zero();
             Vector<Dim> momentum = Vector<Dim>::Zero(), centre = Vector<Dim>::Zero();
             double mass = 0.0;
@@ -90,8 +91,8 @@ TEMPLATE_TEST_CASE_SIG(
         const Vector<Dim> shift = Vector<Dim>::Constant(20.0);
         std::vector<Vector<Dim>> of_cells;
         for (const Vector<Dim>& x : mesh.cell_centroid) of_cells.push_back(turn * stretch * x + shift - x);
-        const std::vector<double> q = solid.displacement_of_points(of_cells);
-        const auto back = solid.cell_displacement(q);
+        const std::vector<double> q = solid.cells().to_q(of_cells);
+        const auto back = solid.cells().displacement(q);
         static_cast<void>(solid.potential(q));
         const auto& material = solid.options().materials[0];
         Matrix<Dim> stress = material.lambda() * 1e-3 * Matrix<Dim>::Identity();
@@ -100,13 +101,13 @@ TEMPLATE_TEST_CASE_SIG(
             CHECK((back[c] - of_cells[c]).norm() <= 1e-12 * 20.0);
             bool free = false;  // such a cell is at sigma n = 0 instead
             for (const std::int32_t f : mesh.cell_faces[c]) free = free || mesh.face_cells[f][1] < 0;
-            const Matrix<Dim> found = turn.transpose() * solid.stress(c) * turn;
+            const Matrix<Dim> found = turn.transpose() * solid.cells().stress(c) * turn;
             if (!free) CHECK((found - stress).norm() <= 1e-10 * stress.norm());
         }
         for (Vector<Dim>& u : of_cells) u = Vector<Dim>::Zero();
         for (std::int32_t c = 0; c < mesh.n_cells(); ++c)
             of_cells[c] = turn * mesh.cell_centroid[c] + shift - mesh.cell_centroid[c];
-        CHECK(solid.potential(solid.displacement_of_points(of_cells)) <= 1e-22);
+        CHECK(solid.potential(solid.cells().to_q(of_cells)) <= 1e-22);
     }
 }
 
@@ -123,9 +124,9 @@ TEST_CASE("a coarse heavy top precesses as a rigid one does", "[solid][inertia]"
         solid::Solid<3> solid(mesh, options);
         std::vector<Vector<3>> velocity;  // spin and the steady precession of a rigid top, about the pivot
         for (const Vector<3>& x : mesh.cell_centroid) velocity.push_back(AxialVector<3>(0.3, 0.0, 0.02).cross(x));
-        dynamics::Memm memm(solid, std::vector<double>(solid.size(), 0.0), solid.momentum_of_points(velocity), 0.02);
+        dynamics::Memm memm(solid, std::vector<double>(solid.size(), 0.0), solid.cells().to_p(velocity), 0.02);
         while (memm.time() < 10.0) memm.step();
-        const auto q = solid.cell_displacement(memm.q());
+        const auto q = solid.cells().displacement(memm.q());
         Vector<3> along = Vector<3>::Zero();  // from the near cells to the far ones
         for (std::int32_t c = 0; c < mesh.n_cells(); ++c)
             along += (mesh.cell_centroid[c][0] > 0.5 ? 1.0 : -1.0) * (mesh.cell_centroid[c] + q[c]);

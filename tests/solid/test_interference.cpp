@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "abut/solid/body_interference.hpp"
+#include "abut/solid/contact_view.hpp"
 #include "solid/turning_scenes.hpp"
 
 namespace abut::test {
@@ -67,10 +68,10 @@ std::array<double, 2> pressures_at_rest(int sectors, int layers, const std::arra
     TurningScene<2> scene(mesh, resolving(materials, 20.0, kinematics), std::vector<Motion<2>>(2), 0.6,
                           std::vector(2, kinematics));
     scene.run_until(45.0);
-    CHECK(scene.solid.contact_report().missed_contacts == 0);
+    CHECK(scene.solid.contact().report().missed_contacts == 0);
     CHECK(scene.ledger.pseudo_energy_drift() <= 1e-12 * scene.ledger.largest_energy());
     std::array<double, 2> found{1e300, 0.0};
-    for (const double p : scene.solid.contact_field(scene.memm.q()).pressure)
+    for (const double p : scene.solid.contact_at(scene.memm.q()).field().pressure)
         if (p > 0.0) found = {std::min(found[0], p), std::max(found[1], p)};
     return found;
 }
@@ -99,7 +100,7 @@ TEST_CASE("interference is work from outside: H~ less that work, momentum and J~
                           std::vector(2, moving<2>({0.01, 0.0}, spin)), 0.6, std::vector(2, kinematics), 1e-4);
     scene.run_until(10.0);
     CHECK(scene.solid.work() > 0.0);
-    CHECK(scene.solid.contact_report().missed_contacts == 0);
+    CHECK(scene.solid.contact().report().missed_contacts == 0);
     const Drifts drifts = scene.drifts();
     CHECK(drifts.pseudo_energy <= 1e-12);
     CHECK(drifts.momentum <= 1e-13);

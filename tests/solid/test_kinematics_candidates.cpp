@@ -9,6 +9,7 @@
 
 #include "abut/contact/obstacle.hpp"
 #include "abut/dynamics/filter.hpp"
+#include "abut/solid/contact_view.hpp"
 #include "solid/turning_scenes.hpp"
 
 using namespace abut;
@@ -108,7 +109,7 @@ struct Crowd {
         scene.memm.set_after_step([&](auto q, double dt, auto before, auto after) { filter(q, dt, before, after); });
         scene.run_until(time);
         const auto copy = [](std::span<const double> x) { return std::vector<double>(x.begin(), x.end()); };
-        const auto report = scene.solid.contact_report();
+        const auto report = scene.solid.contact().report();
         CHECK(scene.drifts().pseudo_energy <= 1e-11);
         return {copy(scene.memm.q()), copy(scene.memm.p_before()), copy(scene.memm.p_after()),
                 report.rebuilds,      report.active_pairs_max,     report.missed_contacts};
@@ -162,7 +163,7 @@ TEST_CASE("candidates of a floating body are kept while a prescribed face moves"
         CHECK(scene.drifts().pseudo_energy <= 1e-12);
         CHECK(std::abs(scene.solid.work()) > 1e-6);
         const auto copy = [](std::span<const double> x) { return std::vector<double>(x.begin(), x.end()); };
-        const auto report = scene.solid.contact_report();
+        const auto report = scene.solid.contact().report();
         return State{copy(scene.memm.q()), copy(scene.memm.p_before()), copy(scene.memm.p_after()),
                      report.rebuilds,      report.active_pairs_max,     report.missed_contacts};
     };

@@ -4,6 +4,9 @@
 
 #include "solid/turning_scenes.hpp"
 
+#include "abut/solid/cell_view.hpp"
+#include "abut/solid/contact_view.hpp"
+
 using namespace abut;
 using namespace abut::test;
 using solid::Kinematics;
@@ -112,7 +115,7 @@ TEMPLATE_TEST_CASE_SIG("forces are minus the gradient of the energy, along all t
     std::vector<double> force(q.size());
     const double energy = scene.solid.potential(q);
     scene.solid.force(q, force);
-    REQUIRE(scene.solid.compression() > 0.0);
+    REQUIRE(scene.solid.contact().compression() > 0.0);
     for (const unsigned seed : {1u, 2u, 3u}) {
         const auto d = allowed_direction<Dim>(scene, q, seed, unit, kinematics);
         const double h = 1e-6;
@@ -140,7 +143,7 @@ TEMPLATE_TEST_CASE_SIG("the energy of bodies that turn does not know how the who
     const auto q = touching_state<Dim>(like, 1.0, kinematics);
     static_cast<void>(solid.potential(std::vector<double>(solid.size(), 0.0)));
     const double energy = solid.potential(q);
-    REQUIRE(solid.compression() > 0.0);
+    REQUIRE(solid.contact().compression() > 0.0);
     for (const double angle : {0.3, 1.5, 3.0}) {
         auto moved = q;
         move_rigidly<Dim>(solid, -1, turned_by<Dim>(angle), Vector<Dim>::Constant(0.4), Vector<Dim>::Constant(3.0), moved);
@@ -160,9 +163,9 @@ TEMPLATE_TEST_CASE_SIG("bodies that turn collide the same in any unit of length,
         motion[1].spin = some_spin<Dim>(-0.03 / unit);
         TurningScene<Dim> scene(Touching<Dim>::made(unit, Vector<Dim>::Constant(far)), options, motion, 0.5, kinematics);
         scene.run(120, 5);
-        CHECK(scene.solid.contact_report().active_pairs_max > 0);
-        CHECK(scene.solid.contact_report().missed_contacts == 0);
-        return std::tuple(scene.drifts(), scene.solid.cell_displacement(scene.memm.q()));
+        CHECK(scene.solid.contact().report().active_pairs_max > 0);
+        CHECK(scene.solid.contact().report().missed_contacts == 0);
+        return std::tuple(scene.drifts(), scene.solid.cells().displacement(scene.memm.q()));
     };
     const auto [drifts, q] = run(1.0, 0.0);
     CHECK(drifts.pseudo_energy <= 1e-12);

@@ -7,6 +7,8 @@
 
 #include "abut/base/error.hpp"
 #include "abut/contact/obstacle.hpp"
+#include "abut/solid/cell_view.hpp"
+#include "abut/solid/contact_view.hpp"
 #include "solid/turning_scenes.hpp"
 
 using namespace abut;
@@ -119,12 +121,12 @@ TEST_CASE("a rigid body takes the turn of its cells, also where they are in a ro
     const Vector<3> shift = 0.2 * upper;
     std::vector<Vector<3>> of_cells;
     for (const Vector<3>& x : mesh.cell_centroid) of_cells.emplace_back(turn * x + shift - x);
-    const auto q = solid.displacement_of_points(of_cells);
+    const auto q = solid.cells().to_q(of_cells);
     for (std::size_t i = 0; i < solid.masses().size(); ++i) {
         const Vector<3> x = solid.rest_positions()[i];
         CHECK((vectors<3>(q)[i] - (turn * x + shift - x)).norm() <= 1e-12 * width);
     }
-    const auto back = solid.cell_displacement(q);
+    const auto back = solid.cells().displacement(q);
     for (std::size_t c = 0; c < back.size(); ++c) CHECK((back[c] - of_cells[c]).norm() <= 1e-12 * width);
 }
 
@@ -142,8 +144,8 @@ TEST_CASE("velocities of cells go to the points and back, however slow or far aw
         of_cells.emplace_back(
             speed * (Vector<3>(0.1, 0.2, 0.3) +
                      dynamics::turning_velocity<3>(AxialVector<3>(0.3, -0.5, 0.2), Vector<3>(x - mesh.cell_centroid[0]))));
-    const auto p = solid.momentum_of_points(of_cells);
-    const auto back = solid.cell_velocity(p);
+    const auto p = solid.cells().to_p(of_cells);
+    const auto back = solid.cells().velocity(p);
     for (std::size_t c = 0; c < back.size(); ++c) CHECK((back[c] - of_cells[c]).norm() <= 1e-8 * speed);
 }
 
@@ -200,7 +202,7 @@ TEMPLATE_TEST_CASE_SIG("an obstacle that turns works on bodies, and H~ less the 
     options.obstacles = {paddle};
     TurningScene<Dim> scene(mesh, options, std::vector<Motion<Dim>>(1), 0.5, kind);
     scene.run_until(20.0);
-    CHECK(scene.solid.contact_report().active_pairs_max > 0);
+    CHECK(scene.solid.contact().report().active_pairs_max > 0);
     CHECK(std::abs(scene.solid.work()) > 1e-6);
     CHECK(scene.drifts().pseudo_energy <= 1e-12);
 

@@ -6,6 +6,7 @@
 #include "abut/dynamics/bilbao.hpp"
 #include "abut/dynamics/leapfrog.hpp"
 #include "abut/dynamics/memm_async.hpp"
+#include "abut/solid/contact_view.hpp"
 #include "solid/turning_scenes.hpp"
 
 using namespace abut;
@@ -40,8 +41,8 @@ struct Discs {
             scheme.step();
             ledger.record(dynamics::measure(scheme, solid));
         }
-        CHECK(solid.contact_report().active_pairs_max > 0);
-        CHECK(solid.contact_report().missed_contacts == 0);
+        CHECK(solid.contact().report().active_pairs_max > 0);
+        CHECK(solid.contact().report().missed_contacts == 0);
         return ledger;
     }
 };
@@ -59,7 +60,7 @@ TEST_CASE("leapfrog searches candidates no more often than MEMM", "[solid][kinem
     dynamics::Leapfrog leapfrog(other.solid, other.q, other.p, 0.3 * one.stable);
     static_cast<void>(one.run(memm, 20.0));
     static_cast<void>(other.run(leapfrog, 20.0));
-    CHECK(other.solid.contact_report().rebuilds <= 2 * one.solid.contact_report().rebuilds);
+    CHECK(other.solid.contact().report().rebuilds <= 2 * one.solid.contact().report().rebuilds);
 }
 
 // The force of a pair jumps where a face passes the end of another one, by g^2: less than order 2 where bodies touch.

@@ -6,6 +6,7 @@
 #include "abut/dynamics/filter.hpp"
 #include "abut/dynamics/leapfrog.hpp"
 #include "abut/dynamics/neutral_restart.hpp"
+#include "abut/solid/contact_view.hpp"
 #include "solid/turning_scenes.hpp"
 
 using namespace abut;
@@ -140,7 +141,7 @@ TEMPLATE_TEST_CASE_SIG("filter and restart on rigid and floating bodies keep H~,
     scene.memm.set_node_restart([&](auto q, double dt, auto before, auto after) { restart(q, dt, before, after); });
     scene.run_until(30.0);
     const Drifts drifts = scene.drifts();
-    CHECK(scene.solid.contact_report().active_pairs_max > 0);
+    CHECK(scene.solid.contact().report().active_pairs_max > 0);
     CHECK(drifts.pseudo_energy <= 1e-12);
     CHECK(drifts.pseudo_moment <= 1e-13);
     CHECK(drifts.momentum <= 1e-13);
@@ -165,7 +166,7 @@ TEMPLATE_TEST_CASE_SIG("steps of any size kept through a contact of rigid and fl
         scene.memm.step(dt * (1.0 + 0.3 * std::sin(0.02 * i)), StepChange::keep);
         if (i % 5 == 0) scene.ledger.record(dynamics::measure(scene.memm, scene.solid));
     }
-    CHECK(scene.solid.contact_report().active_pairs_max > 0);
+    CHECK(scene.solid.contact().report().active_pairs_max > 0);
     CHECK(scene.drifts().pseudo_energy <= 1e-12);
     CHECK(scene.drifts().momentum <= 1e-13);
     CHECK(change_of_distances<Dim>(scene.solid, scene.memm.q(), other == Kinematics::rigid ? 2 : 1) <= 1e-12);

@@ -5,6 +5,8 @@
 
 #include "abut/base/error.hpp"
 #include "abut/contact/obstacle.hpp"
+#include "abut/solid/cell_view.hpp"
+#include "abut/solid/contact_view.hpp"
 #include "solid/finite_scenes.hpp"
 
 using namespace abut;
@@ -79,9 +81,9 @@ TEMPLATE_TEST_CASE_SIG("a body that is strained alike everywhere has the stress 
                 (void)solid.potential(q_0);
                 for (std::int32_t c = 0; c < mesh.n_cells(); ++c) {
                     const Matrix<Dim> in_plane = expected.template topLeftCorner<Dim, Dim>();
-                    raise(off, (solid.stress(c) - in_plane).norm());
-                    if (Dim == 2) raise(off, std::abs(solid.out_of_plane_stress(c) - expected(2, 2)));
-                    raise(off, std::abs(solid.plastic_strain(c) - exact.alpha));
+                    raise(off, (solid.cells().stress(c) - in_plane).norm());
+                    if (Dim == 2) raise(off, std::abs(solid.cells().out_of_plane_stress(c) - expected(2, 2)));
+                    raise(off, std::abs(solid.cells().plastic_strain(c) - exact.alpha));
                     raise(largest, in_plane.norm());
                 }
             }
@@ -140,7 +142,8 @@ TEST_CASE(
         const auto mean_stress = [&] {
             (void)scene.solid.potential(scene.memm.q());
             double sum = 0.0;
-            for (std::int32_t c = 0; c < mesh.n_cells(); ++c) sum += mesh.cell_measure[c] * scene.solid.stress(c)(0, 0);
+            for (std::int32_t c = 0; c < mesh.n_cells(); ++c)
+                sum += mesh.cell_measure[c] * scene.solid.cells().stress(c)(0, 0);
             return sum / 3.0;
         };
         const double yield = material.yield_stress, at_top = yield + tangent * (most - yield);
@@ -173,7 +176,7 @@ TEST_CASE("a bar that is held as it flies has the plateau of the exact bilinear 
     double sum = 0.0, front = 0.0;
     int count = 0;
     for (std::int32_t c = 0; c < mesh.n_cells(); ++c) {
-        const double x = mesh.cell_centroid[static_cast<std::size_t>(c)][0], pressure = -scene.solid.stress(c)(0, 0);
+        const double x = mesh.cell_centroid[static_cast<std::size_t>(c)][0], pressure = -scene.solid.cells().stress(c)(0, 0);
         if (x > 0.05 && x < 0.2) sum += pressure, ++count;
         if (pressure > 0.5 * (plateau + yield)) front = std::max(front, x);
     }
@@ -203,8 +206,8 @@ TEMPLATE_TEST_CASE_SIG("metal bodies that collide under the pair potential flow,
             mesh = two_boxes(3);
         TurningScene<Dim> scene(mesh, options, motion, 0.6, kinematics);
         scene.run(steps_of_collision<Dim>);
-        CHECK(scene.solid.contact_report().active_pairs_max > 0);
-        CHECK(scene.solid.contact_report().missed_contacts == 0);
+        CHECK(scene.solid.contact().report().active_pairs_max > 0);
+        CHECK(scene.solid.contact().report().missed_contacts == 0);
         CHECK(scene.solid.dissipated().in_cells > 1e-3 * scene.ledger.largest_energy());
         CHECK(scene.drifts().pseudo_energy <= 1e-12);
         CHECK(scene.drifts().momentum <= 1e-13);
@@ -252,11 +255,11 @@ TEMPLATE_TEST_CASE_SIG("a plate that is pressed against a wall flows in its firs
         for (std::int32_t c = 0; c < mesh.n_cells(); ++c) {
             const double x = mesh.cell_centroid[static_cast<std::size_t>(c)][0];
             const auto layer = static_cast<std::size_t>(x * layers);
-            strain[layer] += scene.solid.plastic_strain(c);
+            strain[layer] += scene.solid.cells().plastic_strain(c);
             ++count[layer];
             if (x < 0.5 || x > 0.8) continue;
-            const double eps = -scene.solid.displacement_gradient(c, scene.memm.q())(0, 0);
-            inside += scene.solid.plastic_strain(c);
+            const double eps = -scene.solid.cells().displacement_gradient(c, scene.memm.q())(0, 0);
+            inside += scene.solid.cells().plastic_strain(c);
             exact += (2.0 * material.mu() * eps - material.yield_stress) /
                      (3.0 * material.mu() + material.hardening + material.kinematic_hardening);
         }

@@ -1,6 +1,7 @@
 #include <catch2/catch.hpp>
 
 #include "abut/contact/contact.hpp"
+#include "abut/solid/contact_view.hpp"
 #include "contact/law.hpp"
 #include "solid/scenes.hpp"
 
@@ -47,7 +48,7 @@ TEMPLATE_TEST_CASE_SIG(
     "the local path integral is the one over the union of all events of the scene, on meshes with coupled faces",
     "[solid][contact]", ((int Dim), Dim), 2, 3) {
     Scene<Dim> scene(coupled_bodies<Dim>(), reconstructed_bodies<Dim>(2), fast_velocities<Dim>());
-    const auto& contact = *scene.solid.contact();
+    const auto& contact = *scene.solid.contact().reconstruction();
     auto& ccg = scene.solid.ccg();
     LawOnList<Dim> local({}), global({});
     double worst = 0.0, worst_against_solid = 0.0;

@@ -1,5 +1,6 @@
 #include <catch2/catch.hpp>
 
+#include "abut/solid/contact_view.hpp"
 #include "abut/solid/rigid_obstacle.hpp"
 #include "solid/scenes.hpp"
 
@@ -33,11 +34,11 @@ TEST_CASE("the force on an obstacle that there is not is refused", "[solid][obst
     const mesh::Mesh<2> mesh = bar();
     auto options = bar_and_wall();
     const solid::Solid<2> with_wall(mesh, options);
-    CHECK(with_wall.obstacle_force(0) == Vector<2>::Zero());
-    CHECK_THROWS_AS(with_wall.obstacle_force(1), Misuse);
+    CHECK(with_wall.contact().obstacle_force(0) == Vector<2>::Zero());
+    CHECK_THROWS_AS(with_wall.contact().obstacle_force(1), Misuse);
     options.obstacles.clear();
     options.contact.reset();
-    CHECK_THROWS_AS(solid::Solid<2>(mesh, options).obstacle_force(0), Misuse);
+    CHECK_THROWS_AS(solid::Solid<2>(mesh, options).contact().obstacle_force(0), Misuse);
 }
 
 TEST_CASE("a bar on a rigid wall feels the pressure v0 sqrt(E rho) for the time 2L/c and rebounds", "[solid][obstacle]") {
@@ -45,7 +46,7 @@ TEST_CASE("a bar on a rigid wall feels the pressure v0 sqrt(E rho) for the time 
     double impulse = 0.0, first = 0.0, last = 0.0;
     while (scene.memm.time() < 1.4) {
         scene.run(1);
-        const Vector<2> force = scene.solid.obstacle_force(0);
+        const Vector<2> force = scene.solid.contact().obstacle_force(0);
         CHECK(std::abs(force[1]) < 1e-9);
         if (force[0] == 0.0) continue;
         if (first == 0.0) first = scene.memm.time() - dt;
@@ -63,7 +64,7 @@ TEST_CASE("a bar on a rigid wall feels the pressure v0 sqrt(E rho) for the time 
     CHECK(scene.ledger.pseudo_energy_drift() < 1e-11 * scene.kinetic_start());
     CHECK(scene.ledger.energy_excess() < 5e-3 * scene.kinetic_start());
     CHECK(scene.solid.work() == 0.0);
-    CHECK(scene.solid.contact_report().missed_contacts == 0);
+    CHECK(scene.solid.contact().report().missed_contacts == 0);
 }
 
 TEST_CASE("the contact field of a bar on a wall is the pressure on its end, and no gap elsewhere", "[solid][obstacle]") {
@@ -73,7 +74,7 @@ TEST_CASE("the contact field of a bar on a wall is the pressure on its end, and 
     const int steps = 200;
     for (int i = 0; i < steps; ++i) {
         scene.memm.step();
-        const auto field = scene.solid.contact_field(scene.memm.q());
+        const auto field = scene.solid.contact_at(scene.memm.q()).field();
         for (std::size_t b = 0; b < field.pressure.size(); ++b) {
             if (scene.mesh.face_normal[scene.mesh.boundary_faces[b]][0] < -0.99) {
                 pressure += field.pressure[b] / (2.0 * steps);  // two faces at the end
@@ -119,8 +120,8 @@ TEMPLATE_TEST_CASE_SIG(
     scene.run_until(5.0);
     CHECK(scene.ledger.pseudo_energy_drift() < 1e-12 * scene.ledger.largest_energy());
     CHECK(scene.solid.work() > 0.1 * scene.ledger.largest_energy());
-    CHECK(scene.solid.contact_report().missed_contacts == 0);
-    CHECK(scene.solid.contact_report().events > 20);
+    CHECK(scene.solid.contact().report().missed_contacts == 0);
+    CHECK(scene.solid.contact().report().events > 20);
 }
 
 TEST_CASE("the momentum that a body loses is the mean force on the obstacle times twice the step, step by step",
@@ -138,7 +139,7 @@ TEST_CASE("the momentum that a body loses is the mean force on the obstacle time
         const Vector<2> before = total(scene.memm.p_before());
         scene.memm.step();
         const Vector<2> gained = total(scene.memm.p_after()) - before;
-        CHECK((gained + 2.0 * scene.memm.dt() * scene.solid.obstacle_force(0)).norm() < 1e-14);
+        CHECK((gained + 2.0 * scene.memm.dt() * scene.solid.contact().obstacle_force(0)).norm() < 1e-14);
         touched = touched || gained.norm() > 1e-3;
     }
     CHECK(touched);
@@ -161,10 +162,10 @@ TEMPLATE_TEST_CASE_SIG("H~ gains the work of a rigid box that strikes a body wit
         solid::rigid_obstacle<Dim>(box, [](double t) { return Vector<Dim>(0.02 * t * Vector<Dim>::Unit(0)); })};
     Scene<Dim> scene(round_body<Dim>(Dim == 2 ? 0.25 : 0.5), options, {Vector<Dim>::Zero()});
     scene.run_until(20.0, 5);
-    CHECK(scene.solid.contact_report().events > 1);
+    CHECK(scene.solid.contact().report().events > 1);
     CHECK(scene.solid.work() > 1e-4);
     CHECK(scene.ledger.pseudo_energy_drift() < 1e-12 * scene.ledger.largest_energy());
-    CHECK(scene.solid.contact_report().missed_contacts == 0);
+    CHECK(scene.solid.contact().report().missed_contacts == 0);
 }
 
 TEMPLATE_TEST_CASE_SIG("a rigid obstacle has the faces of the mesh it is made of, seen from outside", "[solid][obstacle]",

@@ -8,6 +8,8 @@
 
 #include "abut/base/error.hpp"
 #include "abut/solid/ccg/ccg.hpp"
+#include "abut/solid/cell_view.hpp"
+#include "abut/solid/contact_view.hpp"
 #include "solid/finite_scenes.hpp"
 
 using namespace abut;
@@ -148,12 +150,12 @@ TEMPLATE_TEST_CASE_SIG("an orthotropic body of isotropic constants has the force
             CHECK(off(expected, force) <= 1e-11);
             CHECK(other.potential(q) == Approx(plain.potential(q)).epsilon(1e-12));
             double most = 0.0;
-            for (std::int32_t c = 0; c < mesh.n_cells(); ++c) raise(most, plain.stress(c).norm());
+            for (std::int32_t c = 0; c < mesh.n_cells(); ++c) raise(most, plain.cells().stress(c).norm());
             // The isotropic finite body shows nu tr sigma, and at edges F of affine faces: strains of some 0.005 make these wrong by as much.
             const double allowed = kinematics == Kinematics::finite ? 0.01 * most : 1e-11 * most;
             for (std::int32_t c = 0; c < mesh.n_cells(); ++c) {
-                CHECK((other.stress(c) - plain.stress(c)).norm() <= allowed);
-                CHECK(std::abs(other.out_of_plane_stress(c) - plain.out_of_plane_stress(c)) <= allowed);
+                CHECK((other.cells().stress(c) - plain.cells().stress(c)).norm() <= allowed);
+                CHECK(std::abs(other.cells().out_of_plane_stress(c) - plain.cells().out_of_plane_stress(c)) <= allowed);
             }
             CHECK(dynamics::stable_step(other).dt == Approx(dynamics::stable_step(plain).dt).epsilon(1e-4));
         }
@@ -185,8 +187,9 @@ TEMPLATE_TEST_CASE_SIG("affine fields have the stress of Hooke's law of orthotro
                 solid.force(q, force);
                 CHECK(largest(force) <= 1e-12 * exact.norm());
                 for (std::int32_t c = 0; c < mesh.n_cells(); ++c) {
-                    CHECK((solid.stress(c) - in_plane).norm() <= 1e-12 * exact.norm());
-                    if (Dim == 2) CHECK(std::abs(solid.out_of_plane_stress(c) - exact(2, 2)) <= 1e-12 * exact.norm());
+                    CHECK((solid.cells().stress(c) - in_plane).norm() <= 1e-12 * exact.norm());
+                    if (Dim == 2)
+                        CHECK(std::abs(solid.cells().out_of_plane_stress(c) - exact(2, 2)) <= 1e-12 * exact.norm());
                 }
                 double volume = 0.0, work = 0.0;
                 for (const double measure : mesh.cell_measure) volume += measure;
@@ -227,7 +230,7 @@ TEST_CASE("a bar pulled off its axes has the modulus of Lekhnitskii's formula an
         CHECK((k * solution - f).norm() <= 1e-10 * f.norm());
         solid.force(q, force);
         for (std::int32_t cell = 0; cell < mesh.n_cells(); ++cell)
-            CHECK(solid.stress(cell)(0, 0) == Approx(t).epsilon(1e-9));
+            CHECK(solid.cells().stress(cell)(0, 0) == Approx(t).epsilon(1e-9));
         const auto moved_at = [&](double x) -> Vector<3> {
             for (std::int32_t cell = 0; cell < mesh.n_cells(); ++cell)
                 if ((mesh.cell_centroid[static_cast<std::size_t>(cell)] - Vector<3>(x, 0.25, 0.25)).norm() < 1e-9)
@@ -346,8 +349,8 @@ TEMPLATE_TEST_CASE_SIG("orthotropic bodies collide under both laws of contact an
         CAPTURE(static_cast<int>(law));
         TurningScene<Dim> scene(mesh, options, motion, 0.6, Kinematics::small);
         scene.run(2 * steps_of_collision<Dim>);
-        CHECK(scene.solid.contact_report().active_pairs_max > 0);
-        CHECK(scene.solid.contact_report().missed_contacts == 0);
+        CHECK(scene.solid.contact().report().active_pairs_max > 0);
+        CHECK(scene.solid.contact().report().missed_contacts == 0);
         CHECK(scene.drifts().pseudo_energy <= 1e-12);
         CHECK(scene.drifts().momentum <= 1e-13);
     }

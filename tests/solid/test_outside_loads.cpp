@@ -2,7 +2,9 @@
 #include <catch2/catch.hpp>
 
 #include "abut/dynamics/leapfrog.hpp"
+#include "abut/solid/contact_view.hpp"
 #include "abut/solid/outside_faces.hpp"
+#include "abut/solid/outside_view.hpp"
 #include "solid/turning_scenes.hpp"
 
 using namespace abut;
@@ -76,7 +78,7 @@ TEMPLATE_TEST_CASE_SIG("tractions set by face before each step have the bits of 
     CHECK(std::ranges::equal(scene.memm.q(), expected.memm.q()));
     CHECK(std::ranges::equal(scene.memm.p_after(), expected.memm.p_after()));
     CHECK(scene.solid.work() == expected.solid.work());
-    CHECK(scene.solid.contact_report().active_pairs_max > 0);
+    CHECK(scene.solid.contact().report().active_pairs_max > 0);
 }
 
 TEMPLATE_TEST_CASE_SIG(
@@ -90,8 +92,8 @@ TEMPLATE_TEST_CASE_SIG(
     for (unsigned i = 0; i < 150; ++i) {
         const auto before = solid::outside_faces<Dim>(scene.memm, scene.solid, loaded);
         if (i % 3 != 2) scene.solid.set_traction(loaded, random_tractions<Dim>(before.area.size(), i));
-        const auto motion = scene.solid.face_motion(loaded, scene.memm.q(), scene.memm.next_q(), scene.memm.time(),
-                                                    scene.memm.dt());  // known before the step
+        const auto motion = scene.solid.outside(loaded).motion(scene.memm.q(), scene.memm.next_q(), scene.memm.time(),
+                                                               scene.memm.dt());  // known before the step
         scene.memm.step();
         const auto faces = solid::outside_faces<Dim>(scene.memm, scene.solid, loaded);
         steps += work_of(faces, motion);
@@ -117,8 +119,8 @@ TEMPLATE_TEST_CASE_SIG(
         CHECK(std::abs(work.changes) < 1e-14 * energy);  // its faces do not give way
     else
         CHECK(work.changes > 1e-4 * energy);
-    CHECK(scene.solid.contact_report().active_pairs_max > 0);
-    CHECK(scene.solid.contact_report().missed_contacts == 0);
+    CHECK(scene.solid.contact().report().active_pairs_max > 0);
+    CHECK(scene.solid.contact().report().missed_contacts == 0);
 }
 
 TEMPLATE_TEST_CASE_SIG("a step dictated from outside with restarts books the same work, and restarts what they change",
@@ -133,7 +135,7 @@ TEMPLATE_TEST_CASE_SIG("a step dictated from outside with restarts books the sam
         scene.memm.set_step(dt, policy);
         scene.solid.set_traction(loaded, random_tractions<Dim>(scene.mesh.group(loaded).faces.size(), i));
         const auto motion =
-            scene.solid.face_motion(loaded, scene.memm.q(), scene.memm.next_q(), scene.memm.time(), scene.memm.dt());
+            scene.solid.outside(loaded).motion(scene.memm.q(), scene.memm.next_q(), scene.memm.time(), scene.memm.dt());
         scene.memm.step();
         steps += work_of(solid::outside_faces<Dim>(scene.memm, scene.solid, loaded), motion);
         const solid::OutsideWork work = scene.solid.outside_work(scene.memm.q());
@@ -151,9 +153,9 @@ TEMPLATE_TEST_CASE_SIG("faces move with the velocities of their cells: over a st
     Scene<Dim> scene(blocks<Dim>(), blocks_loaded_from_outside<Dim>(), falling<Dim>());
     scene.solid.set_traction(loaded, random_tractions<Dim>(scene.mesh.group(loaded).faces.size(), 1));
     for (int i = 0; i < 20; ++i) scene.memm.step();
-    const auto velocity = scene.solid.face_velocity(loaded, scene.memm.p_after());
+    const auto velocity = scene.solid.outside(loaded).velocity(scene.memm.p_after());
     const auto motion =
-        scene.solid.face_motion(loaded, scene.memm.q(), scene.memm.next_q(), scene.memm.time(), scene.memm.dt());
+        scene.solid.outside(loaded).motion(scene.memm.q(), scene.memm.next_q(), scene.memm.time(), scene.memm.dt());
     const auto faces = solid::outside_faces<Dim>(scene.memm, scene.solid, loaded);
     double fastest = 0.0;
     for (std::size_t i = 0; i < motion.size(); ++i) {
@@ -186,7 +188,7 @@ TEMPLATE_TEST_CASE_SIG("of bodies that turn the work is booked as work, and norm
                                  std::vector<Vector<Dim>>(mesh.group("xmin").faces.size(),
                                                           Vector<Dim>(1e-5 * std::cos(0.1 * i) * Vector<Dim>::Ones())));
         const auto motion =
-            scene.solid.face_motion("xmin", scene.memm.q(), scene.memm.next_q(), scene.memm.time(), scene.memm.dt());
+            scene.solid.outside("xmin").motion(scene.memm.q(), scene.memm.next_q(), scene.memm.time(), scene.memm.dt());
         scene.memm.step();
         const auto faces = solid::outside_faces<Dim>(scene.memm, scene.solid, "xmin");
         if (!follows) steps += work_of(faces, motion);
@@ -243,7 +245,7 @@ TEST_CASE("tractions from outside that cannot be are refused by the name of thei
     CHECK_THROWS_WITH(scene.solid.set_traction("lower.xmin", good), Contains("'lower.xmin'") && Contains(loaded));
     CHECK_THROWS_AS(scene.solid.set_traction("nowhere", good), BadInput);
     CHECK_THROWS_AS(solid::outside_faces<2>(scene.memm, scene.solid, "lower.xmin"), BadInput);
-    CHECK(std::ranges::equal(scene.solid.traction(loaded), good));
+    CHECK(std::ranges::equal(scene.solid.outside(loaded).traction(), good));
 }
 
 TEST_CASE("conditions from outside that cannot be are refused", "[solid][outside][errors]") {

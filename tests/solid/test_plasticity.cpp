@@ -6,6 +6,8 @@
 
 #include "abut/base/error.hpp"
 #include "abut/contact/obstacle.hpp"
+#include "abut/solid/cell_view.hpp"
+#include "abut/solid/contact_view.hpp"
 #include "solid/finite_scenes.hpp"
 
 using namespace abut;
@@ -180,7 +182,7 @@ TEST_CASE("a bar that hits a wall has the two fronts and the plateau of the exac
     CHECK(scene.drifts().parasitic <= 0.1 * speed);  // what the impact kicks
 
     (void)scene.solid.potential(scene.memm.q());
-    const auto pressure = [&](std::int32_t c) { return -scene.solid.stress(c)(0, 0); };
+    const auto pressure = [&](std::int32_t c) { return -scene.solid.cells().stress(c)(0, 0); };
     const auto position = [&](std::int32_t c) { return mesh.cell_centroid[static_cast<std::size_t>(c)][0]; };
     const auto front = [&](double level) {  // the farthest cell that has more
         double at = 0.0;
@@ -239,14 +241,15 @@ TEMPLATE_TEST_CASE_SIG("only a step that has ended is remembered: looks, forces 
     std::vector<double> force(solid.size());
     const auto check_count = [&](double expected) {
         for (std::int32_t c = 0; c < scene->mesh.n_cells(); ++c)
-            CHECK(solid.plastic_strain(c) == (scene->mesh.cell_body[static_cast<std::size_t>(c)] == 0 ? expected : 0.0));
+            CHECK(solid.cells().plastic_strain(c) ==
+                  (scene->mesh.cell_body[static_cast<std::size_t>(c)] == 0 ? expected : 0.0));
     };
     for (int step = 0; step < 40; ++step) {  // into contact
         scene->memm.step();
         std::vector<double> q(scene->memm.q().begin(), scene->memm.q().end());
         (void)solid.potential(q);
         solid.force(q, force);
-        (void)solid.contact_field(q);
+        (void)solid.contact_at(q).field();
         for (double& of_point : q) of_point *= 1.01;
         (void)solid.potential(q);
         (void)dynamics::measure(scene->memm, solid);
@@ -277,7 +280,7 @@ TEMPLATE_TEST_CASE_SIG("a run of metal bodies that goes on from its state has th
     CHECK(std::ranges::equal(second->memm.p_after(), whole->memm.p_after()));
     CHECK(second->solid.dissipated().total() == whole->solid.dissipated().total());
     for (std::int32_t c = 0; c < whole->mesh.n_cells(); ++c)
-        CHECK(second->solid.plastic_strain(c) == whole->solid.plastic_strain(c));
+        CHECK(second->solid.cells().plastic_strain(c) == whole->solid.cells().plastic_strain(c));
 }
 
 TEST_CASE("a material that remembers is refused where nothing keeps what it remembers", "[solid][material]") {

@@ -4,6 +4,8 @@
 
 #include "solid/turning_scenes.hpp"
 
+#include "abut/solid/cell_view.hpp"
+
 using namespace abut;
 using namespace abut::test;
 using solid::Kinematics;
@@ -83,14 +85,14 @@ TEST_CASE("under a pressure that grows slowly all of a disc is at -p, its rim in
     Matrix<2> mean = Matrix<2>::Zero();
     for (std::int32_t c = 0; c < scene.mesh.n_cells(); ++c)
         if (scene.mesh.cell_centroid[c].norm() < 0.5) {
-            mean += scene.mesh.cell_measure[c] * scene.solid.stress(c);
+            mean += scene.mesh.cell_measure[c] * scene.solid.cells().stress(c);
             area += scene.mesh.cell_measure[c];
         }
     const double mean_off = (mean / area + pressure * Matrix<2>::Identity()).norm() / pressure;
     CAPTURE(mean_off);
     for (std::int32_t c = 0; c < scene.mesh.n_cells(); ++c)
         if (kinematics != Kinematics::finite || scene.mesh.cell_centroid[c].norm() < 0.5)
-            raise(worst, (scene.solid.stress(c) + pressure * Matrix<2>::Identity()).norm() / pressure);
+            raise(worst, (scene.solid.cells().stress(c) + pressure * Matrix<2>::Identity()).norm() / pressure);
     CHECK(worst <= 0.02);
     CHECK(scene.drifts().pseudo_energy <= 1e-12);
 }

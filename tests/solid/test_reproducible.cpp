@@ -6,6 +6,7 @@
 
 #include "abut/dynamics/filter.hpp"
 #include "abut/dynamics/neutral_restart.hpp"
+#include "abut/solid/contact_view.hpp"
 #include "solid/scenes.hpp"
 
 using namespace abut;
@@ -50,7 +51,7 @@ State after_impact(const mesh::Mesh<Dim>& mesh, const std::vector<Vector<Dim>>& 
     scene.run(steps, steps);
     const auto copy = [](std::span<const double> x) { return std::vector<double>(x.begin(), x.end()); };
     return {copy(scene.memm.q()), copy(scene.memm.p_before()), copy(scene.memm.p_after()),
-            scene.ledger.entries().back().pseudo_energy, scene.solid.contact_report().events};
+            scene.ledger.entries().back().pseudo_energy, scene.solid.contact().report().events};
 }
 
 /// The same on a given number of threads, more than the machine has if need be.

@@ -7,6 +7,8 @@
 #include "abut/contact/obstacle.hpp"
 #include "abut/dynamics/filter.hpp"
 #include "abut/dynamics/leapfrog.hpp"
+#include "abut/solid/cell_view.hpp"
+#include "abut/solid/contact_view.hpp"
 #include "solid/turning_scenes.hpp"
 
 using namespace abut;
@@ -51,7 +53,7 @@ struct Top {
     }
     /// The rotation from the positions at rest, of three cells.
     [[nodiscard]] Matrix<3> turn() const {
-        const auto q = solid.cell_displacement(scheme.q());
+        const auto q = solid.cells().displacement(scheme.q());
         Matrix<3> rest, now;
         const std::array<std::int32_t, 4> cells{0, 1, 2, 6};
         for (int k = 0; k < 3; ++k) {
@@ -163,7 +165,7 @@ TEST_CASE("a rigid box that falls on a plane bounces and tumbles with its energy
     scene.memm.set_after_step([&](auto q, double dt, auto before, auto after) { filter(q, dt, before, after); });
     scene.run(20000);
     const Drifts drifts = scene.drifts();
-    const auto report = scene.solid.contact_report();
+    const auto report = scene.solid.contact().report();
     CHECK(report.active_pairs_max > 0);
     CHECK(report.missed_contacts == 0);
     CHECK(drifts.pseudo_energy <= 1e-12);

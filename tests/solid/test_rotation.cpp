@@ -5,6 +5,8 @@
 
 #include "solid/scenes.hpp"
 
+#include "abut/solid/cell_view.hpp"
+
 using namespace abut;
 using namespace abut::test;
 
@@ -83,9 +85,9 @@ TEMPLATE_TEST_CASE_SIG(
         options.contact.reset();
         options.kinematics = {kinematics};
         solid::Solid<Dim> solid(mesh, options);
-        const std::vector<double> state = solid.displacement_of_points(vectors<Dim>(q));
+        const std::vector<double> state = solid.cells().to_q(vectors<Dim>(q));
         static_cast<void>(solid.potential(state));
-        const std::vector<Vector<Dim>> displacement = solid.vertex_displacement(state);
+        const std::vector<Vector<Dim>> displacement = solid.cells().vertex_displacement(state);
         REQUIRE(displacement.size() == mesh.vertices.size());
         double worst = 0.0;
         for (std::size_t v = 0; v < displacement.size(); ++v) {

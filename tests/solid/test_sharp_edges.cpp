@@ -10,6 +10,7 @@
 #include "abut/contact/blind_corners.hpp"
 #include "abut/contact/unseen_edges.hpp"
 #include "abut/mesh/place.hpp"
+#include "abut/solid/contact_view.hpp"
 #include "solid/turning_scenes.hpp"
 
 using namespace abut;
@@ -108,7 +109,7 @@ Found collide(TurningScene<3>& scene, double speed) {
     double depth = 0.0;
     while (scene.memm.time() < 1.5 / speed * 0.04 + 6.0) {
         scene.run(1);
-        raise(depth, scene.solid.compression());
+        raise(depth, scene.solid.contact().compression());
     }
     const auto motions = solid::body_motions<3>(scene.memm, scene.solid);
     return {(motions[1].velocity - motions[0].velocity) / speed, depth};
@@ -134,7 +135,7 @@ TEST_CASE("edges of 20 to 120 degrees that cross at 20 to 90 degrees part, and k
     const double across = GENERATE(90.0, 50.0, 20.0), speed = GENERATE(0.005, 0.02);
     CAPTURE(lower, upper, across, speed);
     TurningScene<3> scene = crossing_beams(lower, upper, across, speed, {Kinematics::floating, Kinematics::floating});
-    CHECK_FALSE(scene.solid.unseen_edges());
+    CHECK_FALSE(scene.solid.contact().unseen_edges());
     const Found found = collide(scene, speed);
     check_collision(scene);
     CHECK(found.velocity[2] > 0.6);
@@ -153,7 +154,7 @@ TEST_CASE("sharp edges of finite, rigid and small bodies part as well", "[solid]
     const Found found = collide(scene, speed);
     CHECK(found.velocity[2] > 0.4);  // -1 where they go through each other
     CHECK(found.depth <= 0.5);
-    CHECK(scene.solid.contact_report().missed_contacts == 0);
+    CHECK(scene.solid.contact().report().missed_contacts == 0);
     CHECK(scene.drifts().pseudo_energy <= 1e-12);
     CHECK(scene.drifts().energy_excess <= 5e-3);
 }
@@ -168,7 +169,7 @@ TEST_CASE("corners of 15 to 60 degrees that come down on a flat side part from i
         together(mesh::structured_box<3>({-0.75, -0.75, -0.5}, {0.75, 0.75, 0.0}, {9, 9, 3}, CellShape::hexahedron, "block"),
                  cornered(angle * degree, 1.0, 2, {0.03, 0.02, 0.2 * speed})),
         options, {moving<3>({0.0, 0.0, 0.0}), moving<3>({aside * speed, 0.0, -speed})}, 0.6);
-    CHECK(scene.solid.blind_corners().empty());
+    CHECK(scene.solid.contact().blind_corners().empty());
     const Found found = collide(scene, speed);
     check_collision(scene);
     CHECK(found.velocity[2] > 0.8);

@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "abut/dynamics/leapfrog.hpp"
+#include "abut/solid/contact_view.hpp"
 #include "solid/magnitudes.hpp"
 #include "solid/scenes.hpp"
 
@@ -240,7 +241,7 @@ TEST_CASE("bodies that step in single precision meet and part as in double, and 
         return scene;
     };
     const auto single = run(Precision::single_precision), expected = run(Precision::double_precision);
-    const auto report = single->solid.contact_report();
+    const auto report = single->solid.contact().report();
     CHECK(report.missed_contacts == 0);
     CHECK(report.active_pairs_max > 0);
     // docs/trade.md promises H~ to 1e-5 of K0 where it says what single precision costs, and one is not double by mistake
@@ -315,7 +316,7 @@ TEST_CASE("a run in single precision that is restored has the bits of one that g
         whole->memm.step();
         resumed->memm.step();
     }
-    CHECK(whole->solid.contact_report().active_pairs_max > 0);
+    CHECK(whole->solid.contact().report().active_pairs_max > 0);
     CHECK(std::ranges::equal(whole->memm.q(), resumed->memm.q()));
     CHECK(std::ranges::equal(whole->memm.p_after(), resumed->memm.p_after()));
 }

@@ -7,6 +7,7 @@
 #include "abut/contact/obstacle.hpp"
 #include "abut/dynamics/bilbao.hpp"
 #include "abut/dynamics/leapfrog.hpp"
+#include "abut/solid/contact_view.hpp"
 #include "solid/integrator_runs.hpp"
 #include "solid/scenes.hpp"
 
@@ -126,7 +127,7 @@ TEST_CASE(
             memm.step(part(i) * stable, change);
             ledger.record(dynamics::measure(memm, solid));
         }
-        CHECK(solid.contact_report().events > 0);
+        CHECK(solid.contact().report().events > 0);
         CHECK(ledger.pseudo_energy_drift() < 1e-13 * ledger.largest_energy());
         CHECK(ledger.energy_drift() < 0.05 * ledger.entries().front().kinetic);  // H itself, of so coarse a mesh
         return solid::body_motions<2>(memm, solid)[0].velocity;

@@ -8,6 +8,7 @@
 #include "abut/dynamics/leapfrog.hpp"
 #include "abut/dynamics/memm_async.hpp"
 #include "abut/dynamics/neutral_restart.hpp"
+#include "abut/solid/contact_view.hpp"
 #include "abut/solid/local_steps.hpp"
 #include "solid/stacked_scenes.hpp"
 
@@ -81,13 +82,13 @@ std::int64_t compare_with_restarts(const solid::SolidOptions<Dim>& options, cons
         REQUIRE(std::ranges::equal(other.integrator.q(), whole.integrator.q()));
         REQUIRE(std::ranges::equal(other.integrator.p_after(), whole.integrator.p_after()));
         REQUIRE(dynamics::ledger_values(dynamics::measure(other.integrator, other.solid)) == at_end);
-        REQUIRE(other.solid.contact_report().events == whole.solid.contact_report().events);
+        REQUIRE(other.solid.contact().report().events == whole.solid.contact().report().events);
         REQUIRE(other.solid.work() == whole.solid.work());
         REQUIRE(other.solid.outside_work(other.integrator.q()).steps ==
                 whole.solid.outside_work(whole.integrator.q()).steps);
         REQUIRE(other.solid.outside_work(other.integrator.q()).changes ==
                 whole.solid.outside_work(whole.integrator.q()).changes);
-        REQUIRE(std::ranges::equal(other.solid.contact_impulses(), whole.solid.contact_impulses(), {},
+        REQUIRE(std::ranges::equal(other.solid.contact().impulses(), whole.solid.contact().impulses(), {},
                                    &solid::BodyImpulse<Dim>::impulse, &solid::BodyImpulse<Dim>::impulse));
         REQUIRE(other.solid.evaluations() == whole.solid.evaluations());
     }

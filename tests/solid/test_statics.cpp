@@ -2,6 +2,7 @@
 
 #include <Eigen/Dense>
 
+#include "abut/solid/contact_view.hpp"
 #include "abut/solid/statics.hpp"
 #include "solid/scenes.hpp"
 
@@ -111,7 +112,7 @@ void check_reaction() {
         CHECK(solution.report.compression < 0.3);
         const double area = Dim == 2 ? 1.4 : 1.4 * 1.1;
         double reaction = 0.0;
-        const auto field = solid.contact_field(solution.q);
+        const auto field = solid.contact_at(solution.q).field();
         for (std::size_t b = 0; b < field.pressure.size(); ++b)
             reaction += field.pressure[b] * mesh.face_measure[mesh.boundary_faces[b]];
         CHECK(reaction == Approx(area * (0.01 * 1.1 + 0.002)).epsilon(1e-9));
@@ -145,7 +146,7 @@ TEST_CASE("two matching blocks pressed onto each other carry one uniform stress,
     double worst = 0.0;
     for (std::int32_t c = 0; c < mesh.n_cells(); ++c) raise(worst, std::abs(solid.ccg().stress(c)(1, 1) + pressure));
     CHECK(worst < 1e-9 * pressure);
-    const auto field = solid.contact_field(solution.q);
+    const auto field = solid.contact_at(solution.q).field();
     for (const double p : field.pressure) CHECK((p == 0.0 || std::abs(p - pressure) < 1e-9 * pressure));
 }
 
@@ -180,7 +181,7 @@ TEST_CASE("bodies pressed in deeper than a run allows are refused under both law
     }
     try {
         static_cast<void>(solve());
-        FAIL("a compression of " << solid.compression() << " is taken");
+        FAIL("a compression of " << solid.contact().compression() << " is taken");
     } catch (const TooDeep& error) {
         CHECK(error.facts().value > limit);
         CHECK(error.facts().allowed == limit);

@@ -4,6 +4,8 @@
 
 #include "solid/scenes.hpp"
 
+#include "abut/solid/contact_view.hpp"
+
 using namespace abut;
 using namespace abut::test;
 using solid::Constraint;
@@ -90,7 +92,7 @@ TEMPLATE_TEST_CASE_SIG("what lands on a face that is held rebounds as it does fr
     const Vector<Dim> rebound = velocity_of(on_plane, 0);
     CHECK(rebound[Dim - 1] > 0.03);  // it has landed and left
     CHECK((motion.velocity - rebound).norm() < 1e-3 * rebound.norm());
-    const auto impulses = on_block.solid.contact_impulses();
+    const auto impulses = on_block.solid.contact().impulses();
     REQUIRE(impulses.size() == 1);
     CHECK((impulses[0].impulse - motion.mass * (motion.velocity - down)).norm() < 1e-12 * impulses[0].impulse.norm());
     CHECK(on_block.ledger.pseudo_energy_drift() < 1e-12 * on_block.kinetic_start());
@@ -110,7 +112,7 @@ TEMPLATE_TEST_CASE_SIG("bodies that turn or bend land on faces that are held", "
     scene.run_until(10.0);
     const auto motion = solid::body_motions<Dim>(scene.memm, scene.solid)[1];
     CHECK(motion.velocity[Dim - 1] > 0.03);
-    const auto impulses = scene.solid.contact_impulses();
+    const auto impulses = scene.solid.contact().impulses();
     REQUIRE(impulses.size() == 1);
     CHECK((impulses[0].impulse - motion.mass * (motion.velocity - down)).norm() < 1e-11 * impulses[0].impulse.norm());
     CHECK(scene.ledger.pseudo_energy_drift() < 1e-11 * scene.kinetic_start());
@@ -155,10 +157,10 @@ TEST_CASE("a driven punch compresses a block by E A / h", "[solid][supports]") {
     options.boundary.dirichlet = {face};
     Scene<2> scene(mesh, options, std::vector<Vector<2>>(2, Vector<2>::Zero()));
     scene.run_until(ramp, 20);
-    const double before = scene.solid.contact_impulses().front().impulse.norm(), since = scene.memm.time();
+    const double before = scene.solid.contact().impulses().front().impulse.norm(), since = scene.memm.time();
     scene.run_until(end, 20);
     double impulse = -before;
-    for (const auto& pair : scene.solid.contact_impulses())
+    for (const auto& pair : scene.solid.contact().impulses())
         if (pair.body_1 == 0 && pair.body_2 == 1) impulse += pair.impulse.norm();
     CHECK(impulse / (scene.memm.time() - since) == Approx(1.0 * stroke).epsilon(0.02));  // E A stroke / h
     CHECK(scene.ledger.pseudo_energy_drift() < 1e-12 * scene.ledger.largest_energy());
@@ -216,7 +218,7 @@ TEMPLATE_TEST_CASE_SIG("H~ is kept where faces in contact are held in some direc
     };
     Scene<Dim> scene(mesh, options, {Vector<Dim>::Zero(), along<Dim>(0.03, -0.05)}, 0.02);
     scene.run_until(6.0);
-    CHECK(scene.solid.contact_report().active_pairs_max > 0);
+    CHECK(scene.solid.contact().report().active_pairs_max > 0);
     CHECK(scene.solid.work() != 0.0);
     CHECK(scene.ledger.pseudo_energy_drift() < 1e-12 * scene.ledger.largest_energy());
     CHECK(velocity_of(scene, 1)[Dim - 1] > -0.02);  // it does not go on through it
@@ -230,9 +232,9 @@ TEST_CASE("a body that rests on a held face is found by the search for its equil
         body_above_block<2>(mesh::structured_box<2>({-0.4, 0.0}, {0.4, 0.4}, {4, 3}, CellShape::quadrangle, "box"));
     Scene<2> scene(mesh, options, {Vector<2>::Zero(), Vector<2>(0.0, -0.02)}, 0.02);
     scene.run(1);
-    const auto touching = scene.solid.touching_pairs(scene.memm.q(), 1e-3);
+    const auto touching = scene.solid.contact_at(scene.memm.q()).touching_pairs(1e-3);
     CHECK(touching.size() >= 4);
-    const auto field = scene.solid.contact_field(scene.memm.q());
+    const auto field = scene.solid.contact_at(scene.memm.q()).field();
     double force_on_block = 0.0, force_on_box = 0.0;
     for (std::size_t b = 0; b < field.pressure.size(); ++b) {
         const std::int32_t face = mesh.boundary_faces[b];

@@ -6,6 +6,8 @@
 #include <cmath>
 
 #include "abut/base/error.hpp"
+#include "abut/solid/cell_view.hpp"
+#include "abut/solid/contact_view.hpp"
 #include "abut/solid/statics.hpp"
 #include "solid/finite_scenes.hpp"
 
@@ -83,8 +85,8 @@ TEMPLATE_TEST_CASE_SIG("a warm body that nothing holds expands without stress, a
         const double free = expansion * rise * (Dim == 2 ? 1.0 + material.poisson : 1.0);
         CHECK(out_of_balance<Dim>(solid, mesh, free * Matrix<Dim>::Identity(), scale) <= 1e-12);
         for (std::int32_t c = 0; c < mesh.n_cells(); ++c) {
-            CHECK(solid.stress(c).norm() <= 1e-12 * scale);
-            CHECK(std::abs(solid.out_of_plane_stress(c) + (Dim == 2 ? scale : 0.0)) <= 1e-12 * scale);
+            CHECK(solid.cells().stress(c).norm() <= 1e-12 * scale);
+            CHECK(std::abs(solid.cells().out_of_plane_stress(c) + (Dim == 2 ? scale : 0.0)) <= 1e-12 * scale);
         }
         const auto q = sampled<Dim>(mesh, [&](const Vector<Dim>& x) -> Vector<Dim> { return free * x; });
         const double stored = Dim == 2 ? 0.5 * scale * expansion * rise * volume_of(mesh) : 0.0;
@@ -100,7 +102,7 @@ TEMPLATE_TEST_CASE_SIG("a warm body that nothing holds expands without stress, a
             const Vector<3> along =
                 rise * Vector<3>(turned.thermal_expansion, turned.thermal_expansion_2, turned.thermal_expansion_3);
             CHECK(out_of_balance<3>(of_wood, mesh, axes * along.asDiagonal() * axes.transpose(), scale) <= 1e-12);
-            for (std::int32_t c = 0; c < mesh.n_cells(); ++c) CHECK(of_wood.stress(c).norm() <= 1e-12 * scale);
+            for (std::int32_t c = 0; c < mesh.n_cells(); ++c) CHECK(of_wood.cells().stress(c).norm() <= 1e-12 * scale);
         }
     }
 }
@@ -129,7 +131,8 @@ TEMPLATE_TEST_CASE_SIG("warm bodies that are held have the thermal stresses of c
                     strain(i, i) = expansion * rise * (Dim == 2 ? (1.0 + nu) / (1.0 - nu) : 1.0 + nu);
             }
             CHECK(out_of_balance<Dim>(solid, mesh, strain, scale) <= 1e-12);
-            for (std::int32_t c = 0; c < mesh.n_cells(); ++c) CHECK((solid.stress(c) - stress).norm() <= 1e-12 * scale);
+            for (std::int32_t c = 0; c < mesh.n_cells(); ++c)
+                CHECK((solid.cells().stress(c) - stress).norm() <= 1e-12 * scale);
         }
 }
 
@@ -215,7 +218,7 @@ TEMPLATE_TEST_CASE_SIG(
             TurningScene<Dim> scene(mesh, options, motion, 0.6, kinematics);
             scene.run(steps_of_collision<Dim>);
             const Drifts drifts = scene.drifts();
-            CHECK(scene.solid.contact_report().active_pairs_max > 0);
+            CHECK(scene.solid.contact().report().active_pairs_max > 0);
             CHECK(std::abs(scene.solid.work()) > 1e-3 * scene.ledger.largest_energy());
             CHECK((scene.solid.dissipated().in_cells > 0.0) == yields);
             CHECK(drifts.pseudo_energy <= 1e-12);

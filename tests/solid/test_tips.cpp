@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "abut/contact/blind_corners.hpp"
+#include "abut/solid/contact_view.hpp"
 #include "solid/turning_scenes.hpp"
 
 using namespace abut;
@@ -52,7 +53,7 @@ TEST_CASE("tips of all angles part from a block that they strike, whatever the k
     TurningScene<2> scene(
         together(block({-0.75, -0.5}, {0.75, 0.0}), wedge(degrees * std::numbers::pi / 180.0, 1.0, 12, {0.03, 0.2 * speed})),
         options, {moving<2>({0.0, 0.0}), moving<2>({0.0, -speed})}, 0.6, {Kinematics::floating, kinematics});
-    CHECK(scene.solid.blind_corners().empty());
+    CHECK(scene.solid.contact().blind_corners().empty());
     scene.run_until(6.0);
     check_collision(scene);
     const auto motions = solid::body_motions<2>(scene.memm, scene.solid);
@@ -83,5 +84,5 @@ TEST_CASE("a block that falls on the rigid tip of an obstacle rebounds, and a ti
     CHECK(body.velocity[1] > 0.1 * speed);
     const Drifts drifts = scene.drifts();
     CHECK(drifts.pseudo_energy <= 1e-12);
-    CHECK(scene.solid.contact_report().missed_contacts == 0);
+    CHECK(scene.solid.contact().report().missed_contacts == 0);
 }

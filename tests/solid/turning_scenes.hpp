@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "abut/dynamics/point_system.hpp"
+#include "abut/solid/contact_view.hpp"
 #include "solid/scenes.hpp"
 
 namespace abut::test {
@@ -129,7 +130,7 @@ struct TurningScene {
 template <int Dim>
 void check_collision(const TurningScene<Dim>& scene) {
     const Drifts drifts = scene.drifts();
-    const auto report = scene.solid.contact_report();
+    const auto report = scene.solid.contact().report();
     CHECK(report.active_pairs_max > 0);
     CHECK(report.missed_contacts == 0);
     CHECK(drifts.pseudo_energy <= 1e-12);

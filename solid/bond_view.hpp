@@ -1,0 +1,30 @@
+#pragma once
+#include <cstddef>
+#include <span>
+
+#include "abut/solid/bond_places.hpp"
+
+namespace abut::solid {
+
+template <int Dim>
+class Solid;
+
+/// Bonds of a solid as they are now (Solid::bonds). It is of use as long as the solid lives.
+template <int Dim>
+class BondView {
+public:
+    explicit BondView(const Solid<Dim>& solid) : solid_(solid) {}
+
+    /// Where faces are bonded, whether they are still or not; empty without bonds.
+    [[nodiscard]] std::span<const BondPlace<Dim>> places() const;
+    [[nodiscard]] bool is_broken(std::size_t place) const;
+    /// What is left of the pull of a place at the same jump [-]: 1 whole, 0 broken.
+    [[nodiscard]] double share(std::size_t place) const;
+    /// The part of the area of all bonds that is broken [-]; 0 without bonds.
+    [[nodiscard]] double broken_share() const;
+
+private:
+    const Solid<Dim>& solid_;
+};
+
+}  // namespace abut::solid

@@ -1,0 +1,147 @@
+// What a solid tells of the cells of its mesh, and the path between them and its points.
+#include "abut/solid/cell_view.hpp"
+
+#include <algorithm>
+#include <string>
+
+#include "abut/base/error.hpp"
+#include "abut/solid/bodies.hpp"
+#include "abut/solid/body_cells.hpp"
+#include "abut/solid/rank_part.hpp"
+#include "abut/solid/solid.hpp"
+
+namespace abut::solid {
+namespace {
+
+template <int Dim>
+std::vector<double> as_numbers(const std::vector<Vector<Dim>>& vectors) {
+    std::vector<double> numbers;
+    for (const Vector<Dim>& vector : vectors) numbers.insert(numbers.end(), vector.begin(), vector.end());
+    return numbers;
+}
+
+}  // namespace
+
+template <int Dim>
+OwnCells CellView<Dim>::own() const {
+    OwnCells own;
+    std::vector<bool> is_own(solid_.mesh_.cell_body.size(), false), is_own_body(solid_.mesh_.body_names.size(), false);
+    for (const std::int32_t c : solid_.part_->own_cells()) is_own[solid_.bodies_->mesh_cell(c)] = true;
+    for (const std::int32_t i : solid_.part_->own_rigid()) is_own_body[solid_.bodies_->rigid().mesh_body(i)] = true;
+    std::int32_t deformable = 0, begin = 0;  // bodies that deform so far; where a body begins in the whole mesh
+    for (std::int32_t body = 0; body < solid_.mesh_.n_bodies(); ++body) {
+        const auto [first, last] = cells_of_body(solid_.mesh_, body);
+        const bool rigid = solid_.bodies_->is_rigid(body);
+        for (std::int32_t c = first; c < last; ++c) {
+            if (rigid ? !is_own_body[body] : !is_own[c]) continue;
+            const std::int32_t in_body =
+                rigid ? c - first
+                      : static_cast<std::int32_t>(solid_.part_->cell_numbers()[solid_.bodies_->deformable_cell(c).first]) -
+                            solid_.part_->body_begin()[deformable];
+            own.number.push_back(begin + in_body);
+            own.position.push_back(c);
+        }
+        begin += rigid ? last - first : solid_.part_->body_begin()[deformable + 1] - solid_.part_->body_begin()[deformable];
+        if (!rigid) ++deformable;
+    }
+    return own;
+}
+
+template <int Dim>
+Matrix<Dim> CellView<Dim>::stress(std::int32_t cell) const {
+    const auto [deformable, body] = solid_.bodies_->deformable_cell(cell);
+    if (deformable < 0) return Matrix<Dim>::Zero();
+    const Matrix<Dim>& turn = solid_.frames_->end()[static_cast<std::size_t>(body)].turn;
+    return turn * solid_.ccg_.stress(deformable) * turn.transpose();
+}
+
+template <int Dim>
+double CellView<Dim>::out_of_plane_stress(std::int32_t cell) const {
+    if constexpr (Dim == 3) return 0.0;
+    const std::int32_t deformable = solid_.bodies_->deformable_cell(cell).first;
+    if (deformable < 0) return 0.0;
+    if (const auto of_law = solid_.ccg_.out_of_plane_stress(deformable)) return *of_law;
+    const auto body = static_cast<std::size_t>(solid_.mesh_.cell_body[static_cast<std::size_t>(cell)]);
+    return solid_.options_.materials[body].poisson * stress(cell).trace();
+}
+
+template <int Dim>
+double CellView<Dim>::plastic_strain(std::int32_t cell) const {
+    const std::int32_t deformable = solid_.bodies_->deformable_cell(cell).first;
+    return deformable < 0 ? 0.0 : solid_.ccg_.plastic_strain(deformable);
+}
+
+template <int Dim>
+Matrix<Dim> CellView<Dim>::displacement_gradient(std::int32_t cell, std::span<const double> q) const {
+    const auto [deformable, body] = solid_.bodies_->deformable_cell(cell);
+    if (deformable >= 0) {
+        const Matrix<Dim>& turn = solid_.frames_->end()[static_cast<std::size_t>(body)].turn;
+        return turn * solid_.ccg_.displacement_gradient(deformable) + turn - Matrix<Dim>::Identity();
+    }
+    for (std::size_t i = 0; i < solid_.bodies_->rigid().size(); ++i)
+        if (solid_.bodies_->rigid().mesh_body(i) == solid_.mesh_.cell_body[cell])
+            return solid_.bodies_->rigid().place_by(i, own_points_of(i, as_vectors<Dim>(q))).map - Matrix<Dim>::Identity();
+    return Matrix<Dim>::Zero();
+}
+
+/// The part of q that belongs to an own rigid body.
+template <int Dim>
+std::span<const Vector<Dim>> CellView<Dim>::own_points_of(std::size_t rigid, std::span<const Vector<Dim>> q) const {
+    constexpr std::size_t n = RigidBodies<Dim>::points_per_body;
+    const auto own = solid_.part_->own_rigid();
+    const auto found = std::ranges::find(own, static_cast<std::int32_t>(rigid));
+    if (found == own.end())
+        throw Misuse("solid: the displacement gradient of rigid body " +
+                     std::to_string(solid_.bodies_->rigid().mesh_body(rigid)) +
+                     " is asked for on a rank that does not own its points. Ask the one that does (CellView::own).");
+    return q.subspan(solid_.part_->own_cells().size() + n * static_cast<std::size_t>(found - own.begin()), n);
+}
+
+template <int Dim>
+std::vector<Vector<Dim>> CellView<Dim>::vertex_displacement(std::span<const double> q) const {
+    dynamics::refuse_ranks(solid_.ranks(), {{"displacements of vertices"}});
+    const std::vector<Vector<Dim>> of_cells = displacement(q);
+    std::vector<Vector<Dim>> result(solid_.mesh_.vertices.size(), Vector<Dim>::Zero());
+    std::vector<int> n_cells(solid_.mesh_.vertices.size(), 0);
+    for (std::int32_t c = 0; c < solid_.mesh_.n_cells(); ++c) {
+        const Matrix<Dim> gradient = displacement_gradient(c, q);
+        for (const std::int32_t v : solid_.mesh_.cell_vertices[c]) {
+            result[v] += of_cells[c] + gradient * (solid_.mesh_.vertices[v] - solid_.mesh_.cell_centroid[c]);
+            ++n_cells[v];
+        }
+    }
+    for (std::size_t v = 0; v < result.size(); ++v) result[v] /= std::max(1, n_cells[v]);
+    return result;
+}
+
+template <int Dim>
+std::vector<Vector<Dim>> CellView<Dim>::displacement(std::span<const double> q) const {
+    std::vector<Vector<Dim>> kept;
+    return solid_.bodies_->of_cells(solid_.part_->filled(as_vectors<Dim>(q), kept));
+}
+
+template <int Dim>
+std::vector<Vector<Dim>> CellView<Dim>::velocity(std::span<const double> p) const {
+    std::vector<Vector<Dim>> kept;
+    return solid_.bodies_->velocities(solid_.part_->filled(as_vectors<Dim>(p), kept));
+}
+
+template <int Dim>
+std::vector<double> CellView<Dim>::to_q(std::span<const Vector<Dim>> of_cells) const {
+    return as_numbers<Dim>(solid_.part_->own(solid_.bodies_->of_points(of_cells)));
+}
+
+template <int Dim>
+std::vector<double> CellView<Dim>::to_p(std::span<const Vector<Dim>> cell_velocity) const {
+    return as_numbers<Dim>(solid_.part_->own(solid_.bodies_->momenta(cell_velocity)));
+}
+
+template <int Dim>
+const FiniteExtremes& CellView<Dim>::finite_extremes() const {
+    return solid_.finite_extremes_;
+}
+
+template class CellView<2>;
+template class CellView<3>;
+
+}  // namespace abut::solid

@@ -1,0 +1,37 @@
+#pragma once
+#include <span>
+#include <string>
+#include <vector>
+
+#include "abut/base/vector.hpp"
+
+namespace abut::solid {
+
+template <int Dim>
+class Solid;
+
+/// The faces of a group whose tractions a program outside sets (TractionCondition::from_outside, Solid::outside), all in the order
+/// of the group. It is of use as long as the solid lives. docs/loads.md; `outside_faces` gives all of it in one value.
+template <int Dim>
+class OutsideView {
+public:
+    OutsideView(const Solid<Dim>& solid, std::string group) : solid_(solid), group_(std::move(group)) {}
+
+    [[nodiscard]] std::span<const Vector<Dim>> traction() const;  ///< as set last (n_faces) [Pa]
+    /// Of the centroids in q, under the tractions of the last step (n_faces) [m].
+    [[nodiscard]] std::vector<Vector<Dim>> position(std::span<const double> q) const;
+    /// Of the centroids at momenta p, while tractions and supports stay (n_faces) [m/s].
+    [[nodiscard]] std::vector<Vector<Dim>> velocity(std::span<const double> p) const;
+    /// By how far the centroids move in a step from q_0 at `time` to q_1 at time + dt (n_faces) [m]: sum of |f| t . this is the
+    /// work of the tractions. It does not depend on them, and with Memm::next_q it is known before the step.
+    [[nodiscard]] std::vector<Vector<Dim>> motion(std::span<const double> q_0, std::span<const double> q_1, double time,
+                                                  double dt) const;
+    /// Out of the body in q, which was stepped to or evaluated last; at rest where it has no frame (n_faces).
+    [[nodiscard]] std::vector<Vector<Dim>> normal(std::span<const double> q) const;
+
+private:
+    const Solid<Dim>& solid_;
+    std::string group_;
+};
+
+}  // namespace abut::solid
