@@ -60,7 +60,7 @@ void Solid<Dim>::mean_force(std::span<const double> q_0, std::span<const double>
     const auto [u_0, u_1] = ends_here(q_0, q_1);
     follow_loads(u_0, time, dt);
     const BoundaryLoad<Dim>& start_load = loads_->vary() ? loads_->start() : loads_->end();
-    ccg_.begin_step(of_cells(u_0), start_load);
+    ccg_.begin_step(of_cells(u_0), start_load, dt);
     bodies_->rigid().follow(u_0, u_1);
     const double motion = follow_frames(of_cells(u_0), of_cells(u_1));
     if (contact_) {

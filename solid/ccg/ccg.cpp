@@ -339,8 +339,8 @@ bool Ccg<Dim>::any_face_moves() const {
 }
 
 template <int Dim>
-void Ccg<Dim>::begin_step(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load) {
-    if (impl_->finite.any_inelastic()) impl_->sweeps.begin_step(u, load);
+void Ccg<Dim>::begin_step(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load, double dt) {
+    if (impl_->finite.any_inelastic()) impl_->sweeps.begin_step(u, load, dt);
 }
 
 template <int Dim>

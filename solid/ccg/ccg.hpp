@@ -183,7 +183,7 @@ public:
     [[nodiscard]] bool any_damped() const;
     /// The largest Material::damping_ratio of a mode with this frequency [rad/s].
     [[nodiscard]] double damping_ratio(double omega) const;
-    void begin_step(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load);
+    void begin_step(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load, double dt);
     void end_step();
     /// All cells are at rest: damping and viscosity begin from rates of 0.
     void bring_to_rest();

@@ -266,7 +266,7 @@ void CcgSweeps<Dim, Real>::take_ends(const StepEnds<Dim>& ends) {
     static const BoundaryLoad<Dim> none;
     const BoundaryLoad<Dim>& start_load = ends.start_load ? *ends.start_load : none;
     const BoundaryLoad<Dim>& end_load = ends.end_load ? *ends.end_load : none;
-    begin_step(ends.start, start_load);
+    begin_step(ends.start, start_load, ends.dt);
     advances_ = finite_.any_inelastic();
     looks_at_end_ = advances_;
     end_ = ends.end;
@@ -280,7 +280,8 @@ void CcgSweeps<Dim, Real>::take_ends(const StepEnds<Dim>& ends) {
 
 /// Takes the start from where the last step ended, if that is here; what materials remember goes on wherever the step begins.
 template <int Dim, class Real>
-void CcgSweeps<Dim, Real>::begin_step(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load) {
+void CcgSweeps<Dim, Real>::begin_step(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load, double dt) {
+    dt_ = dt;  // contact asks where faces end before the step is made
     if (finite_.any_inelastic()) {
         if (has_ended_) std::swap(kept_.start, kept_.end);
         has_ended_ = looks_at_end_ = false;
@@ -486,27 +487,27 @@ double CcgSweeps<Dim, Real>::directed_out_of_plane_stress(std::int32_t c) const 
     return (cell.lambda * strain.trace() + arrays_.directed[c].out_of_plane_stress(strain)) / volume;
 }
 
-#define ABUT_INSTANTIATE(Dim)                                                                             \
-    template Matrix<Dim> CcgSweeps<Dim>::linear_change(std::int32_t) const;                               \
-    template bool CcgSweeps<Dim>::makes_change(std::int32_t);                                             \
-    template Matrix<Dim> CcgSweeps<Dim>::change_of_stage(std::int32_t) const;                             \
-    template void CcgSweeps<Dim>::add_stress(std::int32_t, const Matrix<Dim>&);                           \
-    template void CcgSweeps<Dim>::add_linear_stress(std::int32_t);                                        \
-    template void CcgSweeps<Dim>::take_ends(const StepEnds<Dim>&);                                        \
-    template void CcgSweeps<Dim>::begin_step(std::span<const Vector<Dim>>, const BoundaryLoad<Dim>&);     \
-    template void CcgSweeps<Dim>::end_step();                                                             \
-    template void CcgSweeps<Dim>::set_memory(std::span<const double>);                                    \
-    template void CcgSweeps<Dim>::load_end(std::int32_t);                                                 \
-    template Response<Dim> CcgSweeps<Dim>::law_response(std::int32_t, const Matrix<Dim>&) const;          \
-    template Lanes<Dim> CcgSweeps<Dim>::boundary_change(BoundaryFace) const;                              \
-    template LaneTensor<Dim> CcgSweeps<Dim>::finite_stress(std::ptrdiff_t, const LaneTensor<Dim>&) const; \
-    template void CcgSweeps<Dim>::set_finite_displacement_gradient(std::int32_t);                         \
-    template void CcgSweeps<Dim>::set_finite_stress(std::int32_t);                                        \
-    template void CcgSweeps<Dim>::add_moments(std::int32_t, std::int32_t);                                \
-    template std::pair<Vector<Dim>, Matrix<Dim>> CcgSweeps<Dim>::tilted_face(BoundaryFace) const;         \
-    template FiniteExtremes CcgSweeps<Dim>::finite_extremes(std::span<const std::int32_t>) const;         \
-    template Matrix<Dim> CcgSweeps<Dim>::law_gradient(std::int32_t) const;                                \
-    template Matrix<Dim> CcgSweeps<Dim>::cauchy_stress(std::int32_t) const;                               \
+#define ABUT_INSTANTIATE(Dim)                                                                                 \
+    template Matrix<Dim> CcgSweeps<Dim>::linear_change(std::int32_t) const;                                   \
+    template bool CcgSweeps<Dim>::makes_change(std::int32_t);                                                 \
+    template Matrix<Dim> CcgSweeps<Dim>::change_of_stage(std::int32_t) const;                                 \
+    template void CcgSweeps<Dim>::add_stress(std::int32_t, const Matrix<Dim>&);                               \
+    template void CcgSweeps<Dim>::add_linear_stress(std::int32_t);                                            \
+    template void CcgSweeps<Dim>::take_ends(const StepEnds<Dim>&);                                            \
+    template void CcgSweeps<Dim>::begin_step(std::span<const Vector<Dim>>, const BoundaryLoad<Dim>&, double); \
+    template void CcgSweeps<Dim>::end_step();                                                                 \
+    template void CcgSweeps<Dim>::set_memory(std::span<const double>);                                        \
+    template void CcgSweeps<Dim>::load_end(std::int32_t);                                                     \
+    template Response<Dim> CcgSweeps<Dim>::law_response(std::int32_t, const Matrix<Dim>&) const;              \
+    template Lanes<Dim> CcgSweeps<Dim>::boundary_change(BoundaryFace) const;                                  \
+    template LaneTensor<Dim> CcgSweeps<Dim>::finite_stress(std::ptrdiff_t, const LaneTensor<Dim>&) const;     \
+    template void CcgSweeps<Dim>::set_finite_displacement_gradient(std::int32_t);                             \
+    template void CcgSweeps<Dim>::set_finite_stress(std::int32_t);                                            \
+    template void CcgSweeps<Dim>::add_moments(std::int32_t, std::int32_t);                                    \
+    template std::pair<Vector<Dim>, Matrix<Dim>> CcgSweeps<Dim>::tilted_face(BoundaryFace) const;             \
+    template FiniteExtremes CcgSweeps<Dim>::finite_extremes(std::span<const std::int32_t>) const;             \
+    template Matrix<Dim> CcgSweeps<Dim>::law_gradient(std::int32_t) const;                                    \
+    template Matrix<Dim> CcgSweeps<Dim>::cauchy_stress(std::int32_t) const;                                   \
     template double CcgSweeps<Dim>::directed_out_of_plane_stress(std::int32_t) const;
 ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)

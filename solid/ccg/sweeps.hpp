@@ -81,7 +81,7 @@ public:
                         const FaceCorrections<Dim>& corrections, std::span<Vector<Dim>> result);
 
     /// See Ccg.
-    void begin_step(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load);
+    void begin_step(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load, double dt);
     void end_step();
     [[nodiscard]] std::span<const double> memory_of(std::int32_t index) const { return here().memory->of(index); }
     [[nodiscard]] std::span<const double> memory() const { return here().memory->values(); }
