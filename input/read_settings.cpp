@@ -7,9 +7,9 @@
 
 #include "abut/input/keys.hpp"
 #include "abut/input/make_body.hpp"
-#include "abut/input/materials.hpp"
 #include "abut/input/nearest_word.hpp"
 #include "abut/input/patterns.hpp"
+#include "abut/solid/material/known_materials.hpp"
 
 namespace abut::input {
 namespace {
@@ -78,13 +78,13 @@ void take_material(BodySettings& body, const Node& name, const std::string& path
         body.material = found->material;
         return;
     }
-    if (const KnownMaterial* known = known_material(name.text)) {
+    if (const solid::KnownMaterial* known = solid::known_material(name.text)) {
         body.material = known->material;
         return;
     }
     std::vector<std::string> names;
     for (const MaterialSettings& material : materials) names.push_back(material.name);
-    for (const KnownMaterial& known : known_materials()) names.push_back(known.name);
+    for (const solid::KnownMaterial& known : solid::known_materials()) names.push_back(known.name);
     reader.fault(name, fmt::format("{}.material is '{}', which is no material.{} Give [materials.NAME] for another; abut "
                                    "materials lists those that need no table.",
                                    path, name.text, hint_of_name(name.text, names)));
@@ -98,7 +98,8 @@ void take_yield_stress(BodySettings& body, const std::vector<MaterialSettings>& 
         return;
     }
     if (std::ranges::find(materials, body.material_name, &MaterialSettings::name) != materials.end()) return;
-    if (const KnownMaterial* known = known_material(body.material_name)) take_flow(body.material, *known);
+    if (const solid::KnownMaterial* known = solid::known_material(body.material_name))
+        solid::take_flow(body.material, *known);
 }
 
 /// Tables within that of a body that are none of its keys: each of a body of its file, or of a region.

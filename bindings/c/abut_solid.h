@@ -1,4 +1,4 @@
-/* Elastic bodies in contact that another program drives, for C99: it sets tractions on boundary faces, dictates the step, and is
+/* Bodies in contact that another program drives, elastic, of rubber, wood or metal that yields, for C99: it sets tractions on boundary faces, dictates the step, and is
    told where these faces go. docs/loads.md has the equations; the rules of abut.h hold here, too: statuses, errors, arrays of the
    caller's own, one thread at a time.
 
@@ -22,7 +22,7 @@ extern "C" {
 
 typedef struct abut_solid abut_solid;
 
-/* Isotropic linear elasticity. */
+/* Isotropic linear elasticity: what a body begins with. Other laws and numbers: abut_solid_set_text and _set_number. */
 typedef struct abut_material {
     double young;
     double poisson;
@@ -53,6 +53,25 @@ ABUT_API int abut_solid_load(abut_solid* solid, const char* group, const double*
    at once. Glued faces do not touch the body that they are glued to. docs/method.md, Bonds. */
 ABUT_API int abut_solid_bond(abut_solid* solid, const char* side_1, const char* side_2, double strength,
                              double fracture_energy, abut_error* error);
+
+/* What a body is made of and how it moves, by the names that scenes have (docs/scenes.md, [bodies.NAME]); of several calls the last counts.
+   A body that is not there is told by `abut_solid_begin`, a name or a value that cannot be at once.
+   - Numbers of a material, SI: "yield_stress", "hardening", "kinematic_hardening", "thermal_expansion", "mass_damping", ...
+   - Texts: "law" is "st_venant_kirchhoff", "j2" (metal that yields), "orthotropic", of finite bodies "neo_hookean", "mooney_rivlin";
+     "kinematics" is "small", which bodies are where nothing is said, "floating", "finite" (take restart 50) or "rigid"; "material" is one
+     that is known by its name, "steel S235" (docs/scenes.md, Materials by name), in the place of the values that the body was added
+     with, and with "law" "j2" of its flow as well; and all numbers with units, "young" "210 GPa".
+   - Lists: "axis_1" and "axis_2" (3) of orthotropic in 3D; "hardening_table", rows of plastic strain and stress. */
+ABUT_API int abut_solid_set_number(abut_solid* solid, const char* body, const char* key, double value, abut_error* error);
+ABUT_API int abut_solid_set_text(abut_solid* solid, const char* body, const char* key, const char* text, abut_error* error);
+ABUT_API int abut_solid_set_numbers(abut_solid* solid, const char* body, const char* key, const double* numbers, int64_t n,
+                                    abut_error* error);
+/* How much warmer than where it has no thermal strain [K] a small or floating body with a "thermal_expansion" is at a place at rest; not
+   beside groups that are loaded from outside. `rise` is asked once, for time 0, or where it `varies` for each step, which has the
+   temperatures of its start. `user` is handed to it; both live as long as the solid. */
+ABUT_API int abut_solid_set_temperature(abut_solid* solid, const char* body,
+                                        double (*rise)(double time, const double* position, void* user), int32_t varies,
+                                        void* user, abut_error* error);
 
 typedef struct abut_solid_options {
     size_t struct_size;
@@ -86,6 +105,20 @@ ABUT_API int abut_solid_faces(abut_solid* solid, const char* group, const abut_s
 /* Forces per area, one per face, from the next step on until they are set again. */
 ABUT_API int abut_solid_set_traction(abut_solid* solid, const char* group, abut_array traction, abut_error* error);
 
+/* The cells of a body, in one order throughout. Arrays with data NULL are not written; the others have n_cells entries. */
+typedef struct abut_solid_cell_arrays {
+    size_t struct_size;
+    int64_t n_cells;
+    abut_array position;    /* of the centroids */
+    abut_array velocity;    /* of the same */
+    abut_array stress;      /* Cauchy's, dim x dim numbers each: xx, xy, ... */
+    double* plastic_strain; /* equivalent; may be NULL */
+} abut_solid_cell_arrays;
+#define ABUT_SOLID_CELL_ARRAYS_INIT {sizeof(abut_solid_cell_arrays), 0, {0, 0, 0, 0}, {0, 0, 0, 0}, {0, 0, 0, 0}, 0}
+ABUT_API int abut_solid_n_cells(const abut_solid* solid, const char* body, int64_t* n, abut_error* error);
+/* Costs about a force. */
+ABUT_API int abut_solid_cells(abut_solid* solid, const char* body, const abut_solid_cell_arrays* cells, abut_error* error);
+
 enum {
     ABUT_KEEP = 0,   /* momenta stay: for slow and smooth changes of dt; H~ is exact */
     ABUT_RESTART = 1 /* momenta are rebuilt: for abrupt ones; what that changes in H~ is in `restart_jumps` */
@@ -94,7 +127,8 @@ ABUT_API int abut_solid_set_step(abut_solid* solid, double dt, int32_t change, a
 /* After ABUT_TOO_DEEP or ABUT_DIVERGED the run is over. */
 ABUT_API int abut_solid_step(abut_solid* solid, abut_error* error);
 
-/* H~ + work_held + dissipated = its start + work_steps + work_changes + restart_jumps, to round-off. */
+/* H~ + work_held + dissipated = its start + work_steps + work_changes + restart_jumps, to round-off; where temperatures vary, and nothing
+   is loaded from outside, H~ + dissipated = its start + "work" (abut_solid_get_number) + restart_jumps. */
 typedef struct abut_solid_state {
     size_t struct_size;
     int64_t steps;
@@ -111,7 +145,7 @@ typedef struct abut_solid_state {
     double parasitic;        /* largest |e|/m: the alternating mode, as a velocity */
     int64_t active_pairs;    /* of contact, in the last step */
     int64_t missed_contacts; /* must stay 0 */
-    double dissipated;       /* by friction and bonds that open, so far */
+    double dissipated;       /* by friction, materials and bonds that open, so far */
     double friction_energy;  /* held by faces that stick, a part of H~ and H */
     int64_t sticking_faces;  /* in the last step */
     int64_t sliding_faces;
@@ -121,6 +155,9 @@ typedef struct abut_solid_state {
     {sizeof(abut_solid_state), 0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0, 0, 0.0, 0.0, 0, 0, 0.0}
 /* Costs about two forces. */
 ABUT_API int abut_solid_get_state(abut_solid* solid, abut_solid_state* state, abut_error* error);
+/* A number of the ledger by the name of its column in energy.csv (docs/results.md): "work", "dissipated_in_cells", "linear_momentum_x",
+   "rotation", ... The same cost. */
+ABUT_API int abut_solid_get_number(abut_solid* solid, const char* column, double* value, abut_error* error);
 
 #ifdef __cplusplus
 }

@@ -4,181 +4,21 @@
 #include <array>
 #include <atomic>
 #include <memory>
-#include <optional>
-#include <span>
 #include <string>
 #include <type_traits>
-#include <utility>
 #include <variant>
 #include <vector>
 
-#include "abut/contact/option_table.hpp"
-#include "abut/dynamics/ledger.hpp"
-#include "abut/dynamics/stable_step.hpp"
-#include "abut/dynamics/step_options.hpp"
-#include "abut/mesh/interpenetration.hpp"
 #include "abut/mesh/io/read_mesh.hpp"
 #include "abut/mesh/shapes/shapes.hpp"
-#include "abut/solid/body_motion.hpp"
-#include "abut/solid/bond_view.hpp"
-#include "abut/solid/contact_view.hpp"
-#include "abut/solid/outside_faces.hpp"
-#include "abut/solid/outside_view.hpp"
-#include "abut/solid/solid.hpp"
-#include "abut/solid/stepped_run.hpp"
 #include "arguments.hpp"
 #include "in_use.hpp"
+#include "solid_run.hpp"
 
 using namespace abut;
 using namespace abut::c_layer;
 
 namespace {
-
-/// What has been added so far, and then the run.
-template <int Dim>
-class SolidRun {
-public:
-    void add(mesh::Mesh<Dim> mesh, const abut_material& material, const double* velocity) {
-        for (std::int32_t body = 0; body < mesh.n_bodies(); ++body) {
-            options_.materials.push_back({material.young, material.poisson, material.density});
-            velocity_.push_back(vector_of(velocity));
-        }
-        meshes_.push_back(std::move(mesh));
-    }
-    void hold(const char* group, solid::Constraint constraint) {
-        options_.boundary.dirichlet.push_back({.group = group, .constraint = constraint});
-    }
-    void load(const char* group, const double* traction) {
-        options_.boundary.traction.push_back({.group = group, .value = vector_of(traction), .from_outside = true});
-    }
-    void bond(const char* side_1, const char* side_2, double strength, double fracture_energy) {
-        bonds_.push_back({{side_1, side_2}, strength, fracture_energy});
-    }
-    void begin(const abut_solid_options& given);
-    void write_faces(const std::string& group, const abut_solid_face_arrays& faces);
-    void set_traction(const std::string& group, const abut_array& traction) {
-        const PointsView<Dim> view = view_of<Dim>(traction, "traction");
-        std::vector<Vector<Dim>> values;
-        for (std::int32_t i = 0; i < view.size(); ++i) values.push_back(view[i]);
-        run_->solid().set_traction(group, values);
-    }
-    [[nodiscard]] std::int64_t n_faces(const std::string& group) const {
-        return std::ssize(run_->solid().outside(group).traction());
-    }
-    [[nodiscard]] bool has_begun() const { return run_.has_value(); }
-    [[nodiscard]] solid::SteppedRun<Dim>& run() { return *run_; }
-    void write_state(abut_solid_state& state);
-
-private:
-    static Vector<Dim> vector_of(const double* given) {
-        return given == nullptr ? Vector<Dim>(Vector<Dim>::Zero()) : Vector<Dim>(Eigen::Map<const Vector<Dim>>(given));
-    }
-
-    struct NamedBond {
-        std::array<std::string, 2> sides;
-        double strength, fracture_energy;
-    };
-    [[nodiscard]] std::int32_t side_of_bond(const std::string& name) const;
-
-    std::vector<mesh::Mesh<Dim>> meshes_;
-    std::vector<NamedBond> bonds_;
-    solid::SolidOptions<Dim> options_;
-    std::vector<Vector<Dim>> velocity_;
-    mesh::Mesh<Dim> mesh_;
-    std::optional<solid::SteppedRun<Dim>> run_;
-    double stable_dt_ = 0.0;
-};
-
-template <int Dim>
-std::int32_t SolidRun<Dim>::side_of_bond(const std::string& name) const {
-    if (const auto body = std::ranges::find(mesh_.body_names, name); body != mesh_.body_names.end())
-        return static_cast<std::int32_t>(body - mesh_.body_names.begin());
-    const auto group = std::ranges::find(mesh_.groups, name, &mesh::BoundaryGroup::name);
-    if (group == mesh_.groups.end())
-        throw BadInput("abut_solid_bond: there is no body and no group '" + name +
-                       "'. Give one that was added, with its body in front where several have it.");
-    return mesh_.n_bodies() + static_cast<std::int32_t>(group - mesh_.groups.begin());
-}
-
-template <int Dim>
-void SolidRun<Dim>::begin(const abut_solid_options& given) {
-    if (meshes_.empty()) throw Misuse("abut_solid_begin: there is no body. Add one by abut_solid_add_box or _add_file.");
-    const std::string whose = "abut_solid_options: ";
-    check_value(whose, named(dynamics::step_options(), "dt"), given.dt, 0.0);
-    check_value(whose, named(dynamics::step_options(), "cfl"), given.cfl, 0.0);
-    check_value(whose, named(dynamics::step_options(), "restart"), std::int64_t{given.restart}, std::int64_t{0});
-    check_value(whose, named(contact::friction_options(), "friction"), given.friction, 0.0);
-    mesh_ = mesh::combine<Dim>(std::span<const mesh::Mesh<Dim>>(meshes_));
-    solid::SolidOptions<Dim> options = options_;
-    options.friction.coefficient = given.friction;
-    for (const NamedBond& bond : bonds_)
-        options.bonds.push_back({.sides = {side_of_bond(bond.sides[0]), side_of_bond(bond.sides[1])},
-                                 .strength = bond.strength,
-                                 .fracture_energy = bond.fracture_energy});
-    if (given.contact != 0) {
-        options.contact = contact::ContactOptions{};
-        mesh::check_apart(mesh_, "", options.contact->search.broad_phase);
-    }
-    auto solid = std::make_unique<solid::Solid<Dim>>(mesh_, std::move(options));
-    stable_dt_ = dynamics::stable_step(*solid).dt;
-    const double dt = given.dt > 0.0 ? given.dt : (given.cfl > 0.0 ? given.cfl : dynamics::StepOptions{}.cfl) * stable_dt_;
-    const bool rubs = given.contact != 0 && given.friction > 0.0;
-    const int restart = given.restart == 0 && rubs ? solid::restart_with_friction : given.restart;
-    const std::vector<double> at_rest(solid->size(), 0.0), p = solid::uniform_momentum<Dim>(*solid, velocity_);
-    run_.emplace(std::move(solid), at_rest, p, dt, solid::RunRemedies{.filter = rubs, .restart = restart});
-}
-
-template <int Dim>
-void SolidRun<Dim>::write_faces(const std::string& group, const abut_solid_face_arrays& faces) {
-    const solid::OutsideFaces<Dim> now = solid::outside_faces<Dim>(run_->memm(), run_->solid(), group);
-    const auto n = std::ssize(now.area);
-    const auto require_size = [n](std::int64_t given, const std::string& name) {
-        if (given != n)
-            throw BadInput(name + " has place for " + std::to_string(given) + " faces, the group has " + std::to_string(n) +
-                               ". abut_solid_n_faces tells how many.",
-                           {.value = static_cast<double>(given), .allowed = static_cast<double>(n)});
-    };
-    require_size(faces.n_faces, "abut_solid_face_arrays");
-    auto& memm = run_->memm();
-    const std::vector<Vector<Dim>> motion =
-        run_->solid().outside(group).motion(memm.q(), memm.next_q(), memm.time(), memm.dt());
-    const std::pair<const abut_array&, const std::vector<Vector<Dim>>&> arrays[] = {
-        {faces.position, now.position}, {faces.velocity, now.velocity}, {faces.normal, now.normal}, {faces.motion, motion}};
-    for (const auto& [to, values] : arrays)
-        if (to.data != nullptr) require_size(to.count, "an array of abut_solid_face_arrays");
-    for (const auto& [to, values] : arrays)
-        for (std::ptrdiff_t i = 0; to.data != nullptr && i < n; ++i)
-            for (int d = 0; d < Dim; ++d) to.data[i * to.item + d * to.component] = values[static_cast<std::size_t>(i)][d];
-    if (faces.area != nullptr) std::ranges::copy(now.area, faces.area);
-}
-
-template <int Dim>
-void SolidRun<Dim>::write_state(abut_solid_state& state) {
-    auto& memm = run_->memm();
-    auto& solid = run_->solid();
-    const dynamics::LedgerEntry<Dim> entry = dynamics::measure(memm, solid);
-    const solid::OutsideWork work = solid.outside_work(memm.q());
-    state = {.struct_size = sizeof(abut_solid_state),
-             .steps = memm.steps(),
-             .time = memm.time(),
-             .dt = memm.dt(),
-             .stable_dt = stable_dt_,
-             .pseudo_energy = entry.pseudo_energy,
-             .energy = entry.energy,
-             .kinetic = entry.kinetic,
-             .work_steps = work.steps,
-             .work_changes = work.changes,
-             .work_held = work.held,
-             .restart_jumps = entry.restart_jumps,
-             .parasitic = entry.parasitic,
-             .active_pairs = entry.active_pairs,
-             .missed_contacts = solid.contact().report().missed_contacts,
-             .dissipated = entry.dissipated,
-             .friction_energy = entry.friction_energy,
-             .sticking_faces = entry.sticking_faces,
-             .sliding_faces = entry.sliding_faces,
-             .broken_bonds = solid.bonds().broken_share()};
-}
 
 template <int Dim>
 using RunOf = std::unique_ptr<SolidRun<Dim>>;
@@ -281,6 +121,48 @@ int abut_solid_bond(abut_solid* solid, const char* side_1, const char* side_2, d
     });
 }
 
+int abut_solid_set_number(abut_solid* solid, const char* body, const char* key, double value, abut_error* error) {
+    return with_run(solid, false, error, [&](auto& run, auto) {
+        check_pointer(body, "body");
+        check_pointer(key, "key");
+        run.set_values(body, [key = std::string(key), value](BodyValues& values) { set_number(values, key, value); });
+    });
+}
+
+int abut_solid_set_text(abut_solid* solid, const char* body, const char* key, const char* text, abut_error* error) {
+    return with_run(solid, false, error, [&](auto& run, auto) {
+        check_pointer(body, "body");
+        check_pointer(key, "key");
+        check_pointer(text, "text");
+        run.set_values(
+            body, [key = std::string(key), text = std::string(text)](BodyValues& values) { set_text(values, key, text); });
+    });
+}
+
+int abut_solid_set_numbers(abut_solid* solid, const char* body, const char* key, const double* numbers, int64_t n,
+                           abut_error* error) {
+    return with_run(solid, false, error, [&](auto& run, auto) {
+        check_pointer(body, "body");
+        check_pointer(key, "key");
+        const auto given = span_of(numbers, n, "numbers");
+        run.set_values(body, [key = std::string(key), copy = std::vector<double>(given.begin(), given.end())](
+                                 BodyValues& values) { set_numbers(values, key, copy); });
+    });
+}
+
+int abut_solid_set_temperature(abut_solid* solid, const char* body,
+                               double (*rise)(double time, const double* position, void* user), int32_t varies, void* user,
+                               abut_error* error) {
+    return with_run(solid, false, error, [&](auto& run, auto dim) {
+        check_pointer(body, "body");
+        check_pointer(reinterpret_cast<const void*>(rise), "rise");
+        const auto value = [rise, user](double time, const Vector<dim>& position) {
+            return call_host([&] { return rise(time, position.data(), user); });
+        };
+        run.set_temperature(body, {.value = value, .varies = varies != 0});
+    });
+}
+
 int abut_solid_begin(abut_solid* solid, const abut_solid_options* options, abut_error* error) {
     return with_run(solid, false, error, [&](auto& run, auto) {
         if (options != nullptr) check_struct(options, "abut_solid_options");
@@ -311,6 +193,22 @@ int abut_solid_set_traction(abut_solid* solid, const char* group, abut_array tra
     });
 }
 
+int abut_solid_n_cells(const abut_solid* solid, const char* body, int64_t* n, abut_error* error) {
+    return with_run(solid, true, error, [&](auto& run, auto) {
+        check_pointer(body, "body");
+        check_pointer(n, "n");
+        *n = run.n_cells(body);
+    });
+}
+
+int abut_solid_cells(abut_solid* solid, const char* body, const abut_solid_cell_arrays* cells, abut_error* error) {
+    return with_run(solid, true, error, [&](auto& run, auto) {
+        check_pointer(body, "body");
+        check_struct(cells, "abut_solid_cell_arrays");
+        run.write_cells(body, *cells);
+    });
+}
+
 int abut_solid_set_step(abut_solid* solid, double dt, int32_t change, abut_error* error) {
     return with_run(solid, true, error, [&](auto& run, auto) {
         if (change != ABUT_KEEP && change != ABUT_RESTART)
@@ -327,5 +225,13 @@ int abut_solid_get_state(abut_solid* solid, abut_solid_state* state, abut_error*
     return with_run(solid, true, error, [&](auto& run, auto) {
         check_struct(state, "abut_solid_state");
         run.write_state(*state);
+    });
+}
+
+int abut_solid_get_number(abut_solid* solid, const char* column, double* value, abut_error* error) {
+    return with_run(solid, true, error, [&](auto& run, auto) {
+        check_pointer(column, "column");
+        check_pointer(value, "value");
+        *value = run.ledger_value(column);
     });
 }

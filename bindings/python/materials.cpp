@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "abut/base/error.hpp"
-#include "abut/input/materials.hpp"
+#include "abut/solid/material/known_materials.hpp"
 #include "abut/solid/material/material_numbers.hpp"
 #include "numbers.hpp"
 
@@ -29,10 +29,10 @@ solid::MaterialLaw material_law(const std::string& name) {
     throw py::value_error("law is '" + name + "'; it is one of " + all);
 }
 
-const input::KnownMaterial& known_by(const std::string& name) {
-    if (const input::KnownMaterial* known = input::known_material(name)) return *known;
+const solid::KnownMaterial& known_by(const std::string& name) {
+    if (const solid::KnownMaterial* known = solid::known_material(name)) return *known;
     std::string all;
-    for (const input::KnownMaterial& known : input::known_materials()) all += (all.empty() ? "'" : ", '") + known.name + "'";
+    for (const solid::KnownMaterial& known : solid::known_materials()) all += (all.empty() ? "'" : ", '") + known.name + "'";
     throw py::value_error("'" + name + "' is no material that is known by its name; there are " + all);
 }
 
@@ -62,7 +62,7 @@ std::vector<solid::HardeningPoint> hardening_table(const py::handle& rows) {
 }
 
 solid::Material material_of(const std::optional<std::string>& name, const py::kwargs& values) {
-    const input::KnownMaterial* known = name ? &known_by(*name) : nullptr;
+    const solid::KnownMaterial* known = name ? &known_by(*name) : nullptr;
     solid::Material material = known ? known->material : solid::Material{};
     for (const auto& [key, value] : values) {
         const auto word = py::cast<std::string>(key);
@@ -84,13 +84,13 @@ solid::Material material_of(const std::optional<std::string>& name, const py::kw
     if (!material.hardening_table.empty())
         material.yield_stress = material.hardening_table.front().stress;
     else if (known && material.law == solid::MaterialLaw::j2)
-        input::take_flow(material, *known);
+        solid::take_flow(material, *known);
     return material;
 }
 
 py::dict all_known() {
     py::dict all;
-    for (const input::KnownMaterial& known : input::known_materials())
+    for (const solid::KnownMaterial& known : solid::known_materials())
         all[py::str(known.name)] =
             py::dict("young"_a = known.material.young, "poisson"_a = known.material.poisson,
                      "density"_a = known.material.density, "yield_stress"_a = known.yield_stress, "source"_a = known.source);

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <string>
 
-#include "abut/input/materials.hpp"
+#include "abut/solid/material/known_materials.hpp"
 #include "input/scenes.hpp"
 
 namespace {
@@ -126,7 +126,7 @@ TEST_CASE("a material of the scene goes before the known one of its name", "[inp
 }
 
 TEST_CASE("every known material has a source and values that a body may have", "[input][materials]") {
-    for (const input::KnownMaterial& known : input::known_materials()) {
+    for (const solid::KnownMaterial& known : solid::known_materials()) {
         CAPTURE(known.name);
         CHECK_FALSE(known.source.empty());
         const solid::Material material = of_block("material = \"" + known.name + "\"");
@@ -134,7 +134,7 @@ TEST_CASE("every known material has a source and values that a body may have", "
         CHECK(material.density == known.material.density);
         CHECK(material.poisson == known.material.poisson);
         CHECK(known.yield_stress < 0.03 * known.material.young);  // metals and plastics flow at some percent of strain
-        CHECK(input::known_material(known.name) == &known);
+        CHECK(solid::known_material(known.name) == &known);
         if (known.yield_stress > 0.0)
             CHECK(of_block("law = \"j2\"\nkinematics = \"finite\"\nmaterial = \"" + known.name + "\"").yield_stress ==
                   known.yield_stress);
@@ -153,7 +153,7 @@ TEST_CASE("waves in known materials are as fast as handbooks of ultrasound have 
                                                     {"ice", 3980.0, 1990.0},
                                                     {"lead", 2160.0, 700.0}}) {
         CAPTURE(name);
-        const solid::Material& material = input::known_material(name)->material;
+        const solid::Material& material = solid::known_material(name)->material;
         CHECK(std::sqrt(material.wave_modulus() / material.density) == Approx(longitudinal).epsilon(0.05));
         CHECK(std::sqrt(material.mu() / material.density) == Approx(shear).epsilon(0.05));
     }

@@ -1,0 +1,115 @@
+#include "body_values.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include "abut/base/error.hpp"
+#include "abut/base/unit.hpp"
+#include "abut/solid/material/material_numbers.hpp"
+
+namespace abut::c_layer {
+namespace {
+
+constexpr std::array<Word<solid::Kinematics>, 4> kinematics_words{{{"small", solid::Kinematics::small},
+                                                                   {"floating", solid::Kinematics::floating},
+                                                                   {"finite", solid::Kinematics::finite},
+                                                                   {"rigid", solid::Kinematics::rigid}}};
+
+/// "'a', 'b'"
+template <class List, class NameOf>
+std::string names_of(const List& list, const NameOf& name_of) {
+    std::string names;
+    for (const auto& one : list) names += (names.empty() ? "'" : ", '") + std::string(name_of(one)) + "'";
+    return names;
+}
+
+const solid::MaterialNumber& number_called(const std::string& key) {
+    const auto number = std::ranges::find(solid::material_numbers, key, &solid::MaterialNumber::name);
+    if (number == solid::material_numbers.end())
+        throw BadInput("a body has no number '" + key + "'. There are " +
+                       names_of(solid::material_numbers, [](const auto& one) { return one.name; }) + ".");
+    return *number;
+}
+
+template <class Choice, std::size_t N>
+Choice choice_of(const std::array<Word<Choice>, N>& words, const std::string& key, const std::string& text) {
+    for (const auto& [word, choice] : words)
+        if (text == word) return choice;
+    throw BadInput(key + " is '" + text + "'. There are " + names_of(words, [](const auto& one) { return one.word; }) + ".");
+}
+
+const solid::KnownMaterial& known_by(const std::string& name) {
+    if (const solid::KnownMaterial* known = solid::known_material(name)) return *known;
+    throw BadInput("'" + name + "' is no material that is known by its name. There are " +
+                   names_of(solid::known_materials(), [](const auto& one) { return one.name; }) + ".");
+}
+
+double with_unit(const solid::MaterialNumber& number, const std::string& text) {
+    const std::optional<ValueWithUnit> parts = value_with_unit(text);
+    if (!parts || parts->is_formula)
+        throw BadInput(std::string(number.name) + " is '" + text +
+                       "', which is no number with a unit. Give one such as \"210 GPa\", or a number without.");
+    return converted(parts->value, unit_for(parts->unit, number.limits.unit), unit_of(number.limits.unit));
+}
+
+}  // namespace
+
+void set_number(BodyValues& values, const std::string& key, double value) {
+    const solid::MaterialNumber& number = number_called(key);
+    if (!number.limits.allow(value)) {
+        const std::string allowed = text_of(number.limits), remedy = number.limits.remedy;
+        throw BadInput(key + " is " + with_unit_of(number.limits, value) + "; " +
+                           (allowed.empty() ? "a finite number" : allowed) + " is allowed." +
+                           (remedy.empty() ? "" : " " + remedy),
+                       {.value = value});
+    }
+    values.material.*number.member = value;
+}
+
+void set_text(BodyValues& values, const std::string& key, const std::string& text) {
+    if (key == "law") {
+        values.material.law = choice_of(solid::material_law_words, key, text);
+    } else if (key == "kinematics") {
+        values.kinematics = choice_of(kinematics_words, key, text);
+    } else if (key == "material") {
+        values.known = &known_by(text);
+        for (const auto member : {&solid::Material::young, &solid::Material::poisson, &solid::Material::density})
+            values.material.*member = values.known->material.*member;
+    } else {
+        set_number(values, key, with_unit(number_called(key), text));
+    }
+}
+
+void set_numbers(BodyValues& values, const std::string& key, std::span<const double> numbers) {
+    const auto require = [&](bool is_met, const char* what) {
+        if (!is_met)
+            throw BadInput(key + " has " + std::to_string(numbers.size()) + " numbers; it takes " + what + ".",
+                           {.value = static_cast<double>(numbers.size())});
+    };
+    if (key == "axis_1" || key == "axis_2") {
+        require(numbers.size() == 3, "3");
+        std::ranges::copy(numbers, (key == "axis_1" ? values.material.axis_1 : values.material.axis_2).begin());
+    } else if (key == "hardening_table") {
+        require(!numbers.empty() && numbers.size() % 2 == 0, "rows of two, plastic strain and stress");
+        values.material.hardening_table.clear();
+        for (std::size_t i = 0; i < numbers.size(); i += 2)
+            values.material.hardening_table.push_back({numbers[i], numbers[i + 1]});
+    } else {
+        throw BadInput("a body has no list '" + key + "'. There are 'axis_1', 'axis_2' and 'hardening_table'.");
+    }
+}
+
+solid::Material material_of(const BodyValues& values) {
+    solid::Material material = values.material;
+    if (material.law != solid::MaterialLaw::j2 || material.yield_stress > 0.0) return material;
+    if (!material.hardening_table.empty())
+        material.yield_stress = material.hardening_table.front().stress;
+    else if (values.known != nullptr)
+        solid::take_flow(material, *values.known);
+    return material;
+}
+
+}  // namespace abut::c_layer
