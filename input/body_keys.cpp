@@ -9,7 +9,7 @@
 #include "abut/input/keys.hpp"
 #include "abut/run/option_table.hpp"
 #include "abut/solid/material/material_numbers.hpp"
-#include "abut/solid/option_words.hpp"
+#include "abut/solid/options/option_words.hpp"
 
 namespace abut::input {
 namespace {

@@ -18,7 +18,7 @@
 #include "abut/run/simulation.hpp"
 #include "abut/run/warnings.hpp"
 #include "abut/solid/body_inertia.hpp"
-#include "abut/solid/option_words.hpp"
+#include "abut/solid/options/option_words.hpp"
 #include "abut/solid/solid.hpp"
 
 namespace abut::input {

@@ -16,7 +16,7 @@
 #include "abut/run/options.hpp"
 #include "abut/run/outputs.hpp"
 #include "abut/run/preset.hpp"
-#include "abut/solid/boundary_conditions.hpp"
+#include "abut/solid/boundary/boundary_conditions.hpp"
 #include "abut/solid/kinematics/kinematics.hpp"
 #include "abut/solid/material/material.hpp"
 

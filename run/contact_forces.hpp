@@ -8,7 +8,7 @@
 #include "abut/base/state_bytes.hpp"
 #include "abut/base/vector.hpp"
 #include "abut/run/forward.hpp"
-#include "abut/solid/contact_results.hpp"
+#include "abut/solid/contact/contact_results.hpp"
 
 namespace abut::run {
 

@@ -5,7 +5,7 @@
 
 #include "abut/base/vector.hpp"
 #include "abut/run/forward.hpp"
-#include "abut/solid/contact_results.hpp"
+#include "abut/solid/contact/contact_results.hpp"
 
 namespace abut::run {
 

@@ -12,7 +12,7 @@
 #include "abut/run/obstacle_frames.hpp"
 #include "abut/run/scene.hpp"
 #include "abut/run/xdmf_series.hpp"
-#include "abut/solid/boundary_face.hpp"
+#include "abut/solid/boundary/boundary_face.hpp"
 #include "abut/solid/cell_view.hpp"
 #include "abut/solid/contact_view.hpp"
 

@@ -5,7 +5,7 @@
 
 #include "abut/contact/option_table.hpp"
 #include "abut/dynamics/step_options.hpp"
-#include "abut/solid/option_words.hpp"
+#include "abut/solid/options/option_words.hpp"
 
 namespace abut::run {
 namespace {

@@ -9,7 +9,7 @@
 #include "abut/contact/options.hpp"
 #include "abut/dynamics/scheme.hpp"
 #include "abut/geometry/pair_potential/pair_potential.hpp"
-#include "abut/solid/boundary_conditions.hpp"
+#include "abut/solid/boundary/boundary_conditions.hpp"
 #include "abut/solid/ccg/precision.hpp"
 #include "abut/solid/ccg/step_device.hpp"
 #include "abut/solid/kinematics/kinematics.hpp"

@@ -14,7 +14,7 @@
 #include "abut/run/simulation.hpp"
 #include "abut/run/warnings.hpp"
 #include "abut/solid/contact_view.hpp"
-#include "abut/solid/law_options.hpp"
+#include "abut/solid/options/law_options.hpp"
 
 namespace abut::run {
 namespace {

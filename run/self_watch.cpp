@@ -15,9 +15,9 @@
 #include "abut/contact/overlaps.hpp"
 #include "abut/contact/search/candidate_search.hpp"
 #include "abut/geometry/polygon.hpp"
-#include "abut/solid/boundary_face.hpp"
+#include "abut/solid/boundary/boundary_face.hpp"
 #include "abut/solid/cell_view.hpp"
-#include "abut/solid/kinematics/body_frame.hpp"
+#include "abut/solid/body/body_frame.hpp"
 
 namespace abut::run {
 namespace {

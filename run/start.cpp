@@ -14,9 +14,9 @@
 #include "abut/run/of_all_ranks.hpp"
 #include "abut/run/settling.hpp"
 #include "abut/run/start_contact.hpp"
-#include "abut/solid/bond_places.hpp"
+#include "abut/solid/boundary/bond_places.hpp"
 #include "abut/solid/bond_view.hpp"
-#include "abut/solid/boundary_face.hpp"
+#include "abut/solid/boundary/boundary_face.hpp"
 #include "abut/solid/contact_view.hpp"
 #include "abut/solid/local_steps.hpp"
 

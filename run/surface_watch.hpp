@@ -9,7 +9,7 @@
 #include "abut/base/state_bytes.hpp"
 #include "abut/run/scene.hpp"
 #include "abut/run/surface_looks.hpp"
-#include "abut/solid/contact_results.hpp"
+#include "abut/solid/contact/contact_results.hpp"
 
 namespace abut::run {
 

@@ -1,7 +1,7 @@
 #include "abut/solid/body_inertia.hpp"
 
 #include "abut/base/decompositions.hpp"
-#include "abut/solid/cell_points.hpp"
+#include "abut/solid/body/cell_points.hpp"
 #include "abut/solid/solid.hpp"
 
 namespace abut::solid {
@@ -9,7 +9,7 @@ namespace {
 
 /// Sum m (x - centre)(x - centre)^T for density 1 or masses.
 template <int Dim>
-struct Moments {
+struct InertiaSums {
     double mass = 0.0;
     Vector<Dim> first = Vector<Dim>::Zero();
     Matrix<Dim> second = Matrix<Dim>::Zero();
@@ -29,7 +29,7 @@ std::vector<BodyInertia<Dim>> inertia_of_bodies(const Solid<Dim>& solid) {
     const mesh::Mesh<Dim>& mesh = solid.mesh();
     const auto n = static_cast<std::size_t>(mesh.n_bodies());
     std::vector<Vector<Dim>> origin(n, Vector<Dim>::Zero());
-    std::vector<Moments<Dim>> exact(n), of_points(n);
+    std::vector<InertiaSums<Dim>> exact(n), of_points(n);
     for (std::int32_t c = mesh.n_cells() - 1; c >= 0; --c) origin[mesh.cell_body[c]] = mesh.cell_centroid[c];
     for (std::int32_t c = 0; c < mesh.n_cells(); ++c) {
         const std::int32_t body = mesh.cell_body[c];

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "abut/mesh/mesh.hpp"
-#include "abut/solid/options.hpp"
+#include "abut/solid/options/options.hpp"
 
 namespace abut::solid {
 

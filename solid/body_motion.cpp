@@ -4,7 +4,7 @@
 
 #include "abut/base/error.hpp"
 #include "abut/dynamics/ledger.hpp"
-#include "abut/solid/kinematics/body_frame.hpp"
+#include "abut/solid/body/body_frame.hpp"
 #include "abut/solid/solid.hpp"
 
 namespace abut::solid {

@@ -1,7 +1,7 @@
 // What a solid tells of its bonds.
 #include "abut/solid/bond_view.hpp"
 
-#include "abut/solid/bonds.hpp"
+#include "abut/solid/bond/bonds.hpp"
 #include "abut/solid/solid.hpp"
 
 namespace abut::solid {

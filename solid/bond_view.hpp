@@ -2,7 +2,7 @@
 #include <cstddef>
 #include <span>
 
-#include "abut/solid/bond_places.hpp"
+#include "abut/solid/boundary/bond_places.hpp"
 
 namespace abut::solid {
 

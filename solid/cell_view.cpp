@@ -5,9 +5,9 @@
 #include <string>
 
 #include "abut/base/error.hpp"
-#include "abut/solid/bodies.hpp"
-#include "abut/solid/body_cells.hpp"
-#include "abut/solid/rank_part.hpp"
+#include "abut/solid/body/bodies.hpp"
+#include "abut/solid/part/body_cells.hpp"
+#include "abut/solid/part/rank_part.hpp"
 #include "abut/solid/solid.hpp"
 
 namespace abut::solid {

@@ -9,7 +9,7 @@
 
 #include "abut/base/error.hpp"
 #include "abut/base/messages.hpp"
-#include "abut/solid/contact_driver.hpp"
+#include "abut/solid/contact/contact_driver.hpp"
 #include "abut/solid/solid.hpp"
 
 namespace abut::solid {

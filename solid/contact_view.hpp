@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "abut/contact/report.hpp"
-#include "abut/solid/contact_results.hpp"
+#include "abut/solid/contact/contact_results.hpp"
 
 namespace abut::contact {
 template <int Dim>

@@ -7,7 +7,7 @@
 #include "abut/dynamics/system.hpp"
 #include "abut/mesh/mesh.hpp"
 #include "abut/solid/ccg/ccg.hpp"
-#include "abut/solid/loads.hpp"
+#include "abut/solid/load/loads.hpp"
 
 namespace abut::solid {
 

@@ -5,7 +5,7 @@
 
 #include "abut/base/error.hpp"
 #include "abut/solid/kinematics/capabilities.hpp"
-#include "abut/solid/options.hpp"
+#include "abut/solid/options/options.hpp"
 
 namespace abut::solid {
 

@@ -9,7 +9,7 @@
 namespace abut::solid {
 namespace {
 
-constexpr std::int32_t was_not_there = -1;
+constexpr std::int32_t face_was_not_there = -1;
 constexpr double same_place = 1e-9;  // of the size of a cell
 
 template <int Dim>
@@ -59,7 +59,7 @@ private:
 template <int Dim>
 std::vector<std::int32_t> old_faces(const mesh::Mesh<Dim>& before, const mesh::Mesh<Dim>& after,
                                     std::span<const std::int32_t> old_cells) {
-    std::vector<std::int32_t> old(static_cast<std::size_t>(after.n_faces()), was_not_there);
+    std::vector<std::int32_t> old(static_cast<std::size_t>(after.n_faces()), face_was_not_there);
     for (std::int32_t cell = 0; cell < after.n_cells(); ++cell) {
         const CellMatch<Dim> match(before, after, old_cells[static_cast<std::size_t>(cell)], cell);
         for (const std::int32_t face : after.cell_faces[cell]) old[static_cast<std::size_t>(face)] = match.old_face(face);
@@ -75,7 +75,7 @@ std::vector<std::int32_t> old_boundary_faces(const mesh::Mesh<Dim>& before, cons
         const std::int32_t was = old_faces[static_cast<std::size_t>(face)];
         const auto at = std::ranges::lower_bound(before.boundary_faces, was);
         const bool is_boundary = was >= 0 && at != before.boundary_faces.end() && *at == was;
-        old.push_back(is_boundary ? static_cast<std::int32_t>(at - before.boundary_faces.begin()) : was_not_there);
+        old.push_back(is_boundary ? static_cast<std::int32_t>(at - before.boundary_faces.begin()) : face_was_not_there);
     }
     return old;
 }

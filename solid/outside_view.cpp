@@ -1,8 +1,8 @@
 // How a program outside of a solid follows the faces that it loads.
 #include "abut/solid/outside_view.hpp"
 
-#include "abut/solid/bodies.hpp"
-#include "abut/solid/outside_loads.hpp"
+#include "abut/solid/body/bodies.hpp"
+#include "abut/solid/load/outside_loads.hpp"
 #include "abut/solid/solid.hpp"
 
 namespace abut::solid {

@@ -7,7 +7,7 @@
 
 #include "abut/base/decompositions.hpp"
 #include "abut/base/messages.hpp"
-#include "abut/solid/bond_places.hpp"
+#include "abut/solid/boundary/bond_places.hpp"
 #include "abut/solid/bond_view.hpp"
 #include "abut/solid/contact_view.hpp"
 
@@ -102,7 +102,7 @@ Eigen::MatrixXd hold(Solid<Dim>& solid, std::span<const double> q, const std::ve
 }
 
 template <int Dim>
-std::string text(const Vector<Dim>& v) {
+std::string words_of_vector(const Vector<Dim>& v) {
     std::string result;
     for (int d = 0; d < Dim; ++d) result += (d == 0 ? "(" : ", ") + number(std::round(1e3 * v[d]) / 1e3 + 0.0);
     return result + ")";
@@ -118,11 +118,11 @@ std::string describe(const mesh::Mesh<Dim>& mesh, const Eigen::VectorXd& motion)
     const Vector<Dim> shift = part(body).template head<Dim>();
     const auto turn = part(body).template tail<n_motions<Dim> - Dim>();
     const std::string name = "body " + std::to_string(body) + " ('" + mesh.body_names[static_cast<std::size_t>(body)] + "')";
-    if (shift.norm() >= turn.norm()) return name + " is free to move along " + text<Dim>(shift.normalized());
+    if (shift.norm() >= turn.norm()) return name + " is free to move along " + words_of_vector<Dim>(shift.normalized());
     if constexpr (Dim == 2)
         return name + " is free to turn";
     else
-        return name + " is free to turn about the axis " + text<3>(Vector<3>(turn.normalized()));
+        return name + " is free to turn about the axis " + words_of_vector<3>(Vector<3>(turn.normalized()));
 }
 
 }  // namespace

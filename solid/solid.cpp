@@ -5,22 +5,24 @@
 #include <string>
 
 #include "abut/base/error.hpp"
-#include "abut/solid/bodies.hpp"
-#include "abut/solid/body_cells.hpp"
-#include "abut/solid/body_rotation.hpp"
-#include "abut/solid/bonds.hpp"
-#include "abut/solid/frame_loads.hpp"
-#include "abut/solid/law_options.hpp"
-#include "abut/solid/loads.hpp"
+#include "abut/solid/body/bodies.hpp"
+#include "abut/solid/body/body_rotation.hpp"
+#include "abut/solid/body/trapezoid_closure.hpp"
+#include "abut/solid/body/turning_tractions.hpp"
+#include "abut/solid/bond/bonds.hpp"
+#include "abut/solid/bond/find_bond_places.hpp"
+#include "abut/solid/contact/acting_law.hpp"
+#include "abut/solid/contact/pair_potential_driver.hpp"
+#include "abut/solid/contact/reconstruction_driver.hpp"
+#include "abut/solid/load/frame_loads.hpp"
+#include "abut/solid/load/loads.hpp"
+#include "abut/solid/load/outside_loads.hpp"
+#include "abut/solid/load/point_loads.hpp"
 #include "abut/solid/local_levels.hpp"
-#include "abut/solid/outside_loads.hpp"
-#include "abut/solid/pair_potential_driver.hpp"
-#include "abut/solid/point_loads.hpp"
-#include "abut/solid/rank_part.hpp"
-#include "abut/solid/rank_rows.hpp"
-#include "abut/solid/reconstruction_driver.hpp"
-#include "abut/solid/trapezoid_closure.hpp"
-#include "abut/solid/turning_tractions.hpp"
+#include "abut/solid/options/law_options.hpp"
+#include "abut/solid/part/body_cells.hpp"
+#include "abut/solid/part/rank_part.hpp"
+#include "abut/solid/part/rank_rows.hpp"
 
 namespace abut::solid {
 namespace {
@@ -55,11 +57,12 @@ std::unique_ptr<Bodies<Dim>> bodies_of(const mesh::Mesh<Dim>& mesh, const SolidO
 /// The points of cells are placed once ranks can be brought together.
 template <int Dim>
 std::unique_ptr<RankPart<Dim>> part_of_rank(const dynamics::Ranks& ranks, Bodies<Dim>& bodies) {
-    auto part = std::make_unique<RankPart<Dim>>(ranks, bodies);
+    auto part = std::make_unique<RankPart<Dim>>(ranks, bodies.points());
     bodies.place_cell_points(*part);
-    part->take_rest(bodies);
+    part->take_rest(bodies.rest());
     bodies.take_part(*part);
-    bodies.find_bonds(*part);
+    FoundBonds<Dim> bonds = find_bond_places(bodies, *part);
+    bodies.take_bonds(std::move(bonds.places), bonds.joined);
     return part;
 }
 
@@ -109,7 +112,7 @@ Solid<Dim>::Solid(const mesh::Mesh<Dim>& mesh, SolidOptions<Dim> options, const 
         closure_ = std::make_unique<TrapezoidClosure<Dim>>(*bodies_, *part_, ccg_);
     bonds_ = std::make_unique<Bonds<Dim>>(*bodies_, ccg_, *frames_, *part_);
     if (!options_.contact) return;
-    const ContactLaw law = bodies_->law();
+    const ContactLaw law = acting_law(*bodies_);
     refuse_choices_of_other_law(law, options_);
     if (law == ContactLaw::reconstruction && any_inelastic())
         throw BadInput(mesh_.name +

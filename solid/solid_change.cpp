@@ -5,17 +5,17 @@
 
 #include "abut/base/error.hpp"
 #include "abut/dynamics/integrator.hpp"
-#include "abut/solid/bodies.hpp"
-#include "abut/solid/body_cells.hpp"
-#include "abut/solid/bonds.hpp"
-#include "abut/solid/frame_loads.hpp"
-#include "abut/solid/loads.hpp"
+#include "abut/solid/body/bodies.hpp"
+#include "abut/solid/bond/bonds.hpp"
+#include "abut/solid/contact/pair_potential_driver.hpp"
+#include "abut/solid/contact/reconstruction_driver.hpp"
+#include "abut/solid/load/frame_loads.hpp"
+#include "abut/solid/load/loads.hpp"
+#include "abut/solid/load/outside_loads.hpp"
+#include "abut/solid/load/point_loads.hpp"
 #include "abut/solid/old_numbers.hpp"
-#include "abut/solid/outside_loads.hpp"
-#include "abut/solid/pair_potential_driver.hpp"
-#include "abut/solid/point_loads.hpp"
-#include "abut/solid/rank_part.hpp"
-#include "abut/solid/reconstruction_driver.hpp"
+#include "abut/solid/part/body_cells.hpp"
+#include "abut/solid/part/rank_part.hpp"
 #include "abut/solid/solid.hpp"
 
 namespace abut::solid {
@@ -23,7 +23,7 @@ namespace {
 
 constexpr std::int32_t was_not_there = -1;
 
-[[noreturn]] void refuse(const std::string& mesh, const std::string& what) { throw BadInput(mesh + ": " + what); }
+[[noreturn]] void refuse_change(const std::string& mesh, const std::string& what) { throw BadInput(mesh + ": " + what); }
 
 template <int Dim>
 std::string body_in_words(const mesh::Mesh<Dim>& mesh, std::int32_t body) {
@@ -33,8 +33,8 @@ std::string body_in_words(const mesh::Mesh<Dim>& mesh, std::int32_t body) {
 template <int Dim>
 void check_bodies(const mesh::Mesh<Dim>& before, const mesh::Mesh<Dim>& after) {
     if (before.body_names != after.body_names)
-        refuse(after.name, "its bodies are not those of the mesh before, " + before.name +
-                               ". Give the same bodies in the same order; pieces of a body stay one body.");
+        refuse_change(after.name, "its bodies are not those of the mesh before, " + before.name +
+                                      ". Give the same bodies in the same order; pieces of a body stay one body.");
 }
 
 template <int Dim>
@@ -115,11 +115,12 @@ void Solid<Dim>::check_old_cells(const Solid& before, std::span<const std::int32
     }
     for (std::int32_t body = 0; body < mesh_.n_bodies(); ++body) {
         if (bodies_->kinematics(body) != before.bodies_->kinematics(body))
-            refuse(mesh_.name, body_in_words(mesh_, body) + " is of other kinematics than before. Keep them.");
+            refuse_change(mesh_.name, body_in_words(mesh_, body) + " is of other kinematics than before. Keep them.");
         const std::int32_t n_before = size_of_body(before.mesh_, body), n_now = size_of_body(mesh_, body);
         if (bodies_->is_rigid(body) && n_now != n_before)
-            refuse(mesh_.name, body_in_words(mesh_, body) + " is rigid and has lost " + std::to_string(n_before - n_now) +
-                                   " cells, which is not made. Let it deform (Kinematics::small, ::floating or ::finite).");
+            refuse_change(mesh_.name,
+                          body_in_words(mesh_, body) + " is rigid and has lost " + std::to_string(n_before - n_now) +
+                              " cells, which is not made. Let it deform (Kinematics::small, ::floating or ::finite).");
     }
 }
 
@@ -172,7 +173,7 @@ dynamics::IntegratorState Solid<Dim>::take_over(const Solid& before, const dynam
     check_bodies(before.mesh_, mesh_);
     check_old_cells(before, old_cells);
     if (levels_ || before.levels_)
-        refuse(mesh_.name, "a change of the mesh is not made with local steps (memm_async). Take another scheme.");
+        refuse_change(mesh_.name, "a change of the mesh is not made with local steps (memm_async). Take another scheme.");
     const std::vector<std::int32_t> faces = old_faces(before.mesh_, mesh_, old_cells);
     const std::vector<std::int32_t> boundary = old_boundary_faces(before.mesh_, mesh_, std::span<const std::int32_t>(faces));
     if (contact_) check_corners(before.mesh_, mesh_, std::span<const std::int32_t>(boundary));
@@ -198,7 +199,7 @@ dynamics::IntegratorState Solid<Dim>::take_over(const Solid& before, const dynam
     bonds_->take_over(*before.bonds_, boundary);
     if ((contact_ != nullptr) != (before.contact_ != nullptr) ||
         (contact_ && contact_->contact().index() != before.contact_->contact().index()))
-        refuse(mesh_.name, "contact is by another law than before, or by none. Keep the law of contact.");
+        refuse_change(mesh_.name, "contact is by another law than before, or by none. Keep the law of contact.");
     if (contact_) {
         contact_->take_over(*before.contact_, boundary);
         contact_->restore_impulses({before.contact_->impulses().begin(), before.contact_->impulses().end()});
@@ -211,7 +212,7 @@ dynamics::IntegratorState Solid<Dim>::take_over(const Solid& before, const dynam
 template <int Dim>
 void Loads<Dim>::take_over(const Loads& before, std::span<const std::int32_t> old_boundary, double time) {
     if (ccg_.is_warm() != before.ccg_.is_warm())
-        refuse(mesh_.name, "bodies are warm before the change or after it, not both (temperature_rise). Keep it.");
+        refuse_change(mesh_.name, "bodies are warm before the change or after it, not both (temperature_rise). Keep it.");
     traction_time_ = before.traction_time_;
     end_ = ccg_.load_at(time, ccg_.is_warm() ? traction_time_ : time);
     const auto take = [&](const std::vector<Vector<Dim>>& old, std::vector<Vector<Dim>>& now) {
@@ -227,10 +228,10 @@ void Loads<Dim>::take_over(const Loads& before, std::span<const std::int32_t> ol
 template <int Dim>
 void PointLoads<Dim>::take_over(const PointLoads& before) {
     if (springs_.size() != before.springs_.size() || moments_.size() != before.moments_.size())
-        refuse(bodies_.mesh().name, "it has " + std::to_string(springs_.size()) + " springs and " +
-                                        std::to_string(moments_.size()) + " moments, and before there were " +
-                                        std::to_string(before.springs_.size()) + " and " +
-                                        std::to_string(before.moments_.size()) + ". Keep them.");
+        refuse_change(bodies_.mesh().name, "it has " + std::to_string(springs_.size()) + " springs and " +
+                                               std::to_string(moments_.size()) + " moments, and before there were " +
+                                               std::to_string(before.springs_.size()) + " and " +
+                                               std::to_string(before.moments_.size()) + ". Keep them.");
     for (std::size_t i = 0; i < springs_.size(); ++i) springs_[i].rate = before.springs_[i].rate;
     for (std::size_t i = 0; i < moments_.size(); ++i) moments_[i].spin = before.moments_[i].spin;
 }
@@ -295,7 +296,7 @@ void Bonds<Dim>::take_over(const Bonds& before, std::span<const std::int32_t> ol
                    static_cast<std::int32_t>(old.faces[1]) == was(1);
         });
         if (from == before.places_.end())
-            refuse(bodies_.mesh().name, "faces are bonded that were not. Keep bonds as they are.");
+            refuse_change(bodies_.mesh().name, "faces are bonded that were not. Keep bonds as they are.");
         share_[p] = before.share_[static_cast<std::size_t>(from - before.places_.begin())];
     }
 }

@@ -8,16 +8,16 @@
 #include "abut/base/error.hpp"
 #include "abut/base/messages.hpp"
 #include "abut/base/parallel.hpp"
-#include "abut/solid/bodies.hpp"
-#include "abut/solid/bonds.hpp"
-#include "abut/solid/rank_part.hpp"
+#include "abut/solid/body/bodies.hpp"
+#include "abut/solid/bond/bonds.hpp"
+#include "abut/solid/part/rank_part.hpp"
 #include "abut/solid/solid.hpp"
 
 namespace abut::solid {
 namespace {
 
-constexpr double least_determinant = 0.1;   // det F of a cell
-constexpr double tiny_displacement = 1e-8;  // of the size of a cell
+constexpr double collapsed_determinant = 0.1;  // det F of a cell
+constexpr double tiny_displacement = 1e-8;     // of the size of a cell
 
 /// Where bodies of Kinematics::finite are deformed most, and how to name the cell.
 struct Extremes {
@@ -98,14 +98,14 @@ void Solid<Dim>::require_no_collapse() {
         finite_extremes_.determinant = determinant;
         finite_extremes_.cell = cell;
     }
-    if (determinant > least_determinant) return;
+    if (determinant > collapsed_determinant) return;
     throw Diverged(mesh_.name + ": cell " + std::to_string(now.label) + " of body '" + mesh_.body_names[now.body] +
                        "', of Kinematics::finite, has collapsed: det F is " + number(determinant) + ", more than " +
-                       number(least_determinant) +
+                       number(collapsed_determinant) +
                        " is needed (0: a free face is stretched too far). Load it less, refine its mesh, or take a shorter "
                        "time step if it is noise that grows, and linear_viscosity = 0.25 with quadratic_viscosity = 2 if it "
                        "is a shock.",
-                   {.cell = cell, .value = determinant, .allowed = least_determinant});
+                   {.cell = cell, .value = determinant, .allowed = collapsed_determinant});
 }
 
 #define ABUT_INSTANTIATE(Dim)                                                                                    \

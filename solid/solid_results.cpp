@@ -3,15 +3,15 @@
 #include <vector>
 
 #include "abut/dynamics/ledger.hpp"
-#include "abut/solid/bodies.hpp"
-#include "abut/solid/body_rotation.hpp"
+#include "abut/solid/body/bodies.hpp"
+#include "abut/solid/body/body_rotation.hpp"
 #include "abut/solid/bond_view.hpp"
 #include "abut/solid/cell_view.hpp"
-#include "abut/solid/contact_driver.hpp"
+#include "abut/solid/contact/contact_driver.hpp"
 #include "abut/solid/contact_view.hpp"
-#include "abut/solid/outside_loads.hpp"
+#include "abut/solid/load/outside_loads.hpp"
 #include "abut/solid/outside_view.hpp"
-#include "abut/solid/rank_part.hpp"
+#include "abut/solid/part/rank_part.hpp"
 #include "abut/solid/solid.hpp"
 
 namespace abut::solid {

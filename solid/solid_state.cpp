@@ -4,16 +4,16 @@
 
 #include "abut/base/error.hpp"
 #include "abut/base/state_bytes.hpp"
-#include "abut/solid/bodies.hpp"
-#include "abut/solid/bonds.hpp"
-#include "abut/solid/frame_loads.hpp"
-#include "abut/solid/loads.hpp"
-#include "abut/solid/outside_loads.hpp"
-#include "abut/solid/pair_potential_driver.hpp"
-#include "abut/solid/point_loads.hpp"
-#include "abut/solid/reconstruction_driver.hpp"
+#include "abut/solid/body/bodies.hpp"
+#include "abut/solid/bond/bonds.hpp"
+#include "abut/solid/contact/pair_potential_driver.hpp"
+#include "abut/solid/contact/reconstruction_driver.hpp"
+#include "abut/solid/load/frame_loads.hpp"
+#include "abut/solid/load/loads.hpp"
+#include "abut/solid/load/outside_loads.hpp"
+#include "abut/solid/load/point_loads.hpp"
+#include "abut/solid/part/state_of_eigen.hpp"
 #include "abut/solid/solid.hpp"
-#include "abut/solid/state_of_eigen.hpp"
 
 namespace abut::solid {
 namespace {

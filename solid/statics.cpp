@@ -14,7 +14,7 @@
 #include "abut/base/sort_unique.hpp"
 #include "abut/dynamics/integrator.hpp"
 #include "abut/dynamics/sparse.hpp"
-#include "abut/solid/boundary_face.hpp"
+#include "abut/solid/boundary/boundary_face.hpp"
 #include "abut/solid/contact_view.hpp"
 #include "abut/solid/kinematics/capabilities.hpp"
 #include "abut/solid/rigid_motions.hpp"
@@ -47,7 +47,7 @@ constexpr double nearly_closed = 1e-6;  // of the smallest depth: a gap this sma
 constexpr double rounding_of_potential = 1e-12;
 constexpr double balanced_elsewhere = 1e-3;  // of the largest stress: where more is left away from contact, V is not lowest
 
-void check(const StaticOptions& options) {
+void check_options(const StaticOptions& options) {
     const auto refuse = [](const std::string& what, double value, double allowed) {
         throw BadInput("statics: " + what, {.value = value, .allowed = allowed});
     };
@@ -285,7 +285,7 @@ Ending approach(Objective<Dim>& objective, const StaticOptions& options) {
     return objective.is_balanced_elsewhere() ? Ending::lowest : Ending::stuck;
 }
 
-std::string text(Ending ending, const StaticOptions& options) {
+std::string words_of_ending(Ending ending, const StaticOptions& options) {
     switch (ending) {
         case Ending::balanced:
             return "The forces are in balance.";
@@ -336,14 +336,14 @@ void require_held(Solid<Dim>& solid, std::span<const double> q) {
 
 template <int Dim>
 StaticSolution solve_statics(Solid<Dim>& solid, std::vector<double> q_0, const StaticOptions& options) {
-    check(options);
+    check_options(options);
     check_start(solid, q_0);
     require_held<Dim>(solid, q_0);
     Objective<Dim> objective(solid, options, q_0);
     StaticReport& report = objective.report();
     const Ending ending = approach(objective, options);
     report.converged = ending == Ending::balanced || ending == Ending::lowest;
-    report.ending = text(ending, options);
+    report.ending = words_of_ending(ending, options);
     std::vector<double> q = objective.q();
     static_cast<void>(solid.potential(q));
     solid.contact().require_depth();

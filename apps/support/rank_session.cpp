@@ -15,7 +15,7 @@
 #include "abut/base/error.hpp"
 #include "abut/mesh/part.hpp"
 #include "abut/ranks/partition.hpp"
-#include "abut/solid/share_out.hpp"
+#include "abut/solid/part/share_out.hpp"
 
 namespace abut::apps {
 namespace {

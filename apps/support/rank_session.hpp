@@ -10,7 +10,7 @@
 #include "abut/mesh/mesh.hpp"
 #include "abut/ranks/session.hpp"
 #include "abut/run/share.hpp"
-#include "abut/solid/options.hpp"
+#include "abut/solid/options/options.hpp"
 
 namespace abut::apps {
 

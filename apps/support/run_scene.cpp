@@ -20,7 +20,7 @@
 #include "abut/run/report/result_files.hpp"
 #include "abut/run/simulation.hpp"
 #include "abut/run/summary.hpp"
-#include "abut/solid/options.hpp"
+#include "abut/solid/options/options.hpp"
 #include "apps/support/json_lines.hpp"
 #include "apps/support/log.hpp"
 #include "apps/support/progress.hpp"

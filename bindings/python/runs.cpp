@@ -21,7 +21,7 @@
 #include "abut/run/verdict.hpp"
 #include "abut/run/warnings.hpp"
 #include "abut/solid/contact_view.hpp"
-#include "abut/solid/option_words.hpp"
+#include "abut/solid/options/option_words.hpp"
 #include "abut/solid/outside_view.hpp"
 #include "abut/solid/stepped_run.hpp"
 #include "in_use.hpp"

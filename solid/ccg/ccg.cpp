@@ -12,13 +12,13 @@
 #include "abut/solid/ccg/capped_jumps.hpp"
 #include "abut/solid/ccg/device_sweeps.hpp"
 #include "abut/solid/ccg/finite_cells.hpp"
+#include "abut/solid/ccg/motion_bound.hpp"
 #include "abut/solid/ccg/plastic_cells.hpp"
 #include "abut/solid/ccg/region.hpp"
 #include "abut/solid/ccg/single_sweeps.hpp"
 #include "abut/solid/ccg/sweeps.hpp"
 #include "abut/solid/ccg/thermal_cells.hpp"
 #include "abut/solid/ccg/viscous_cells.hpp"
-#include "abut/solid/motion_bound.hpp"
 
 namespace abut::solid {
 namespace {

@@ -15,7 +15,7 @@
 #include "abut/solid/ccg/finite_options.hpp"
 #include "abut/solid/ccg/precision.hpp"
 #include "abut/solid/ccg/step_device.hpp"
-#include "abut/solid/temperature.hpp"
+#include "abut/solid/ccg/temperature.hpp"
 
 namespace abut::solid {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "abut/mesh/mesh.hpp"
-#include "abut/solid/boundary_conditions.hpp"
+#include "abut/solid/boundary/boundary_conditions.hpp"
 #include "abut/solid/ccg/finite_cell.hpp"
 #include "abut/solid/ccg/finite_options.hpp"
 #include "abut/solid/kinematics/kinematics.hpp"

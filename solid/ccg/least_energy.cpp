@@ -17,7 +17,7 @@ constexpr double first_square = 0.05;  // of the stretch across that the search 
 /// Right-handed: along what the first tangent has become, and normal to what all have. Beside a single tangent in space the second
 /// axis is in the plane of it and of the first normal as affine faces carry it.
 template <int Dim>
-Matrix<Dim> frame_of(const Matrix<Dim>& y, bool has_one_normal) {
+Matrix<Dim> principal_frame_of(const Matrix<Dim>& y, bool has_one_normal) {
     Matrix<Dim> frame;
     if constexpr (Dim == 2) {
         const Vector<2> along = Vector<2>(y.col(0)).normalized();
@@ -50,7 +50,7 @@ LeastEnergy<Dim>::LeastEnergy(const FreeCell<Dim>& free, const StoredEnergy<Dim>
                               const Matrix<Dim>& shape)
     : law_(&law), axes_(free.axes), gradient_(g) {
     if (free.n_tangents == 0) return;
-    frame_ = frame_of<Dim>(axes_ + g * axes_, free.has_one_normal());
+    frame_ = principal_frame_of<Dim>(axes_ + g * axes_, free.has_one_normal());
     if (free.has_one_normal())
         set_one_normal(g, shape);
     else

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "abut/mesh/mesh.hpp"
-#include "abut/solid/boundary_conditions.hpp"
+#include "abut/solid/boundary/boundary_conditions.hpp"
 #include "abut/solid/ccg/arrays.hpp"
 #include "abut/solid/ccg/ccg.hpp"
 #include "abut/solid/kinematics/kinematics.hpp"

@@ -7,7 +7,7 @@
 
 #include "abut/base/large_array.hpp"
 #include "abut/mesh/mesh.hpp"
-#include "abut/solid/boundary_conditions.hpp"
+#include "abut/solid/boundary/boundary_conditions.hpp"
 #include "abut/solid/kinematics/kinematics.hpp"
 #include "abut/solid/material/material.hpp"
 

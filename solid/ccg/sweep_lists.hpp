@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "abut/solid/boundary_face.hpp"
+#include "abut/solid/boundary/boundary_face.hpp"
 #include "abut/solid/ccg/simplices.hpp"
 
 namespace abut::solid {

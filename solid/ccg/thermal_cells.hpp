@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "abut/mesh/mesh.hpp"
+#include "abut/solid/ccg/temperature.hpp"
 #include "abut/solid/material/material.hpp"
-#include "abut/solid/temperature.hpp"
 
 namespace abut::solid {
 

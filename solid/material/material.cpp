@@ -17,18 +17,20 @@
 namespace abut::solid {
 namespace {
 
-[[noreturn]] void refuse(int body, const std::string& name, double value, const std::string& limit) {
+[[noreturn]] void refuse_material(int body, const std::string& name, double value, const std::string& limit) {
     throw BadInput("material of body " + std::to_string(body) + ": " + name + " is " + number(value) + "; " + limit,
                    {.value = value});
 }
 
-void check(const MaterialNumber& of, const Material& material, int body) {
+void check_number(const MaterialNumber& of, const Material& material, int body) {
     const double value = material.*of.member;
     if (of.law && *of.law != material.law && value != 0.0)
-        refuse(body, of.name, value, "it must be 0, as its law is not " + word_of(material_law_words, *of.law) + ".");
+        refuse_material(body, of.name, value,
+                        "it must be 0, as its law is not " + word_of(material_law_words, *of.law) + ".");
     if (!of.limits.allow(value)) {
         const std::string remedy = of.limits.remedy;
-        refuse(body, of.name, value, "it must be " + text_of(of.limits) + "." + (remedy.empty() ? "" : " " + remedy));
+        refuse_material(body, of.name, value,
+                        "it must be " + text_of(of.limits) + "." + (remedy.empty() ? "" : " " + remedy));
     }
 }
 
@@ -72,7 +74,8 @@ void check_table(const Material& material, int body) {
     }
     for (const NamedNumber& other : other_hardening)
         if (material.*other.member > 0.0)
-            refuse(body, other.name, material.*other.member, "it must be 0 beside hardening_table, which says all of it.");
+            refuse_material(body, other.name, material.*other.member,
+                            "it must be 0 beside hardening_table, which says all of it.");
 }
 
 /// Of materials that have none.
@@ -89,27 +92,28 @@ void check_axes(const Material& material, int body) {
 }  // namespace
 
 void check(const Material& material, int body) {
-    for (const MaterialNumber& of : material_numbers) check(of, material, body);
+    for (const MaterialNumber& of : material_numbers) check_number(of, material, body);
     check_table(material, body);
     if (material.law == MaterialLaw::j2 && material.yield_stress == 0.0)
-        refuse(body, "yield_stress", 0.0, "j2 needs it to be above 0 Pa. Mild steel has 2.35e8 Pa.");
+        refuse_material(body, "yield_stress", 0.0, "j2 needs it to be above 0 Pa. Mild steel has 2.35e8 Pa.");
     for (const auto& [value, with] : numbers_in_pairs)
         if ((material.*value.member > 0.0) != (material.*with.member > 0.0))
-            refuse(body, value.name, material.*value.member,
-                   std::string("it must be above 0 where ") + with.name + " is, and 0 elsewhere.");
+            refuse_material(body, value.name, material.*value.member,
+                            std::string("it must be above 0 where ") + with.name + " is, and 0 elsewhere.");
     if (material.cowper_symonds_rate > 0.0 && material.johnson_cook_rate > 0.0)
-        refuse(body, "johnson_cook_rate", material.johnson_cook_rate,
-               "it must be 0, as the rate counts by cowper_symonds_rate already. Take one law of rates.");
+        refuse_material(body, "johnson_cook_rate", material.johnson_cook_rate,
+                        "it must be 0, as the rate counts by cowper_symonds_rate already. Take one law of rates.");
     if (material.law == MaterialLaw::orthotropic) return check_orthotropic(material, body);
     check_axes(material, body);
     if (material.law != MaterialLaw::neo_hookean && material.law != MaterialLaw::mooney_rivlin) return;
     if (material.poisson < 0.0)
-        refuse(body, "poisson", material.poisson,
-               "a law of rubber takes 0 or above, as its energy has no least value below. Take st_venant_kirchhoff.");
+        refuse_material(
+            body, "poisson", material.poisson,
+            "a law of rubber takes 0 or above, as its energy has no least value below. Take st_venant_kirchhoff.");
     const double most_share = std::min(1.0, 0.5 * material.lambda() / material.mu());
     if (material.second_share > most_share)
-        refuse(body, "second_share", material.second_share,
-               "it must be at most " + number(most_share) + ", the lesser of 1 and lambda/(2 mu).");
+        refuse_material(body, "second_share", material.second_share,
+                        "it must be at most " + number(most_share) + ", the lesser of 1 and lambda/(2 mu).");
 }
 
 double Material::damping_ratio(double omega, double size) const {

@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include "abut/solid/option_words.hpp"
+#include "abut/solid/options/option_words.hpp"
 #include "studies/kinematics/rows.hpp"
 #include "studies/kinematics/shapes.hpp"
 

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "abut/mesh/mesh.hpp"
-#include "abut/solid/boundary_conditions.hpp"
+#include "abut/solid/boundary/boundary_conditions.hpp"
 
 /// Boxes for the cases of a single body: every cell shape, structured and from Gmsh.
 namespace abut::studies {

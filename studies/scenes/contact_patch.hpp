@@ -2,7 +2,7 @@
 #include <array>
 
 #include "abut/contact/options.hpp"
-#include "abut/solid/boundary_conditions.hpp"
+#include "abut/solid/boundary/boundary_conditions.hpp"
 #include "abut/solid/statics.hpp"
 
 /// Two blocks of unit width and height, one on the other, under a uniform pressure from above: the exact solution is one

@@ -5,7 +5,7 @@
 
 #include "abut/contact/options.hpp"
 #include "abut/mesh/mesh.hpp"
-#include "abut/solid/boundary_conditions.hpp"
+#include "abut/solid/boundary/boundary_conditions.hpp"
 #include "abut/solid/statics.hpp"
 
 /// Two elastic bodies pressed onto each other at rest: a cylinder (disc, plane strain) or a sphere onto a block, onto its

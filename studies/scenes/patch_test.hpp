@@ -1,6 +1,6 @@
 #pragma once
 #include "abut/mesh/mesh.hpp"
-#include "abut/solid/boundary_conditions.hpp"
+#include "abut/solid/boundary/boundary_conditions.hpp"
 #include "abut/solid/statics.hpp"
 
 /// What every discretisation of elasticity must keep: constant strain, and no energy of rigid motions.

@@ -17,7 +17,7 @@
 #include "abut/ranks/partition.hpp"
 #include "abut/solid/body_motion.hpp"
 #include "abut/solid/contact_view.hpp"
-#include "abut/solid/share_out.hpp"
+#include "abut/solid/part/share_out.hpp"
 #include "abut/solid/solid.hpp"
 #include "ranks/world.hpp"
 

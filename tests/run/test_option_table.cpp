@@ -10,7 +10,7 @@
 #include "abut/contact/nodal_contact.hpp"
 #include "abut/contact/option_table.hpp"
 #include "abut/run/option_table.hpp"
-#include "abut/solid/option_words.hpp"
+#include "abut/solid/options/option_words.hpp"
 #include "support/dummy_options.hpp"
 
 using namespace abut;

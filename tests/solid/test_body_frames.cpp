@@ -9,8 +9,8 @@
 
 #include "abut/base/error.hpp"
 #include "abut/mesh/shapes/shapes.hpp"
-#include "abut/solid/kinematics/body_frames.hpp"
-#include "abut/solid/rank_part.hpp"
+#include "abut/solid/body/body_frames.hpp"
+#include "abut/solid/part/rank_part.hpp"
 #include "support/worst.hpp"
 
 using namespace abut;

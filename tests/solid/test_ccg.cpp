@@ -2,7 +2,7 @@
 
 #include <cstring>
 
-#include "abut/solid/largest_motion.hpp"
+#include "abut/solid/ccg/largest_motion.hpp"
 #include "solid/scenes.hpp"
 
 using namespace abut;

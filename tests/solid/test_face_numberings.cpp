@@ -6,7 +6,7 @@
 #include <type_traits>
 
 #include "abut/contact/surface.hpp"
-#include "abut/solid/boundary_face.hpp"
+#include "abut/solid/boundary/boundary_face.hpp"
 
 using namespace abut;
 

@@ -9,7 +9,7 @@
 
 #include "abut/base/error.hpp"
 #include "abut/mesh/shapes/shapes.hpp"
-#include "abut/solid/share_out.hpp"
+#include "abut/solid/part/share_out.hpp"
 
 using namespace abut;
 using solid::Kinematics;

@@ -1,0 +1,419 @@
+#include "abut/solid/body/bodies.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <string>
+#include <utility>
+
+#include "abut/base/decompositions.hpp"
+#include "abut/base/error.hpp"
+#include "abut/mesh/extract.hpp"
+#include "abut/solid/kinematics/capabilities.hpp"
+#include "abut/solid/material/law_check.hpp"
+#include "abut/solid/part/body_cells.hpp"
+#include "abut/solid/part/rank_part.hpp"
+
+namespace abut::solid {
+namespace {
+
+/// dt omega of the hardest bounce is at most 0.34: it takes nine steps, and fewer feed the alternating mode.
+constexpr double frequency_margin = 5.0;
+
+/// One value per body that is chosen; none where none are given.
+template <class Value>
+std::vector<Value> chosen(const std::vector<Value>& values, std::span<const std::int32_t> bodies) {
+    std::vector<Value> result;
+    if (values.empty()) return result;
+    for (const std::int32_t body : bodies) result.push_back(values[static_cast<std::size_t>(body)]);
+    return result;
+}
+
+/// The rotation that fits sum m x' X'^T best; of points on a line, about which it is not known, the least one.
+template <int Dim>
+Matrix<Dim> least_rotation(const Matrix<Dim>& moment) {
+    if constexpr (Dim == 3) {
+        const SingularValues svd = singular_values(moment);
+        if (svd.values[1] <= 1e-10 * svd.values[0]) return rotation_between(svd.v.col(0), svd.u.col(0));
+    }
+    return nearest_rotation<Dim>(moment);
+}
+
+}  // namespace
+
+template <int Dim>
+Bodies<Dim>::Bodies(const mesh::Mesh<Dim>& mesh, const SolidOptions<Dim>& options, std::vector<TractionHold> holds)
+    : mesh_(mesh), options_(options), traction_holds_(std::move(holds)) {
+    check();
+    std::vector<std::int32_t> rigid;
+    for (std::int32_t body = 0; body < mesh.n_bodies(); ++body)
+        (kinematics(body) == Kinematics::rigid ? rigid : deformable_bodies_).push_back(body);
+    if (!rigid.empty()) part_ = mesh::extract_bodies<Dim>(mesh, deformable_bodies_);
+    part_options_ = options;
+    part_options_.materials = chosen(options.materials, deformable_bodies_);
+    part_options_.kinematics = chosen(options.kinematics, deformable_bodies_);
+    part_options_.acceleration = chosen(options.acceleration, deformable_bodies_);
+    part_options_.temperature_rise = chosen(options.temperature_rise, deformable_bodies_);
+    set_laws();
+    part_options_.boundary.traction.clear();
+    for (std::size_t i = 0; i < options.boundary.traction.size(); ++i)
+        if (traction_holds_[i] != TractionHold::points)
+            part_options_.boundary.traction.push_back(options.boundary.traction[i]);
+        else  // its faces are no free ones for cells of finite bodies
+            part_options_.boundary.traction.push_back({.group = options.boundary.traction[i].group});
+    if (part_) keep_groups();
+    rigid_.emplace(mesh, rigid, options.materials, n_cells());
+
+    const mesh::Mesh<Dim>& part = deformable();
+    rest_ = part.cell_centroid;
+    for (std::int32_t c = 0; c < part.n_cells(); ++c) {
+        masses_.push_back(part_options_.materials[part.cell_body[c]].density * part.cell_measure[c]);
+        body_.push_back(deformable_bodies_[part.cell_body[c]]);
+    }
+    for (std::size_t i = 0; i < rigid_->size(); ++i)
+        for (const Vector<Dim>& point : rigid_->rest_points(i)) {
+            rest_.push_back(point);
+            masses_.push_back(rigid_->mass(i) / RigidBodies<Dim>::points_per_body);
+            body_.push_back(rigid_->mesh_body(i));
+        }
+    for (const double mass : masses_) inverse_masses_.insert(inverse_masses_.end(), Dim, 1.0 / mass);
+}
+
+template <int Dim>
+SolidPoints<Dim> Bodies<Dim>::points() const {
+    std::vector<std::int32_t> rigid;
+    for (std::size_t i = 0; i < rigid_->size(); ++i) rigid.push_back(rigid_->first_point(i));
+    return {mesh_.name, deformable(), rest_, masses_, inverse_masses_, body_, std::move(rigid)};
+}
+
+template <int Dim>
+void Bodies<Dim>::take_bonds(std::vector<BondPlace<Dim>> places, std::span<const BoundaryFace> joined) {
+    bond_places_ = std::move(places);
+    part_options_.boundary.joined_faces.clear();
+    for (const BoundaryFace b : joined) part_options_.boundary.joined_faces.push_back(mesh_face(deformable(), b));
+}
+
+template <int Dim>
+std::vector<BoundaryFace> Bodies<Dim>::boundary_in_mesh() const {
+    std::vector<BoundaryFace> in_mesh;
+    for (const BoundaryFace b : boundary_faces(mesh_))
+        if (!is_rigid(mesh_.cell_body[cell_of(mesh_, b)])) in_mesh.push_back(b);
+    return in_mesh;
+}
+
+template <int Dim>
+void Bodies<Dim>::place_cell_points(const RankPart<Dim>& part) {
+    cell_points_.resize(deformable_bodies_.size());
+    for (std::size_t i = 0; i < deformable_bodies_.size(); ++i) {
+        if (kinematics(deformable_bodies_[i]) != Kinematics::floating) continue;
+        const auto body = static_cast<std::int32_t>(i);
+        const auto cells = cells_of_body(deformable(), body);
+        cell_points_[i] = find_cell_points<Dim>(deformable(), body, cells, part_options_.materials[i].density, part);
+        if (!cell_points_[i]) continue;
+        if (!part_) part_ = mesh_;
+        std::vector<Vector<Dim>> places;
+        for (std::int32_t c = cells.first; c < cells.second; ++c) places.push_back(cell_points_[i]->place(*part_, c));
+        std::ranges::copy(places, part_->cell_centroid.begin() + cells.first);
+        std::ranges::copy(places, rest_.begin() + cells.first);
+    }
+}
+
+/// Sum of m v (x - centre)^T over the cells of a body, `x_of` being where the values v are.
+template <int Dim>
+template <class PositionOf>
+Matrix<Dim> Bodies<Dim>::mean_slope(std::size_t body, std::span<const Vector<Dim>> of_mesh_cells, std::int32_t on,
+                                    const PositionOf& x_of) const {
+    return rank_part_->sum_of_body(body, Matrix<Dim>(Matrix<Dim>::Zero()), [&](std::int32_t c) -> Matrix<Dim> {
+        return masses_[c] * of_mesh_cells[c + on] * (x_of(c) - cell_points_[body]->centre).transpose();
+    });
+}
+
+/// Takes values at the points of the cells to their centroids, in the order of the whole mesh.
+template <int Dim>
+void Bodies<Dim>::to_centroids(std::vector<Vector<Dim>>& of_mesh_cells) const {
+    for (std::size_t i = 0; i < cell_points_.size(); ++i) {
+        if (!cell_points_[i]) continue;
+        const CellPoints<Dim>& points = *cell_points_[i];
+        const auto cells = cells_of_body(deformable(), static_cast<std::int32_t>(i));
+        const std::int32_t on = cells_of_body(mesh_, deformable_bodies_[i]).first - cells.first;
+        const Matrix<Dim> slope =
+            mean_slope(i, of_mesh_cells, on, [&](std::int32_t c) { return rest_[c]; }) * points.inverse_y;
+        for (std::int32_t c = cells.first; c < cells.second; ++c)
+            of_mesh_cells[c + on] += slope * (mesh_.cell_centroid[c + on] - rest_[c]);
+    }
+}
+
+/// The other way round.
+template <int Dim>
+std::vector<Vector<Dim>> Bodies<Dim>::to_points(std::span<const Vector<Dim>> of_mesh_cells) const {
+    std::vector<Vector<Dim>> at_points(of_mesh_cells.begin(), of_mesh_cells.end());
+    for (std::size_t i = 0; i < cell_points_.size(); ++i) {
+        if (!cell_points_[i]) continue;
+        const CellPoints<Dim>& points = *cell_points_[i];
+        const auto cells = cells_of_body(deformable(), static_cast<std::int32_t>(i));
+        const std::int32_t on = cells_of_body(mesh_, deformable_bodies_[i]).first - cells.first;
+        const Matrix<Dim> slope =
+            mean_slope(i, of_mesh_cells, on, [&](std::int32_t c) { return mesh_.cell_centroid[c + on]; }) * points.inverse_x;
+        for (std::int32_t c = cells.first; c < cells.second; ++c)
+            at_points[c + on] += slope * (rest_[c] - mesh_.cell_centroid[c + on]);
+    }
+    return at_points;
+}
+
+/// The group of a condition may have no face in the part of a rank, and mesh::extract_bodies leaves such groups out.
+template <int Dim>
+void Bodies<Dim>::keep_groups() {
+    const auto keep = [&](const auto& conditions) {
+        for (const auto& condition : conditions)
+            if (std::ranges::find(part_->groups, condition.group, &mesh::BoundaryGroup::name) == part_->groups.end())
+                part_->groups.push_back({condition.group, {}});
+    };
+    keep(part_options_.boundary.dirichlet);
+    keep(part_options_.boundary.traction);
+}
+
+template <int Dim>
+Kinematics Bodies<Dim>::kinematics(std::int32_t body) const {
+    return options_.kinematics.empty() ? Kinematics::small : options_.kinematics[static_cast<std::size_t>(body)];
+}
+
+template <int Dim>
+void Bodies<Dim>::set_laws() {
+    auto& stored = part_options_.finite.stored_energy;
+    auto& inelastic = part_options_.finite.inelastic;
+    stored = chosen(options_.finite.stored_energy, deformable_bodies_);
+    inelastic = chosen(options_.finite.inelastic, deformable_bodies_);
+    stored.resize(deformable_bodies_.size());
+    inelastic.resize(deformable_bodies_.size());
+    for (std::size_t i = 0; i < stored.size(); ++i) {
+        const Material& material = part_options_.materials[i];
+        if (!stored[i] && !inelastic[i]) {
+            const bool is_linear = !material.is_isotropic() && !is_finite(deformable_bodies_[i]);  // the operators know it
+            if (!is_linear) stored[i] = stored_energy<Dim>(material);
+            if (is_finite(deformable_bodies_[i])) inelastic[i] = inelastic_law<Dim>(material);
+        }
+        if (!stored[i] && !inelastic[i]) continue;
+        const std::int32_t body = deformable_bodies_[i];
+        const std::string who = mesh_.name + ": body '" + mesh_.body_names[static_cast<std::size_t>(body)] + "' ";
+        if (!has(kinematics(body), Capability::large_strains))
+            throw BadInput(
+                who +
+                "has a law of large strains, which bodies of Kinematics::finite alone know. Take that (--kinematics "
+                "finite), or MaterialLaw::st_venant_kirchhoff.");
+        if (options_.finite.mean_force == MeanForce::discrete_gradient)
+            throw BadInput(who +
+                           "has a law of large strains, for which there is no MeanForce::discrete_gradient. Take "
+                           "MeanForce::closed_trapezoid (--mean-force closed_trapezoid).");
+        if (stored[i] && inelastic[i]) throw BadInput(who + "is given an elastic law and an inelastic one. Leave one out.");
+        const LawCheck<Dim> check(material, who);
+        if (stored[i])
+            check.require(*stored[i]);
+        else
+            check.require(*inelastic[i]);
+    }
+}
+
+template <int Dim>
+bool Bodies<Dim>::turns(std::int32_t body) const {
+    return kinematics(body) != Kinematics::small;
+}
+
+template <int Dim>
+bool Bodies<Dim>::any_finite() const {
+    return std::ranges::find(options_.kinematics, Kinematics::finite) != options_.kinematics.end();
+}
+
+template <int Dim>
+BodyFrames<Dim> Bodies<Dim>::frames(const RankPart<Dim>& part) const {
+    std::vector<std::int32_t> begin{0};
+    std::vector<bool> floating;
+    for (const std::int32_t body : deformable_bodies_) {
+        floating.push_back(kinematics(body) == Kinematics::floating);
+        begin.push_back(cells_of_body(deformable(), static_cast<std::int32_t>(begin.size()) - 1).second);
+    }
+    return BodyFrames<Dim>(deformable().cell_centroid, std::span(masses_).first(static_cast<std::size_t>(n_cells())),
+                           std::move(begin), std::move(floating), deformable().body_names, part);
+}
+
+// Cells and points ---------------------------------------------------------------------------------------------------
+
+template <int Dim>
+double Bodies<Dim>::cell_mass(std::int32_t cell) const {
+    return options_.materials[static_cast<std::size_t>(mesh_.cell_body[cell])].density * mesh_.cell_measure[cell];
+}
+
+/// Of the cells of the whole mesh; those of rigid bodies are left open.
+template <int Dim>
+std::vector<Vector<Dim>> Bodies<Dim>::of_deformable_cells(std::span<const Vector<Dim>> of_points) const {
+    std::vector<Vector<Dim>> result(static_cast<std::size_t>(mesh_.n_cells()));
+    auto next = of_points.begin();
+    for (const std::int32_t body : deformable_bodies_) {
+        const auto [begin, end] = cells_of_body(mesh_, body);
+        std::copy_n(next, end - begin, result.begin() + begin);
+        next += end - begin;
+    }
+    return result;
+}
+
+template <int Dim>
+std::vector<Vector<Dim>> Bodies<Dim>::of_cells(std::span<const Vector<Dim>> q) const {
+    std::vector<Vector<Dim>> result = of_deformable_cells(q);
+    to_centroids(result);
+    for (std::size_t i = 0; i < rigid_->size(); ++i) {
+        const RigidPlace<Dim> place = rigid_->place(i, q);
+        const auto [begin, end] = cells_of_body(mesh_, rigid_->mesh_body(i));
+        for (std::int32_t c = begin; c < end; ++c)
+            result[c] = place(mesh_.cell_centroid[c] - rigid_->rest_centre(i)) - mesh_.cell_centroid[c];
+    }
+    return result;
+}
+
+template <int Dim>
+std::vector<Vector<Dim>> Bodies<Dim>::of_points(std::span<const Vector<Dim>> displacement) const {
+    const std::vector<Vector<Dim>> at_points = to_points(displacement);
+    std::vector<Vector<Dim>> q;
+    for (const std::int32_t body : deformable_bodies_) {
+        const auto [begin, end] = cells_of_body(mesh_, body);
+        q.insert(q.end(), at_points.begin() + begin, at_points.begin() + end);
+    }
+    q.resize(rest_.size());
+    for (std::size_t i = 0; i < rigid_->size(); ++i) {
+        const auto [begin, end] = cells_of_body(mesh_, rigid_->mesh_body(i));
+        Vector<Dim> shift = Vector<Dim>::Zero();
+        Matrix<Dim> moment = Matrix<Dim>::Zero();
+        double largest = 0.0;
+        for (std::int32_t c = begin; c < end; ++c) {
+            const Vector<Dim> arm = mesh_.cell_centroid[c] - rigid_->rest_centre(i);
+            shift += cell_mass(c) / rigid_->mass(i) * displacement[c];
+            moment += cell_mass(c) * (arm + displacement[c]) * arm.transpose();
+            largest = std::max(largest, (displacement[c] - displacement[begin]).norm());
+        }
+        const Matrix<Dim> turn = largest == 0.0 ? Matrix<Dim>(Matrix<Dim>::Identity()) : least_rotation<Dim>(moment);
+        rigid_->set_displacement(i, {rigid_->rest_centre(i) + shift, turn}, q);
+    }
+    return q;
+}
+
+template <int Dim>
+std::vector<Vector<Dim>> Bodies<Dim>::momenta(std::span<const Vector<Dim>> velocity) const {
+    const std::vector<Vector<Dim>> at_points = to_points(velocity);
+    std::vector<Vector<Dim>> p;
+    for (const std::int32_t body : deformable_bodies_) {
+        const auto [begin, end] = cells_of_body(mesh_, body);
+        for (std::int32_t c = begin; c < end; ++c) p.push_back(cell_mass(c) * at_points[c]);
+    }
+    p.resize(rest_.size());
+    for (std::size_t i = 0; i < rigid_->size(); ++i) {
+        const auto [begin, end] = cells_of_body(mesh_, rigid_->mesh_body(i));
+        Vector<Dim> mean = Vector<Dim>::Zero();
+        AxialVector<Dim> angular = AxialVector<Dim>::Zero();
+        Matrix<Dim> second_moment = Matrix<Dim>::Zero();
+        for (std::int32_t c = begin; c < end; ++c) {
+            const Vector<Dim> arm = mesh_.cell_centroid[c] - rigid_->rest_centre(i);
+            mean += cell_mass(c) / rigid_->mass(i) * velocity[c];
+            angular += cell_mass(c) * moment<Dim>(arm, Vector<Dim>(velocity[c] - velocity[begin]));
+            second_moment += cell_mass(c) * arm * arm.transpose();
+        }
+        rigid_->set_momentum(i, mean, spin_of<Dim>(second_moment, angular), p);
+    }
+    return p;
+}
+
+template <int Dim>
+std::vector<Vector<Dim>> Bodies<Dim>::velocities(std::span<const Vector<Dim>> p) const {
+    std::vector<Vector<Dim>> of_points(p.begin(), p.end());
+    for (std::size_t i = 0; i < of_points.size(); ++i) of_points[i] /= masses_[i];
+    std::vector<Vector<Dim>> result = of_deformable_cells(of_points);
+    to_centroids(result);
+    for (std::size_t i = 0; i < rigid_->size(); ++i) {
+        const RigidPlace<Dim> velocity = rigid_->velocity(i, of_points);
+        const auto [begin, end] = cells_of_body(mesh_, rigid_->mesh_body(i));
+        for (std::int32_t c = begin; c < end; ++c) result[c] = velocity(mesh_.cell_centroid[c] - rigid_->rest_centre(i));
+    }
+    return result;
+}
+
+template <int Dim>
+std::vector<Vector<Dim>> Bodies<Dim>::rigid_forces() const {
+    std::vector<Vector<Dim>> forces(rest_.size(), Vector<Dim>::Zero());
+    if (options_.acceleration.empty() && !options_.body_load) return forces;
+    for (std::size_t i = 0; i < rigid_->size(); ++i) {
+        const std::int32_t body = rigid_->mesh_body(i);
+        Vector<Dim> sum = Vector<Dim>::Zero();
+        Matrix<Dim> moment = Matrix<Dim>::Zero();
+        if (!options_.acceleration.empty()) sum = rigid_->mass(i) * options_.acceleration[static_cast<std::size_t>(body)];
+        const auto [begin, end] = cells_of_body(mesh_, body);
+        for (std::int32_t c = begin; options_.body_load && c < end; ++c) {
+            const Vector<Dim> force = mesh_.cell_measure[c] * options_.body_load(mesh_.cell_centroid[c]);
+            if (!force.allFinite())
+                throw BadInput(mesh_.name + ": the force on cell " + std::to_string(mesh_.cell_label[c]) +
+                                   " is not finite. Correct SolidOptions::body_load.",
+                               {.cell = c});
+            sum += force;
+            moment += force * (mesh_.cell_centroid[c] - rigid_->rest_centre(i)).transpose();
+        }
+        rigid_->set_gradient(i, sum, moment, forces);
+    }
+    return forces;
+}
+
+/// The skin of one side as a spring: k of its stiffest face over the largest silhouette; a corner has at most 4 times the
+/// inverse mass of the whole.
+template <int Dim>
+std::vector<double> Bodies<Dim>::rigid_stiffness() const {
+    std::vector<double> stiffness(rest_.size(), 0.0);
+    for (std::size_t i = 0; options_.contact && i < rigid_->size(); ++i) {
+        double skin = 0.0;
+        Vector<Dim> silhouette = Vector<Dim>::Zero();
+        for (const std::int32_t f : mesh_.boundary_faces) {
+            const std::int32_t cell = mesh_.face_cells[f][0];
+            if (mesh_.cell_body[cell] != rigid_->mesh_body(i)) continue;
+            skin = std::max(skin, rigid_skin(i) * mesh_.face_measure[f] / mesh_.cell_measure[cell]);
+            silhouette += 0.5 * mesh_.face_measure[f] * mesh_.face_normal[f].cwiseAbs();
+        }
+        const double square = 4.0 * skin * silhouette.maxCoeff() / rigid_->mass(i);
+        for (int k = 0; k < RigidBodies<Dim>::points_per_body; ++k) {
+            const auto point = static_cast<std::size_t>(rigid_->first_point(i) + k);
+            stiffness[point] = frequency_margin * frequency_margin * square * masses_[point];
+        }
+    }
+    return stiffness;
+}
+
+template <int Dim>
+Matrix<Dim> Bodies<Dim>::mean_turn(std::int32_t body, const BodyFrames<Dim>& frames) const {
+    for (std::size_t i = 0; i < rigid_->size(); ++i)
+        if (rigid_->mesh_body(i) == body) return rigid_->mean_turn(i);
+    return frames.step(static_cast<std::size_t>(deformable_body(body))).mean_turn();
+}
+
+template <int Dim>
+std::int32_t Bodies<Dim>::deformable_body(std::int32_t body) const {
+    const auto found = std::ranges::find(deformable_bodies_, body);
+    return found == deformable_bodies_.end() ? -1 : static_cast<std::int32_t>(found - deformable_bodies_.begin());
+}
+
+template <int Dim>
+std::pair<std::int32_t, std::int32_t> Bodies<Dim>::points_of(std::int32_t body) const {
+    const auto found = std::ranges::find(body_, body);
+    const auto end = std::find_if(found, body_.end(), [&](std::int32_t of_point) { return of_point != body; });
+    return {static_cast<std::int32_t>(found - body_.begin()), static_cast<std::int32_t>(end - body_.begin())};
+}
+
+template <int Dim>
+std::pair<std::int32_t, std::int32_t> Bodies<Dim>::deformable_cell(std::int32_t cell) const {
+    const std::int32_t body = deformable_body(mesh_.cell_body[cell]);
+    if (body < 0) return {-1, -1};
+    return {cell - cells_of_body(mesh_, mesh_.cell_body[cell]).first + cells_of_body(deformable(), body).first, body};
+}
+
+template <int Dim>
+std::int32_t Bodies<Dim>::mesh_cell(std::int32_t cell) const {
+    const std::int32_t body = deformable().cell_body[cell];
+    return cell - cells_of_body(deformable(), body).first + cells_of_body(mesh_, deformable_bodies_[body]).first;
+}
+
+template class Bodies<2>;
+template class Bodies<3>;
+
+}  // namespace abut::solid

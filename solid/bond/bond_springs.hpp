@@ -1,0 +1,121 @@
+#pragma once
+// Private to the sources of this layer.
+#include <array>
+#include <cstddef>
+#include <initializer_list>
+#include <span>
+#include <vector>
+
+#include "abut/solid/body/bodies.hpp"
+#include "abut/solid/body/body_frames.hpp"
+#include "abut/solid/bond/bond_faces.hpp"
+#include "abut/solid/bond/merged_corrections.hpp"
+#include "abut/solid/boundary/bond_places.hpp"
+#include "abut/solid/ccg/ccg.hpp"
+
+namespace abut::solid {
+
+/// A place of a bond at least one of whose bodies may turn: a spring of no length between the points of both faces that are
+/// there at rest, as stiff in all directions as both half cells in series are along the normal,
+///
+///     V = k_12 A/2 |x_2 - x_1|^2,     x = centre + Q (X - mean of X + û_f + G_c (X - x_f))
+///
+/// so that its mean force over a step is k_12 A times the mean of x_2 - x_1, without a moment. docs/method.md, Bonds.
+template <int Dim>
+class BondSprings {
+public:
+    /// All but `of_springs` must outlive it; `frames` are led along each step before it. Of all places (n_places) those that are
+    /// springs, whose faces nothing holds, and the share of the pull that a place has. A call of all ranks.
+    BondSprings(const Bodies<Dim>& bodies, Ccg<Dim>& ccg, const BodyFrames<Dim>& frames, const RankPart<Dim>& part,
+                std::span<const BondPlace<Dim>> places, std::span<const std::size_t> of_springs,
+                const std::vector<double>& share);
+
+    [[nodiscard]] bool any() const { return !springs_.empty(); }
+    [[nodiscard]] const BondFaces<Dim>& faces() const { return faces_; }
+
+    // Each rank evaluates the faces of its own cells; what brings them to all is a call of all ranks.
+
+    /// Of points at q [m], where the frames stand.
+    void stand_at(std::span<const Vector<Dim>> q, const BoundaryLoad<Dim>& load);
+    /// Along the step that the frames follow.
+    void follow(std::span<const Vector<Dim>> q_0, const BoundaryLoad<Dim>& load_0, std::span<const Vector<Dim>> q_1,
+                const BoundaryLoad<Dim>& load_1);
+    /// Of tiny displacements u of the cells [m], no body being turned: for the stable step. Valid until the next call of any.
+    [[nodiscard]] FaceCorrections<Dim> stiffness_of(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load);
+    /// The corrections of contact and these. Valid until the next call and as long as those are.
+    [[nodiscard]] FaceCorrections<Dim> corrections(const FaceCorrections<Dim>& of_contact);
+    /// What they push each body with besides others (n_bodies that deform).
+    [[nodiscard]] std::span<const BodyPush<Dim>> pushes(std::span<const BodyPush<Dim>> others);
+    [[nodiscard]] double energy() const;  ///< at the end of the step [J]
+    /// The end alone: `energy` is that of it. What springs pull with stays.
+    void see_end(std::span<const Vector<Dim>> q_1, const BoundaryLoad<Dim>& load_1, StepState state);
+    /// Calls visit(place, traction, stiffness, normal): in space at the end of the step dV/dx_2 per area of a whole place [Pa] and the normal
+    /// out of the first face; k_12 [Pa/m].
+    template <class Visit>
+    void for_each_traction(const Visit& visit) const {
+        for (std::size_t i = 0; i < springs_.size(); ++i) {
+            const BondSpring& spring = springs_[i];
+            const BondPlace<Dim>& place = places_[spring.place];
+            const End& end = spring.ends[0];
+            const Vector<Dim> in_frame =
+                (Matrix<Dim>::Identity() + end_.tilt[end.face]).inverse().transpose() * place.normal;
+            const double stiffness = spring.stiffness / place.area;
+            visit(spring.place, Vector<Dim>(stiffness * (x_1_[i][1] - x_1_[i][0])), stiffness,
+                  Vector<Dim>(frames_.end()[end.body].turn * in_frame));
+        }
+    }
+    /// Calls visit(place, k_12) [Pa/m].
+    template <class Visit>
+    void for_each_stiffness(const Visit& visit) const {
+        for (const BondSpring& spring : springs_) visit(spring.place, spring.stiffness / places_[spring.place].area);
+    }
+
+private:
+    struct End {
+        std::size_t face;  // position in faces_
+        Vector<Dim> arm;   // from the centroid of the face
+        Vector<Dim> rest;  // X
+        std::size_t body;  // of those that deform
+    };
+    struct BondSpring {
+        std::array<End, 2> ends;
+        double stiffness;  // k_12 A [N/m]
+        std::size_t place;
+    };
+    using Positions = std::vector<std::array<Vector<Dim>, 2>>;
+    /// Of faces_, in their frames.
+    struct Tilted {
+        std::vector<Vector<Dim>> displacement;
+        std::vector<Matrix<Dim>> tilt;
+    };
+
+    void begin_collecting();
+    void collect();
+    void add(const End& end, const Vector<Dim>& in_frame);
+    void evaluate_own(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load, StepState state, Tilted& faces);
+    void bring(std::initializer_list<Tilted*> states);
+    void place(std::span<const BodyFrame<Dim>> frames, const Tilted& faces, Positions& x) const;
+    [[nodiscard]] FaceCorrections<Dim> own_corrections() const {
+        return {faces_.faces_here(), {}, face_gradient_, cell_moment_};
+    }
+
+    Ccg<Dim>& ccg_;
+    const BodyFrames<Dim>& frames_;
+    std::span<const BondPlace<Dim>> places_;
+    const std::vector<double>& share_;
+    BondFaces<Dim> faces_;
+    std::vector<std::size_t> here_;  // of each face its position among those here; `nowhere`: it is not
+    std::vector<BondSpring> springs_;
+    Region<Dim> region_;  // of own faces
+    Positions x_0_, x_1_;
+    std::vector<Vector<Dim>> u_;
+    std::vector<Vector<Dim>> own_displacement_;
+    std::vector<Matrix<Dim>> own_tilt_;
+    Tilted start_, end_;
+    std::vector<Vector<Dim>> face_gradient_;  // of faces here [N]
+    std::vector<Matrix<Dim>> cell_moment_;    // of faces here [N m]
+    std::vector<BodyPush<Dim>> pushes_, all_pushes_;
+    MergedCorrections<Dim> merged_;
+};
+
+}  // namespace abut::solid

@@ -1,0 +1,390 @@
+#include "abut/solid/bond/bonds.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <string>
+#include <utility>
+
+#include "abut/base/decompositions.hpp"
+#include "abut/base/error.hpp"
+#include "abut/base/sort_unique.hpp"
+#include "abut/solid/kinematics/capabilities.hpp"
+#include "abut/solid/material/orthotropic.hpp"
+
+namespace abut::solid {
+namespace {
+
+constexpr double least_share_of_stiffness =
+    1e-9;                       // of a half cell's mean one: directions in which it has none share the jump
+constexpr double flat = 1e-10;  // of the largest second moment: a cloud of cells has no width in such a direction
+
+template <int Dim>
+Matrix<Dim> made_firm(const Matrix<Dim>& stiffness) {
+    return stiffness + least_share_of_stiffness / Dim * stiffness.trace() * Matrix<Dim>::Identity();
+}
+
+template <int Dim>
+std::size_t position_of(const FaceCorrections<Dim>& corrections, BoundaryFace face) {
+    const auto at = std::ranges::lower_bound(corrections.faces, face);
+    return at != corrections.faces.end() && *at == face ? static_cast<std::size_t>(at - corrections.faces.begin())
+                                                        : corrections.faces.size();
+}
+
+}  // namespace
+
+template <int Dim>
+Bonds<Dim>::Bonds(const Bodies<Dim>& bodies, Ccg<Dim>& ccg, const BodyFrames<Dim>& frames, const RankPart<Dim>& part)
+    : bodies_(bodies), mesh_(bodies.deformable()), ccg_(ccg), places_(bodies.bond_places()), share_(places_.size(), 1.0) {
+    check_bodies();
+    std::vector<std::size_t> of_springs, of_joints;
+    for (std::size_t p = 0; p < places_.size(); ++p) {
+        const auto turns = [&](std::int32_t body) { return bodies.turns(body); };
+        (std::ranges::any_of(places_[p].bodies, turns) ? of_springs : of_joints).push_back(p);
+    }
+    check_metal(of_joints);
+    springs_ = std::make_unique<BondSprings<Dim>>(bodies, ccg, frames, part, places_, of_springs, share_);
+    faces_.emplace(mesh_, part, places_, of_joints);
+    dynamics::agreed(part.ranks(), [&] {
+        for (const BondFaces<Dim>* faces : std::array<const BondFaces<Dim>*, 2>{&*faces_, &springs_->faces()})
+            for (const BoundaryFace face : faces->own_faces()) check(face);
+    });
+    if (!of_joints.empty()) take_faces();
+    for (const std::size_t p : of_joints) append_joint(p);
+    std::vector<std::size_t> own_sides;
+    for (std::size_t j = 0; j < joints_.size(); ++j)
+        for (std::size_t side = 0; side < 2; ++side)
+            if (faces_->is_own(joints_[j].face[side])) own_sides.push_back(2 * j + side);
+    sides_ = RankItems(part.ranks(), std::move(own_sides));
+    for (auto* jump : {&jump_, &jump_0_, &jump_1_}) jump->resize(joints_.size());
+    for (auto* of_sides : {&of_side_0_, &of_side_1_}) of_sides->resize(2 * joints_.size());
+    for (auto* of_face : {&of_face_, &delta_, &excess_, &gradient_}) of_face->resize(faces_->size());
+    delta_here_.resize(faces_->here().size());
+    check_fracture_energy();
+}
+
+template <int Dim>
+void Bonds<Dim>::check_bodies() const {
+    const mesh::Mesh<Dim>& mesh = bodies_.mesh();
+    for (const BondPlace<Dim>& place : places_)
+        for (const std::int32_t body : place.bodies) {
+            const std::string who = mesh.name + ": body '" + mesh.body_names[static_cast<std::size_t>(body)] + "' ";
+            if (!has(bodies_.kinematics(body), Capability::bond))
+                throw BadInput(who +
+                               "is rigid and cannot be bonded. Let it deform (Kinematics::small, ::floating or ::finite), "
+                               "or join it by SolidOptions::springs.");
+        }
+}
+
+/// The return of a cell takes the change of its gradient in a step from its displacements, without delta, and its bonded face as a free one:
+/// no balance of energy would show it.
+template <int Dim>
+void Bonds<Dim>::check_metal(std::span<const std::size_t> of_joints) const {
+    const mesh::Mesh<Dim>& mesh = bodies_.mesh();
+    for (const std::size_t p : of_joints)
+        for (const std::int32_t body : places_[p].bodies)
+            if (bodies_.options().materials[static_cast<std::size_t>(body)].law == MaterialLaw::j2)
+                throw BadInput(
+                    mesh.name + ": body '" + mesh.body_names[static_cast<std::size_t>(body)] +
+                    "' yields (law = \"j2\") and is bonded to another small one: its cells behind the bond would yield "
+                    "as if nothing pulled there. Let one of both be floating or finite (kinematics), or take another "
+                    "material.");
+}
+
+template <int Dim>
+Matrix<Dim> Bonds<Dim>::stiffness_of(BoundaryFace b) const {
+    const std::int32_t face = mesh_face(mesh_, b), cell = cell_of(mesh_, b);
+    const Material& material = bodies_.deformable_options().materials[static_cast<std::size_t>(mesh_.cell_body[cell])];
+    const auto area_of = [&](std::int32_t f) -> Vector<Dim> { return mesh_.face_measure[f] * mesh_.face_normal[f]; };
+    const auto with = [&](std::int32_t other) {
+        const double measure = mesh_.cell_measure[cell];
+        Matrix<Dim> stiffness =
+            face_stiffness<Dim>(material.lambda(), material.mu(), measure, area_of(face), area_of(other));
+        if (!material.is_isotropic())
+            stiffness += DirectedStiffness<Dim>(material).between(area_of(face), area_of(other)) / measure;
+        return stiffness;
+    };
+    Matrix<Dim> stiffness = with(face);
+    ccg_.boundary().for_each_answer(b, [&](BoundaryFace answering, const Matrix<Dim>& answer) {
+        stiffness += with(mesh_face(mesh_, answering)) * answer;
+    });
+    return 0.5 / mesh_.face_measure[face] * (stiffness + stiffness.transpose());
+}
+
+template <int Dim>
+void Bonds<Dim>::take_faces() {
+    const BondFaces<Dim>& faces = *faces_;
+    const std::vector<double> measure =
+        faces.of_owners(1, [&](std::size_t i) { return std::array{mesh_.face_measure[mesh_face(mesh_, faces[i])]}; });
+    const std::vector<double> stiffness = faces.of_owners(Dim * Dim, [&](std::size_t i) {
+        const Matrix<Dim> of_face = stiffness_of(faces[i]);
+        return std::vector<double>(of_face.data(), of_face.data() + Dim * Dim);
+    });
+    for (std::size_t i = 0; i < faces.size(); ++i)
+        of_faces_.push_back(
+            {.measure = measure[i],
+             .stiffness = Eigen::Map<const Matrix<Dim>>(&stiffness[Dim * Dim * i]),
+             .cell = faces[i] == no_face ? -1 : cell_of(mesh_, faces[i]),
+             .neighbours = faces.is_own(i) ? boundary_of(cell_of(mesh_, faces[i])) : std::vector<BoundaryFace>{}});
+}
+
+template <int Dim>
+std::vector<BoundaryFace> Bonds<Dim>::boundary_of(std::int32_t cell) const {
+    std::vector<BoundaryFace> boundary;
+    for (const std::int32_t f : mesh_.cell_faces[cell])
+        if (mesh_.is_boundary(f))
+            boundary.push_back(
+                static_cast<BoundaryFace>(std::ranges::lower_bound(mesh_.boundary_faces, f) - mesh_.boundary_faces.begin()));
+    return boundary;
+}
+
+template <int Dim>
+void Bonds<Dim>::check(BoundaryFace face) const {
+    const std::int32_t cell = cell_of(mesh_, face);
+    const std::string who = mesh_.name + ": a bonded face of body '" +
+                            mesh_.body_names[static_cast<std::size_t>(mesh_.cell_body[cell])] + "' (cell " +
+                            std::to_string(mesh_.cell_label[cell]) + ")";
+    if (!ccg_.prescribed()[face].isZero(0.0))
+        throw BadInput(who + " is held by a support. Leave it out of the support's group, or bond other faces.",
+                       {.cell = cell});
+    for (const TractionCondition<Dim>& condition : bodies_.deformable_options().boundary.traction) {
+        const std::vector<std::int32_t>& loaded = mesh_.group(condition.group).faces;
+        const auto is_loaded = [&](BoundaryFace b) { return std::ranges::binary_search(loaded, mesh_face(mesh_, b)); };
+        if (is_loaded(face))
+            throw BadInput(who + " has a traction on it (group '" + condition.group +
+                               "'). Leave it out of that group, or bond other faces.",
+                           {.cell = cell});
+        if (condition.from_outside && std::ranges::any_of(boundary_of(cell), is_loaded))
+            throw BadInput(who + " has a load from outside beside it (group '" + condition.group +
+                               "'), on a face that moves with the bond. Leave a cell between both.",
+                           {.cell = cell});
+    }
+}
+
+template <int Dim>
+void Bonds<Dim>::append_joint(std::size_t place) {
+    Joint joint{};
+    joint.place = place;
+    joint.area = places_[place].area;
+    for (std::size_t side = 0; side < 2; ++side) {
+        joint.face[side] = faces_->position_of(places_[place], side);
+        joint.slope_of[side] = slope_.size();
+        if (const BoundaryFace here = (*faces_)[joint.face[side]]; here != no_face)
+            append_slope(joint.face[side], places_[place].position - ccg_.centroid(here));
+        joint.slope_end[side] = slope_.size();
+    }
+    const Matrix<Dim>&k_1 = of_faces_[joint.face[0]].stiffness, k_2 = of_faces_[joint.face[1]].stiffness;
+    joint.share[0] = (made_firm<Dim>(k_1) + made_firm<Dim>(k_2)).inverse() * made_firm<Dim>(k_2);
+    joint.share[1] = joint.share[0] - Matrix<Dim>::Identity();
+    joint.stiffness = joint.share[0].transpose() * k_1 * joint.share[0] + joint.share[1].transpose() * k_2 * joint.share[1];
+    joints_.push_back(joint);
+}
+
+/// The gradient that fits the cells best on which the face depends, along `arm`: exact where they move affinely.
+template <int Dim>
+void Bonds<Dim>::append_slope(std::size_t face, const Vector<Dim>& arm) {
+    const auto of_row = ccg_.cells_of((*faces_)[face]);
+    std::vector<std::int32_t> cells(of_row.begin(), of_row.end());
+    cells.push_back(of_faces_[face].cell);
+    sort_unique(cells);
+    Vector<Dim> centre = Vector<Dim>::Zero();
+    for (const std::int32_t c : cells) centre += mesh_.cell_centroid[c] / static_cast<double>(cells.size());
+    Matrix<Dim> second_moment = Matrix<Dim>::Zero();
+    for (const std::int32_t c : cells) {
+        const Vector<Dim> x = mesh_.cell_centroid[c] - centre;
+        second_moment += x * x.transpose();
+    }
+    const Vector<Dim> slope = pseudo_inverse(Eigen::MatrixXd(second_moment), flat) * arm;
+    for (const std::int32_t c : cells) slope_.push_back({c, slope.dot(mesh_.cell_centroid[c] - centre)});
+}
+
+// In one state, or along a step --------------------------------------------------------------------------------------
+
+template <int Dim>
+void Bonds<Dim>::stand_at(std::span<const Vector<Dim>> q, const BoundaryLoad<Dim>& load) {
+    if (!any()) return;
+    stand_linear(q, load);
+    springs_->stand_at(q, load);
+}
+
+/// Cells of small bodies move as their points do.
+template <int Dim>
+void Bonds<Dim>::stand_linear(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load) {
+    take_own_sides(u, load, of_side_1_);
+    sides_.bring({{as_values<Dim>(of_side_1_), Dim}});
+    take_jumps(of_side_1_, jump_);
+    set_corrections(jump_, delta_, delta_here_);
+}
+
+template <int Dim>
+std::span<const Vector<Dim>> Bonds<Dim>::displacement_at(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load) {
+    take_own_sides(u, load, of_side_1_);
+    sides_.bring({{as_values<Dim>(of_side_1_), Dim}});
+    jump_at_.resize(joints_.size());
+    delta_at_.resize(delta_.size());
+    delta_here_at_.resize(delta_here_.size());
+    take_jumps(of_side_1_, jump_at_);
+    set_corrections(jump_at_, delta_at_, delta_here_at_);
+    return delta_here_at_;
+}
+
+template <int Dim>
+void Bonds<Dim>::follow(std::span<const Vector<Dim>> q_0, const BoundaryLoad<Dim>& load_0, std::span<const Vector<Dim>> q_1,
+                        const BoundaryLoad<Dim>& load_1) {
+    if (!any()) return;
+    take_own_sides(q_0, load_0, of_side_0_);
+    take_own_sides(q_1, load_1, of_side_1_);
+    sides_.bring({{as_values<Dim>(of_side_0_), Dim}, {as_values<Dim>(of_side_1_), Dim}});
+    take_jumps(of_side_0_, jump_0_);
+    take_jumps(of_side_1_, jump_1_);
+    for (std::size_t i = 0; i < joints_.size(); ++i) jump_[i] = 0.5 * (jump_0_[i] + jump_1_[i]);
+    set_corrections(jump_, delta_, delta_here_);
+    springs_->follow(q_0, load_0, q_1, load_1);
+}
+
+template <int Dim>
+void Bonds<Dim>::take_own_sides(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load,
+                                std::vector<Vector<Dim>>& of_sides) {
+    for (const std::size_t face : faces_->own()) of_face_[face] = ccg_.face_displacement((*faces_)[face], u, load);
+    for (const std::size_t i : sides_.own()) {
+        const Joint& joint = joints_[i / 2];
+        const std::size_t side = i % 2, face = joint.face[side];
+        const Vector<Dim>& origin = u[of_faces_[face].cell];
+        Vector<Dim> displacement = of_face_[face];
+        for (std::size_t k = joint.slope_of[side]; k < joint.slope_end[side]; ++k)
+            displacement += slope_[k].weight * (u[slope_[k].cell] - origin);
+        of_sides[i] = displacement;
+    }
+}
+
+template <int Dim>
+void Bonds<Dim>::take_jumps(std::span<const Vector<Dim>> of_sides, std::vector<Vector<Dim>>& jump) const {
+    for (std::size_t p = 0; p < joints_.size(); ++p) jump[p] = of_sides[2 * p + 1] - of_sides[2 * p];
+}
+
+template <int Dim>
+void Bonds<Dim>::set_corrections(std::span<const Vector<Dim>> jump, std::vector<Vector<Dim>>& delta,
+                                 std::vector<Vector<Dim>>& here) const {
+    for (Vector<Dim>& of_face : delta) of_face.setZero();
+    for (std::size_t p = 0; p < joints_.size(); ++p)
+        for (std::size_t side = 0; side < 2; ++side) {
+            const std::size_t face = joints_[p].face[side];
+            const double weight = share_of(joints_[p]) * joints_[p].area / of_faces_[face].measure;
+            delta[face] += weight * (joints_[p].share[side] * jump[p]);
+        }
+    for (std::size_t i = 0; i < here.size(); ++i) here[i] = delta[faces_->here()[i]];
+}
+
+template <int Dim>
+FaceCorrections<Dim> Bonds<Dim>::corrections(const FaceCorrections<Dim>& of_contact) {
+    if (!any()) return of_contact;
+    of_others_ = springs_->corrections(of_contact);
+    return merged_.of(of_others_, own_corrections());
+}
+
+template <int Dim>
+std::span<const BodyPush<Dim>> Bonds<Dim>::pushes(std::span<const BodyPush<Dim>> others) {
+    return any() ? springs_->pushes(others) : others;
+}
+
+template <int Dim>
+double Bonds<Dim>::energy() const {
+    if (!any()) return 0.0;
+    double energy = springs_->energy();
+    for (std::size_t p = 0; p < joints_.size(); ++p)
+        energy += 0.5 * share_of(joints_[p]) * joints_[p].area * jump_[p].dot(joints_[p].stiffness * jump_[p]);
+    for (std::size_t i = 0; i < of_faces_.size(); ++i)
+        energy -= 0.5 * of_faces_[i].measure * delta_[i].dot(of_faces_[i].stiffness * delta_[i]);
+    return energy;
+}
+
+/// dV/dû of a face without what others push it with: the points that they push have no part in the corrections.
+template <int Dim>
+Vector<Dim> Bonds<Dim>::bulk_gradient(const BondedFace& of_cell, BoundaryFace face) const {
+    Vector<Dim> gradient = ccg_.boundary_gradient(face);
+    if (of_others_.faces.empty()) return gradient;
+    const std::size_t n = of_others_.faces.size();
+    if (const std::size_t i = position_of(of_others_, face); i < n) gradient -= of_others_.energy_gradient[i];
+    if (of_others_.moment.empty()) return gradient;
+    const std::int32_t f = mesh_face(mesh_, face);
+    const Vector<Dim> spread = mesh_.face_measure[f] / mesh_.cell_measure[of_cell.cell] * mesh_.face_normal[f];
+    for (const BoundaryFace neighbour : of_cell.neighbours)
+        if (const std::size_t i = position_of(of_others_, neighbour); i < n) gradient -= of_others_.moment[i] * spread;
+    return gradient;
+}
+
+template <int Dim>
+void Bonds<Dim>::take_excess() {
+    for (const std::size_t i : faces_->own()) {
+        const BondedFace& face = of_faces_[i];
+        const BoundaryFace b = (*faces_)[i];
+        Vector<Dim> of_face = bulk_gradient(face, b);
+        ccg_.boundary().for_each_answer(b, [&](BoundaryFace answering, const Matrix<Dim>& answer) {
+            of_face += answer.transpose() * bulk_gradient(face, answering);
+        });
+        excess_[i] = of_face / face.measure - face.stiffness * delta_[i];
+    }
+    faces_->items().bring({{as_values<Dim>(excess_), Dim}});
+}
+
+/// Each place pushes both faces, and the cells on whose slope it depends beside that.
+template <int Dim>
+void Bonds<Dim>::push_faces(std::span<Vector<Dim>> gradient) {
+    for (Vector<Dim>& of_face : gradient_) of_face.setZero();
+    for (std::size_t p = 0; p < joints_.size(); ++p) {
+        const Joint& joint = joints_[p];
+        const Vector<Dim> push = share_of(joint) * joint.area *
+                                 (joint.stiffness * jump_[p] + joint.share[0].transpose() * excess_[joint.face[0]] +
+                                  joint.share[1].transpose() * excess_[joint.face[1]]);
+        for (std::size_t side = 0; side < 2; ++side) {
+            const Vector<Dim> on_side = side == 0 ? Vector<Dim>(-push) : push;
+            gradient_[joint.face[side]] += on_side;
+            for (std::size_t i = joint.slope_of[side]; i < joint.slope_end[side]; ++i)
+                gradient[static_cast<std::size_t>(slope_[i].cell)] += slope_[i].weight * on_side;
+        }
+    }
+}
+
+template <int Dim>
+void Bonds<Dim>::add_gradient(std::span<Vector<Dim>> gradient) {
+    if (joints_.empty()) return;
+    take_excess();
+    push_faces(gradient);
+    const BoundaryReconstruction<Dim>& rows = ccg_.boundary();
+    for (const std::size_t i : faces_->here()) {
+        const std::int32_t b = number_of((*faces_)[i]);
+        for (std::int32_t k = rows.offsets[b]; k < rows.offsets[b + 1]; ++k)
+            gradient[static_cast<std::size_t>(rows.cells[k])] += rows.weights[k].transpose() * gradient_[i];
+    }
+}
+
+template <int Dim>
+double Bonds<Dim>::work_of_loads(const BoundaryLoad<Dim>& start, const BoundaryLoad<Dim>& end) const {
+    const std::vector<double> of_faces = faces_->of_owners(1, [&](std::size_t i) {
+        const auto b = static_cast<std::size_t>((*faces_)[i]);
+        return std::array{gradient_[i].dot(end.displacement[b] - start.displacement[b])};
+    });
+    return std::accumulate(of_faces.begin(), of_faces.end(), 0.0);
+}
+
+template <int Dim>
+void Bonds<Dim>::save(StateWriter& state) const {
+    state.put_all(std::span<const double>(share_));
+}
+
+template <int Dim>
+void Bonds<Dim>::restore(StateReader& state) {
+    const std::vector<double> share = state.get_all<double>();
+    if (share.size() != share_.size())
+        throw BadInput(mesh_.name + ": the saved state has " + std::to_string(share.size()) +
+                           " places that are bonded, and here are " + std::to_string(share_.size()) +
+                           ". Restore it where bonds are the same.",
+                       {.value = static_cast<double>(share.size()), .allowed = static_cast<double>(share_.size())});
+    share_ = share;
+}
+
+template class Bonds<2>;
+template class Bonds<3>;
+
+}  // namespace abut::solid

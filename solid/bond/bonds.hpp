@@ -1,0 +1,173 @@
+#pragma once
+// Private to the sources of this layer.
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "abut/base/state_bytes.hpp"
+#include "abut/solid/body/bodies.hpp"
+#include "abut/solid/body/body_frames.hpp"
+#include "abut/solid/bond/bond_faces.hpp"
+#include "abut/solid/bond/bond_law.hpp"
+#include "abut/solid/bond/bond_springs.hpp"
+#include "abut/solid/bond/merged_corrections.hpp"
+#include "abut/solid/boundary/bond_places.hpp"
+#include "abut/solid/ccg/ccg.hpp"
+
+namespace abut::solid {
+
+/// Faces that are glued. Between bodies of Kinematics::small the massless interface of both half cells, exactly: with the jump of
+/// the free faces at a place p of a bond, Delta = y_2(x_p) - y_1(x_p), both faces move to where their tractions balance,
+///
+///     delta_f = 1/|f| sum_p A_p s_p,    s_1 = theta_1 Delta,  s_2 = -theta_2 Delta,   theta_1 = (K_1 + K_2)^-1 K_2 = 1 - theta_2
+///
+/// K_f [Pa/m] being the stiffness of the half cell, what its free faces answer taken off. V is that of the cells with û + delta
+/// and what their faces, which move as a whole, do not have of it:
+///
+///     1/2 sum_p A_p Delta . K_12 Delta - 1/2 sum_f |f| delta_f . K_f delta_f,      K_12 = theta_1^T K_1 theta_1 + theta_2^T K_2 theta_2
+///
+/// All of it is quadratic in the displacements of the cells. Where a body may turn: BondSprings. docs/method.md, Bonds.
+///
+/// A place whose traction t = s K_12 Delta pulls the faces apart and would exceed the strength gives way: its share s falls, at once to 0 or
+/// so that t falls with the opening until all of the fracture energy is taken (BondLaw). In a step the share is the mean of both ends, and
+/// what V loses by its change is dissipated.
+template <int Dim>
+class Bonds {
+public:
+    /// All must outlive it; `frames` are led along each step before it. Throws BadInput for bodies that are rigid, where a support
+    /// holds a bonded face, a traction is on one, or a load from outside on one that answers to it, and for a fracture energy that is
+    /// less than what the half cells beside the bond hold at its strength. A call of all ranks.
+    Bonds(const Bodies<Dim>& bodies, Ccg<Dim>& ccg, const BodyFrames<Dim>& frames, const RankPart<Dim>& part);
+
+    [[nodiscard]] bool any() const { return !places_.empty(); }
+    [[nodiscard]] std::span<const BondPlace<Dim>> places() const { return places_; }
+    [[nodiscard]] bool is_broken(std::size_t place) const { return share_[place] == 0.0; }
+    /// Whether one has a strength.
+    [[nodiscard]] bool any_breaks() const;
+
+    // In one state, or along a step. Each rank evaluates the faces of its own cells, and brings that to all: those that bring
+    // something are calls of all ranks.
+
+    /// Of points at q [m] under these loads, where the frames stand.
+    void stand_at(std::span<const Vector<Dim>> q, const BoundaryLoad<Dim>& load);
+    /// Along the step that the frames follow: in its middle.
+    void follow(std::span<const Vector<Dim>> q_0, const BoundaryLoad<Dim>& load_0, std::span<const Vector<Dim>> q_1,
+                const BoundaryLoad<Dim>& load_1);
+    /// delta of `bonded_faces` in a state of small bodies, whatever else is followed (n_bonded_faces) [m]. Valid until the next call.
+    [[nodiscard]] std::span<const Vector<Dim>> displacement_at(std::span<const Vector<Dim>> u,
+                                                               const BoundaryLoad<Dim>& load);
+    /// Of small bodies here, increasing.
+    [[nodiscard]] std::span<const BoundaryFace> bonded_faces() const { return faces_->faces_here(); }
+    /// What the bonds add to the corrections of contact. Valid until the next call and as long as those are.
+    [[nodiscard]] FaceCorrections<Dim> corrections(const FaceCorrections<Dim>& of_contact);
+    /// Adds dV/du through the corrections (n_cells) [N], after the cells have taken their gradient with the last of them.
+    void add_gradient(std::span<Vector<Dim>> gradient);
+    /// What bodies are pushed with as a whole, with what others push them with (n_bodies that deform).
+    [[nodiscard]] std::span<const BodyPush<Dim>> pushes(std::span<const BodyPush<Dim>> others);
+    /// What V has beside the energy of the cells with these corrections, in one state [J].
+    [[nodiscard]] double energy() const;
+    /// `energy` is that of the end of the step that was followed from now on. A call of all ranks.
+    void see_end(std::span<const Vector<Dim>> q_1, const BoundaryLoad<Dim>& load_1);
+    /// That energy with what cells remember now. A call of all ranks.
+    [[nodiscard]] double energy_at_end(std::span<const Vector<Dim>> q_1, const BoundaryLoad<Dim>& load_1);
+    /// The part of the work of prescribed displacements and tractions in a step from `start` to `end` that is done through the
+    /// corrections, with the gradient that was added last [J].
+    [[nodiscard]] double work_of_loads(const BoundaryLoad<Dim>& start, const BoundaryLoad<Dim>& end) const;
+    /// Adds what bonds resist tiny displacements u of the cells with to K u (n_cells), `apply(corrections)` being K u of the
+    /// cells with these corrections: for the stable step [N].
+    template <class Apply>
+    void add_stiffness(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load, const Apply& apply,
+                       std::span<Vector<Dim>> product) {
+        stand_linear(u, load);
+        of_others_ = springs_->stiffness_of(u, load);
+        apply(any() ? merged_.of(of_others_, own_corrections()) : FaceCorrections<Dim>{});
+        add_gradient(product);
+    }
+
+    // Breaking
+
+    /// Places that the end of the step that was followed opens further than ever before, increasing.
+    [[nodiscard]] std::vector<BondChange> changes() const;
+    /// From the next call of `stand_at` or `follow` on these places have the share of the start of the step, of its end, or the mean of both.
+    enum class When { start, middle, end };
+    void set_shares(std::span<const BondChange> changes, When when);
+    [[nodiscard]] double share(std::size_t place) const { return share_[place]; }
+
+    void save(StateWriter& state) const;
+    void restore(StateReader& state);
+    /// `old_boundary`: of each boundary face of the mesh its index in that of `before`, -1: it was not there. Throws BadInput for a
+    /// bond that `before` does not have.
+    void take_over(const Bonds& before, std::span<const std::int32_t> old_boundary);
+
+private:
+    struct BondedFace {
+        double measure;
+        Matrix<Dim> stiffness;                 // K_f [Pa/m]
+        std::int32_t cell;                     // where it is here; -1
+        std::vector<BoundaryFace> neighbours;  // of an own one: boundary faces of the cell, itself among them
+    };
+    struct Joint {
+        std::size_t place;
+        std::array<std::size_t, 2> face;      // positions in faces_
+        double area;                          // A_p
+        std::array<Matrix<Dim>, 2> share;     // theta_1, -theta_2
+        Matrix<Dim> stiffness;                // K_12 [Pa/m]
+        std::array<std::size_t, 2> slope_of;  // the first entry of each side in slope_; none of faces that are not here
+        std::array<std::size_t, 2> slope_end;
+    };
+    /// What the displacement of a cell adds to that of a place beside the centroid of its face.
+    struct Slope {
+        std::int32_t cell;
+        double weight;
+    };
+
+    void check_bodies() const;
+    void check_metal(std::span<const std::size_t> of_joints) const;
+    void check(BoundaryFace face) const;
+    [[nodiscard]] std::vector<BoundaryFace> boundary_of(std::int32_t cell) const;
+    [[nodiscard]] Matrix<Dim> stiffness_of(BoundaryFace face) const;
+    void take_faces();
+    void append_joint(std::size_t place);
+    void append_slope(std::size_t face, const Vector<Dim>& arm);
+    void stand_linear(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load);
+    void take_own_sides(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load, std::vector<Vector<Dim>>& of_sides);
+    void take_jumps(std::span<const Vector<Dim>> of_sides, std::vector<Vector<Dim>>& jump) const;
+    void set_corrections(std::span<const Vector<Dim>> jump, std::vector<Vector<Dim>>& delta,
+                         std::vector<Vector<Dim>>& here) const;
+    [[nodiscard]] double share_of(const Joint& joint) const { return share_[joint.place]; }
+    [[nodiscard]] FaceCorrections<Dim> own_corrections() const { return {faces_->faces_here(), delta_here_, {}, {}}; }
+    void check_fracture_energy() const;
+    void append_change(std::size_t place, const Vector<Dim>& traction, double stiffness, const Vector<Dim>& normal,
+                       std::vector<BondChange>& changes) const;
+    [[nodiscard]] Vector<Dim> bulk_gradient(const BondedFace& of_cell, BoundaryFace face) const;
+    void take_excess();
+    void push_faces(std::span<Vector<Dim>> gradient);
+
+    const Bodies<Dim>& bodies_;
+    const mesh::Mesh<Dim>& mesh_;  // of the bodies that deform
+    const Ccg<Dim>& ccg_;
+    std::vector<BondPlace<Dim>> places_;
+    std::vector<double> share_;          // by place, from 1, whole, to 0, broken
+    std::vector<BondChange> in_middle_;  // whose share is the mean of both ends of a step
+    std::unique_ptr<BondSprings<Dim>> springs_;
+    std::optional<BondFaces<Dim>> faces_;  // of small bodies
+    std::vector<BondedFace> of_faces_;     // of each
+    std::vector<Joint> joints_;
+    std::vector<Slope> slope_;
+    RankItems sides_;                                  // of joints: 2 joint + side
+    std::vector<Vector<Dim>> of_side_0_, of_side_1_;   // y at the place, by side [m]
+    std::vector<Vector<Dim>> jump_, jump_0_, jump_1_;  // Delta, by joint: as it counts, and at both ends of a step [m]
+    std::vector<Vector<Dim>> of_face_;                 // û, by bonded face here [m]
+    std::vector<Vector<Dim>> delta_, delta_here_;      // by bonded face, by those here [m]
+    std::vector<Vector<Dim>> jump_at_, delta_at_, delta_here_at_;  // of `displacement_at`
+    std::vector<Vector<Dim>> excess_;    // of the face's traction over that of its half cell alone, by bonded face [Pa]
+    std::vector<Vector<Dim>> gradient_;  // dV/dû through the corrections, by bonded face [N]
+    FaceCorrections<Dim> of_others_;     // of contact and springs
+    MergedCorrections<Dim> merged_;
+};
+
+}  // namespace abut::solid

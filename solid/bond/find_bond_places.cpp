@@ -1,0 +1,266 @@
+#include "abut/solid/bond/find_bond_places.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+
+#include "abut/base/error.hpp"
+#include "abut/base/messages.hpp"
+#include "abut/contact/overlaps.hpp"
+#include "abut/geometry/polygon.hpp"
+#include "abut/solid/part/value_reader.hpp"
+
+namespace abut::solid {
+namespace {
+
+constexpr double facing = -0.7;       // n_1 . n_2 of faces that may be bonded is below it
+constexpr double largest_gap = 0.1;   // between them, of the size of the smaller one
+constexpr double least_share = 1e-9;  // of the smaller face: a smaller overlap is rounding
+
+template <int Dim>
+double size_of(double area) {
+    return Dim == 2 ? area : std::sqrt(area);
+}
+
+template <int Dim>
+std::string side_in_words(const mesh::Mesh<Dim>& mesh, std::int32_t side, std::size_t n_obstacles) {
+    const std::int32_t n = mesh.n_bodies();
+    if (side < n) return "body '" + mesh.body_names[static_cast<std::size_t>(side)] + "'";
+    return "group '" + mesh.groups[static_cast<std::size_t>(side - n) - n_obstacles].name + "'";
+}
+
+template <int Dim>
+bool is_on_side(const mesh::Mesh<Dim>& mesh, std::int32_t side, std::size_t n_obstacles, std::int32_t face) {
+    const std::int32_t n = mesh.n_bodies();
+    if (side < n) return mesh.cell_body[mesh.face_cells[face][0]] == side;
+    const auto& faces = mesh.groups[static_cast<std::size_t>(side - n) - n_obstacles].faces;
+    return std::ranges::binary_search(faces, face);
+}
+
+/// A boundary face as it is at rest, and the sides of bonds that it is on.
+template <int Dim>
+struct Side {
+    std::size_t number;  // among all boundary faces of the bodies that deform, of all ranks; of a rigid body behind these
+    std::int32_t body;   // in the mesh
+    double depth, measure;
+    bool is_simplex;  // of a triangle or tetrahedron
+    std::vector<Vector<Dim>> corners;
+    std::vector<double> sides;  // 2 bond + side, increasing
+};
+
+/// The faces of all ranks that are on a side of a bond. A rigid body is on each rank: the first one brings it.
+template <int Dim>
+class AllSides {
+public:
+    AllSides(const Bodies<Dim>& bodies, const RankPart<Dim>& part) : bodies_(bodies), mesh_(bodies.mesh()) {
+        const std::vector<BoundaryFace> in_mesh = bodies.boundary_in_mesh();
+        for (std::size_t i = 0; i < part.own_faces().size(); ++i)
+            append(in_mesh[static_cast<std::size_t>(part.own_faces()[i])], part.face_number(part.face_keys()[i]));
+        if (part.ranks().rank() == 0)
+            for (const BoundaryFace b : boundary_faces(mesh_))
+                if (bodies.is_rigid(mesh_.cell_body[cell_of(mesh_, b)]))
+                    append(b, part.n_all_faces() + static_cast<std::size_t>(b));
+    }
+
+    [[nodiscard]] std::vector<Side<Dim>> gather(const dynamics::Ranks& ranks) const {
+        const std::vector<double> all = ranks.gather(mine_);
+        std::vector<Side<Dim>> faces;
+        for (ValueReader reader(all); !reader.is_done();) {
+            Side<Dim>& face = faces.emplace_back();
+            face.number = reader.next_as<std::size_t>();
+            face.body = reader.next_as<std::int32_t>();
+            face.depth = reader.next();
+            face.measure = reader.next();
+            face.is_simplex = reader.next() != 0.0;
+            face.corners.resize(reader.next_as<std::size_t>());
+            face.sides.resize(reader.next_as<std::size_t>());
+            for (Vector<Dim>& corner : face.corners) corner = reader.next_array<Vector<Dim>>();
+            for (double& side : face.sides) side = reader.next();
+        }
+        std::ranges::sort(faces, {}, &Side<Dim>::number);
+        return faces;
+    }
+
+private:
+    void append(BoundaryFace b, std::size_t number) {
+        const std::int32_t face = mesh_face(mesh_, b), cell = cell_of(mesh_, b);
+        const SolidOptions<Dim>& options = bodies_.options();
+        std::vector<double> sides;
+        for (std::size_t bond = 0; bond < options.bonds.size(); ++bond)
+            for (std::size_t side = 0; side < 2; ++side)
+                if (is_on_side(mesh_, options.bonds[bond].sides[side], options.obstacles.size(), face))
+                    sides.push_back(static_cast<double>(2 * bond + side));
+        if (sides.empty()) return;
+        const auto corners = mesh_.face_vertices[face];
+        mine_.insert(mine_.end(),
+                     {static_cast<double>(number), static_cast<double>(mesh_.cell_body[cell]), cell_depth(mesh_, face),
+                      mesh_.face_measure[face], mesh_.cell_faces[cell].size() == Dim + 1 ? 1.0 : 0.0,
+                      static_cast<double>(corners.size()), static_cast<double>(sides.size())});
+        for (const std::int32_t v : corners) mine_.insert(mine_.end(), mesh_.vertices[v].begin(), mesh_.vertices[v].end());
+        mine_.insert(mine_.end(), sides.begin(), sides.end());
+    }
+
+    const Bodies<Dim>& bodies_;
+    const mesh::Mesh<Dim>& mesh_;
+    std::vector<double> mine_;
+};
+
+/// The faces of both sides of a bond, as contact reads them: those of the first one, then those of the second.
+template <int Dim>
+struct Sides {
+    contact::Surface<Dim> surface;
+    std::array<std::vector<const Side<Dim>*>, 2> faces;
+    std::array<std::vector<geometry::Box<Dim>>, 2> boxes;  // with the gap that is allowed
+
+    Sides(std::span<const Side<Dim>> all, std::size_t bond) {
+        for (std::size_t side = 0; side < 2; ++side)
+            for (const Side<Dim>& face : all)
+                if (std::ranges::binary_search(face.sides, static_cast<double>(2 * bond + side))) append(face, side);
+    }
+
+    [[nodiscard]] const Side<Dim>& face(std::int32_t i) const {
+        const auto k = static_cast<std::size_t>(i), n = faces[0].size();
+        return k < n ? *faces[0][k] : *faces[1][k - n];
+    }
+
+private:
+    void append(const Side<Dim>& face, std::size_t side) {
+        geometry::Box<Dim> box;
+        for (const Vector<Dim>& corner : face.corners) box.extend(corner);
+        surface.append(face.corners, face.depth, 1.0, static_cast<std::int32_t>(side));
+        faces[side].push_back(&face);
+        boxes[side].push_back(box.grown(largest_gap * size_of<Dim>(face.measure)));
+    }
+};
+
+template <int Dim>
+void check_bond(const mesh::Mesh<Dim>& mesh, const Bond& bond, std::size_t n_obstacles) {
+    const auto n_bodies = static_cast<std::size_t>(mesh.n_bodies()), n_sides = n_bodies + n_obstacles + mesh.groups.size();
+    for (const std::int32_t side : bond.sides)
+        if (const auto i = static_cast<std::size_t>(side);
+            side < 0 || i >= n_sides || (i >= n_bodies && i < n_bodies + n_obstacles))
+            throw BadInput(mesh.name + ": a bond is given for side " + std::to_string(side) +
+                               "; bodies are counted from 0 to " + std::to_string(n_bodies - 1) + ", groups from " +
+                               std::to_string(n_bodies + n_obstacles) + " to " + std::to_string(n_sides - 1) +
+                               ", and obstacles cannot be bonded. Correct SolidOptions::bonds.",
+                           {.value = static_cast<double>(side), .allowed = static_cast<double>(n_sides - 1)});
+    if (bond.sides[0] == bond.sides[1])
+        throw BadInput(mesh.name + ": both sides of a bond are " + side_in_words(mesh, bond.sides[0], n_obstacles) +
+                       ". Give two, in SolidOptions::bonds.");
+    if (!(bond.strength > 0.0))
+        throw BadInput(mesh.name + ": the bond of " + side_in_words(mesh, bond.sides[0], n_obstacles) + " and " +
+                           side_in_words(mesh, bond.sides[1], n_obstacles) + " has a strength of " + number(bond.strength) +
+                           " Pa; > 0 is needed. Correct SolidOptions::bonds.",
+                       {.value = bond.strength, .allowed = 0.0});
+    if (!(bond.fracture_energy >= 0.0 && std::isfinite(bond.fracture_energy)) ||
+        (bond.fracture_energy > 0.0 && std::isinf(bond.strength)))
+        throw BadInput(
+            mesh.name + ": the bond of " + side_in_words(mesh, bond.sides[0], n_obstacles) + " and " +
+                side_in_words(mesh, bond.sides[1], n_obstacles) + " has a fracture energy of " +
+                number(bond.fracture_energy) +
+                " J/m^2; it is finite and >= 0, and 0 where the strength is infinite. Correct SolidOptions::bonds.",
+            {.value = bond.fracture_energy, .allowed = 0.0});
+}
+
+template <int Dim>
+class BondFinder {
+public:
+    BondFinder(const Bodies<Dim>& bodies, const RankPart<Dim>& part)
+        : bodies_(bodies), mesh_(bodies.mesh()), part_(part), options_(bodies.options()) {}
+
+    FoundBonds<Dim> find() {
+        if (options_.bonds.empty()) return {};
+        for (const Bond& bond : options_.bonds) check_bond(mesh_, bond, options_.obstacles.size());
+        all_ = AllSides<Dim>(bodies_, part_).gather(part_.ranks());
+        here_ = part_.faces_by_number(bodies_.deformable());
+        in_mesh_ = bodies_.boundary_in_mesh();
+        for (std::size_t i = 0; i < options_.bonds.size(); ++i) append_places(i);
+        find_joined();
+        return std::move(found_);
+    }
+
+private:
+    void append_places(std::size_t number_of_bond) {
+        const Bond& bond = options_.bonds[number_of_bond];
+        const Sides<Dim> sides(all_, number_of_bond);
+        const contact::Surface<Dim>& surface = sides.surface;
+        const auto n_first = static_cast<std::int32_t>(sides.faces[0].size());
+        std::vector<geometry::IndexPair> pairs =
+            geometry::overlapping_pairs<Dim>({}, sides.boxes[0], sides.boxes[1], [&](std::int32_t i, std::int32_t j) {
+                return surface.normal[static_cast<std::size_t>(i)].dot(
+                           surface.normal[static_cast<std::size_t>(n_first + j)]) < facing;
+            });
+        for (geometry::IndexPair& pair : pairs) pair.second += n_first;
+        const std::vector<Vector<Dim>> at_rest(static_cast<std::size_t>(surface.size()), Vector<Dim>::Zero());
+        const contact::SurfaceView<Dim> view = surface.view();
+        const std::size_t before = found_.places.size();
+        for (const contact::Overlap<Dim>& overlap : contact::find_overlaps<Dim>(view, at_rest, pairs).found) {
+            const Side<Dim>&face_1 = sides.face(overlap.face_1), &face_2 = sides.face(overlap.face_2);
+            const double smaller = std::min(surface.area[static_cast<std::size_t>(overlap.face_1)],
+                                            surface.area[static_cast<std::size_t>(overlap.face_2)]);
+            if (overlap.area <= least_share * smaller || std::abs(overlap.gap) > largest_gap * size_of<Dim>(smaller))
+                continue;
+            const auto corners = contact::overlap_polygon<Dim>(view, at_rest, {overlap.face_1, overlap.face_2});
+            found_.places.push_back({number_of_bond,
+                                     {face_here(face_1.number), face_here(face_2.number)},
+                                     {face_1.number, face_2.number},
+                                     {face_1.body, face_2.body},
+                                     overlap.area,
+                                     geometry::face_centroid<Dim>(corners),
+                                     overlap.normal});
+        }
+        if (found_.places.size() == before)
+            throw BadInput(
+                mesh_.name + ": " + side_in_words(mesh_, bond.sides[0], options_.obstacles.size()) + " and " +
+                side_in_words(mesh_, bond.sides[1], options_.obstacles.size()) +
+                " are to be bonded, but no face of one lies on one of the other: facing it, and not farther than " +
+                number(largest_gap) + " of the smaller face's size. Move them together, or leave the bond out.");
+    }
+
+    /// In the mesh of all bodies.
+    [[nodiscard]] BoundaryFace face_here(std::size_t number) const {
+        if (number >= here_.size() || here_[number] == no_face) return no_face;
+        return in_mesh_[static_cast<std::size_t>(here_[number])];
+    }
+
+    /// Triangles and tetrahedra have the gradient of their faces, which would be loose where no face of the cell is balanced.
+    void find_joined() {
+        std::vector<int> n_places(part_.n_all_faces(), 0);
+        for (const BondPlace<Dim>& place : found_.places)
+            for (const std::size_t face : place.numbers)
+                if (face < n_places.size()) ++n_places[face];
+        const auto fills = [&](const BondPlace<Dim>& place, std::size_t side) {
+            constexpr double rounding = 1e-6;
+            const auto face = std::ranges::lower_bound(all_, place.numbers[side], {}, &Side<Dim>::number);
+            return !bodies_.turns(face->body) && !face->is_simplex && n_places[face->number] == 1 &&
+                   std::abs(place.area - face->measure) <= rounding * face->measure;
+        };
+        for (const BondPlace<Dim>& place : found_.places)
+            if (std::isinf(options_.bonds[place.bond].strength) && fills(place, 0) && fills(place, 1))
+                for (const std::size_t face : place.numbers)
+                    if (here_[face] != no_face) found_.joined.push_back(here_[face]);
+        std::ranges::sort(found_.joined);
+    }
+
+    const Bodies<Dim>& bodies_;
+    const mesh::Mesh<Dim>& mesh_;
+    const RankPart<Dim>& part_;
+    const SolidOptions<Dim>& options_;
+    std::vector<Side<Dim>> all_;         // by number
+    std::vector<BoundaryFace> here_;     // of bodies that deform, by number
+    std::vector<BoundaryFace> in_mesh_;  // of these in the mesh of all
+    FoundBonds<Dim> found_;
+};
+
+}  // namespace
+
+template <int Dim>
+FoundBonds<Dim> find_bond_places(const Bodies<Dim>& bodies, const RankPart<Dim>& part) {
+    return BondFinder<Dim>(bodies, part).find();
+}
+
+template FoundBonds<2> find_bond_places(const Bodies<2>&, const RankPart<2>&);
+template FoundBonds<3> find_bond_places(const Bodies<3>&, const RankPart<3>&);
+
+}  // namespace abut::solid

@@ -1,0 +1,43 @@
+#include "abut/solid/contact/acting_law.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include "abut/base/error.hpp"
+#include "abut/solid/contact/obstacles.hpp"
+#include "abut/solid/options/law_options.hpp"
+
+namespace abut::solid {
+
+template <int Dim>
+ContactLaw acting_law(const Bodies<Dim>& bodies) {
+    const SolidOptions<Dim>& options = bodies.options();
+    const mesh::Mesh<Dim>& mesh = bodies.mesh();
+    bool any_turns = Obstacles<Dim>(std::span(options.obstacles)).turn();
+    for (std::int32_t body = 0; body < mesh.n_bodies(); ++body) any_turns = any_turns || bodies.turns(body);
+    if (any_turns && options.law == ContactLaw::reconstruction)
+        throw BadInput(
+            mesh.name +
+            ": a body or an obstacle may turn, and the modified reconstruction knows normals at rest alone. Choose "
+            "ContactLaw::pair_potential or ContactLaw::automatic.");
+    const auto breaks = [](const Bond& bond) { return std::isfinite(bond.strength); };
+    if (std::ranges::any_of(options.bonds, breaks) && options.law == ContactLaw::reconstruction)
+        throw BadInput(mesh.name +
+                       ": a bond has a strength, and under the modified reconstruction bonds are for ever. Choose "
+                       "ContactLaw::pair_potential or ContactLaw::automatic, or leave the strength out.");
+    if (!options.interference.empty() && options.law == ContactLaw::reconstruction)
+        throw BadInput(
+            mesh.name +
+            ": bodies overlap at the start on purpose (interference), which the modified reconstruction does not know. "
+            "Choose ContactLaw::pair_potential or ContactLaw::automatic.");
+    if (options.law != ContactLaw::automatic) return options.law;
+    const bool is_by_pairs = any_turns || !options.bonds.empty() || !options.interference.empty();
+    return !is_by_pairs && asks_for(ContactLaw::reconstruction, options) ? ContactLaw::reconstruction
+                                                                         : ContactLaw::pair_potential;
+}
+
+template ContactLaw acting_law(const Bodies<2>&);
+template ContactLaw acting_law(const Bodies<3>&);
+
+}  // namespace abut::solid

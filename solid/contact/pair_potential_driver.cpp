@@ -1,0 +1,392 @@
+#include "abut/solid/contact/pair_potential_driver.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <tuple>
+#include <utility>
+
+#include "abut/base/error.hpp"
+#include "abut/base/parallel.hpp"
+#include "abut/base/sort_unique.hpp"
+#include "abut/base/stopwatch.hpp"
+#include "abut/geometry/box.hpp"
+#include "abut/geometry/polygon.hpp"
+#include "abut/solid/contact/friction.hpp"
+#include "abut/solid/contact/interference.hpp"
+
+namespace abut::solid {
+namespace {
+
+/// Skins that faces which are far from all other bodies may move before they must be looked at again.
+constexpr double far_skins = 4.0;
+
+/// In the order of the bodies that contact has. A rigid body never comes together with itself.
+template <int Dim>
+std::vector<std::array<std::int32_t, 2>> ignored_pairs(const Bodies<Dim>& bodies) {
+    std::vector<std::array<std::int32_t, 2>> pairs = bodies.deformable_options().ignored_pairs;
+    const std::int32_t n = bodies.mesh().n_bodies();
+    std::vector<std::int32_t> of_contact(static_cast<std::size_t>(n));
+    for (std::int32_t body = 0; body < n; ++body) of_contact[static_cast<std::size_t>(bodies.mesh_body(body))] = body;
+    for (auto& pair : pairs)
+        for (std::int32_t& body : pair)
+            if (body < n) body = of_contact[static_cast<std::size_t>(body)];
+    if (bodies.deformable_options().contact->search.self_contact)
+        for (std::int32_t body = 0; body < n; ++body)
+            if (bodies.is_rigid(bodies.mesh_body(body))) pairs.push_back({body, body});
+    return pairs;
+}
+
+/// All pairs of faces but those of which one is bonded to the body of the other, as the bonds are when it is asked. The faces of bodies
+/// that deform come first in contact, in the order of the whole mesh.
+template <int Dim>
+std::function<bool(contact::Face, contact::Face)> wanted_beside(const CornerSurface<Dim>& corners, const Bonds<Dim>& bonds) {
+    if (!bonds.any()) return {};
+    using Bonded = std::tuple<std::size_t, std::int32_t, std::size_t>;  // a face, a body that it is bonded to, and where
+    std::vector<Bonded> bonded;
+    for (std::size_t place = 0; place < bonds.places().size(); ++place)
+        for (std::size_t side = 0; side < 2; ++side)
+            bonded.emplace_back(bonds.places()[place].numbers[side], bonds.places()[place].bodies[1 - side], place);
+    std::ranges::sort(bonded);
+    return [bonded = std::move(bonded), body_of = corners.bodies_of_faces(), &bonds](contact::Face face_1,
+                                                                                     contact::Face face_2) {
+        const auto is_bonded_to = [&](contact::Face of, contact::Face other) {
+            const auto face = static_cast<std::size_t>(of);
+            const std::int32_t body = body_of[static_cast<std::size_t>(other)];
+            for (auto at = std::ranges::lower_bound(bonded, Bonded(face, body, 0));
+                 at != bonded.end() && std::get<0>(*at) == face && std::get<1>(*at) == body; ++at)
+                if (!bonds.is_broken(std::get<2>(*at))) return true;
+            return false;
+        };
+        return !is_bonded_to(face_1, face_2) && !is_bonded_to(face_2, face_1);
+    };
+}
+
+template <int Dim>
+contact::NodalOptions nodal_options(const Bodies<Dim>& bodies, const CornerSurface<Dim>& corners, const Bonds<Dim>& bonds) {
+    const SolidOptions<Dim>& options = bodies.deformable_options();
+    const contact::ContactOptions& contact = *options.contact;
+    contact::CandidateOptions search = contact.search;
+    search.ignored_bodies = ignored_pairs(bodies);
+    const auto faces_of = [&](std::size_t group) { return corners.faces_in_group(group); };
+    return {.search = std::move(search),
+            .facing = options.facing,
+            .events = contact.events,
+            .compression_warning = contact.compression_warning,
+            .compression_limit = contact.compression_limit,
+            .friction = friction_between(options, bodies.mesh().n_bodies(), corners.bodies_of_faces(), faces_of),
+            .interference = interference_between(options, bodies.mesh().n_bodies(), corners.bodies_of_faces(), faces_of),
+            .wanted = wanted_beside(corners, bonds)};
+}
+
+}  // namespace
+
+template <int Dim>
+PairPotentialDriver<Dim>::PairPotentialDriver(const Bodies<Dim>& bodies, Ccg<Dim>& ccg, const Loads<Dim>& loads,
+                                              const BodyFrames<Dim>& frames, SolidTimes& times, const RankPart<Dim>& part,
+                                              const Bonds<Dim>& bonds)
+    : bodies_(bodies),
+      ccg_(ccg),
+      loads_(loads),
+      frames_(frames),
+      times_(times),
+      ranks_(part.ranks()),
+      obstacles_(bodies.deformable_options().obstacles),
+      corners_(bodies, ccg, frames, obstacles_, part),
+      contact_(corners_.for_contact(), nodal_options(bodies, corners_, bonds), corners_.sharing()),
+      touches_itself_(bodies.deformable_options().contact->search.self_contact),
+      all_(corners_.list_all()),
+      x_0_(corners_.rest()),
+      x_1_(x_0_),
+      x_state_(x_0_),
+      searched_at_(x_0_),
+      u_(static_cast<std::size_t>(bodies.n_cells())) {}
+
+// The path of the listed faces ---------------------------------------------------------------------------------------
+
+template <int Dim>
+void PairPotentialDriver<Dim>::follow(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1, double cell_motion,
+                                      double time, double dt) {
+    end_time_ = time + dt;
+    corners_.place_rigid(q_1);
+    if (!is_surely_valid(cell_motion, time + dt)) {
+        const Stopwatch watch(times_.search);
+        if (!is_valid_by_cells(q_1, time + dt)) {
+            if (!is_valid_at_near_nodes(q_1, time + dt)) search(q_0, q_1, time, dt);
+            return;
+        }
+    }
+    const Stopwatch watch(times_.contact);
+    corners_.place(listed_, q_1, frames_.end(), loads_.end(), time + dt, x_1_, StepState::end);
+}
+
+template <int Dim>
+void PairPotentialDriver<Dim>::search(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1, double time,
+                                      double dt) {
+    corners_.place(all_, q_0, frames_.start(), loads_.start(), time, x_0_);
+    corners_.place(all_, q_1, frames_.end(), loads_.end(), time + dt, x_1_, StepState::end);
+    contact_.search(x_0_, x_1_);
+    searched_at_ = x_0_;
+    far_reach_ = far_skins * contact_.skin();
+    listed_ = corners_.list(listed_nodes_ = contact_.last().nodes);
+    near_ = corners_.list(near_nodes());
+    near_watch_ = watch_from(near_, q_1, x_1_, time + dt);
+    far_watch_ = watch_from(all_, q_1, x_1_, time + dt);
+    if (touches_itself_) far_watch_.moved_in_frame = moved_in_frame();
+}
+
+/// Of faces that reach into the box of another body or obstacle when that grows by twice `far_reach_`, and by all that contact
+/// itself looks ahead and reaches beyond faces.
+template <int Dim>
+std::vector<std::int32_t> PairPotentialDriver<Dim>::near_nodes() const {
+    const contact::SurfaceView<Dim> facets = contact_.surface().facets().view();
+    const auto box_of = [&](std::int32_t facet) {
+        geometry::Box<Dim> box;
+        for (const std::int32_t n : facets.vertices_of(facet))
+            box.extend(geometry::Box<Dim>{x_0_[n].cwiseMin(x_1_[n]), x_0_[n].cwiseMax(x_1_[n])});
+        return box;
+    };
+    std::vector<geometry::Box<Dim>> box_of_body(static_cast<std::size_t>(contact_.surface().n_bodies()));
+    double deepest = 0.0;
+    for (std::int32_t facet = 0; facet < facets.size(); ++facet) {
+        box_of_body[facets.body[facet]].extend(box_of(facet));
+        deepest = std::max(deepest, facets.cell_depth[facet]);
+    }
+    const double margin =
+        2.0 * (contact_.bevel_stretch() * far_reach_ + contact_.bevel_width()) + contact_.skin() + 4.0 * deepest;
+    std::vector<std::vector<geometry::Box<Dim>>> others(box_of_body.size());  // that a body may come near to
+    for (std::size_t body = 0; body < others.size(); ++body)
+        for (std::size_t other = 0; other < others.size(); ++other)
+            if (const auto grown = box_of_body[other].grown(margin); other != body && grown.overlaps(box_of_body[body]))
+                others[body].push_back(grown);
+    std::vector<std::int32_t> nodes;
+    for (std::int32_t facet = 0; facet < facets.size(); ++facet) {
+        const auto overlaps = [box = box_of(facet)](const geometry::Box<Dim>& other) { return box.overlaps(other); };
+        if (std::ranges::none_of(others[facets.body[facet]], overlaps)) continue;
+        const auto corners = facets.vertices_of(facet);
+        nodes.insert(nodes.end(), corners.begin(), corners.end());
+    }
+    sort_unique(nodes);
+    return nodes;
+}
+
+template <int Dim>
+double PairPotentialDriver<Dim>::energy_at_end(std::span<const Vector<Dim>> q) {
+    const Stopwatch watch(times_.contact);
+    corners_.place(listed_, q, frames_.end(), loads_.end(), end_time_, x_1_, StepState::end);
+    contact_.evaluate_listed(x_1_);
+    return energy();
+}
+
+template <int Dim>
+void PairPotentialDriver<Dim>::end_step() {
+    std::swap(x_0_, x_1_);
+    has_stepped_ = true;
+}
+
+// Contact ------------------------------------------------------------------------------------------------------------
+
+template <int Dim>
+void PairPotentialDriver<Dim>::integrate(double dt) {
+    const Stopwatch watch(times_.contact);
+    has_stepped_ = false;  // until the step has ended well
+    contact_.step_listed(dt, x_0_, x_1_, contact::TakenForce::mean);
+    collect(x_0_, x_1_);
+    keep_touching_faces();
+}
+
+template <int Dim>
+void PairPotentialDriver<Dim>::take_start() {
+    contact_.evaluate_listed(x_0_);
+    collect(x_0_, x_0_);
+}
+
+template <int Dim>
+void PairPotentialDriver<Dim>::take_end(double dt) {
+    const Stopwatch watch(times_.contact);
+    has_stepped_ = false;
+    contact_.step_listed(dt, x_0_, x_1_, contact::TakenForce::end);
+    collect(x_1_, x_1_);
+    keep_touching_faces();
+}
+
+template <int Dim>
+void PairPotentialDriver<Dim>::evaluate_last_end(std::span<const Vector<Dim>> q) {
+    if (!contact_.is_valid_for(0.0)) return evaluate(q, end_time_);
+    contact_.evaluate_listed(x_0_);
+    collect(x_0_, x_0_);
+}
+
+template <int Dim>
+void PairPotentialDriver<Dim>::evaluate(std::span<const Vector<Dim>> q, double time) {
+    corners_.place_rigid(q);
+    if (has_stepped_ && !faces_leave_cells() && contact_.is_valid_for(0.0) &&
+        is_valid(distance_in_frame(near_, q, near_watch_), distance_in_frame(all_, q, far_watch_), time)) {
+        corners_.place(listed_, q, frames_.end(), loads_.end(), time, x_state_);
+        contact_.evaluate_listed(x_state_);
+        return collect(x_state_, x_state_);
+    }
+    corners_.place(all_, q, frames_.end(), loads_.end(), time, x_state_);
+    contact_.evaluate(x_state_);
+    if (contact_.last().nodes != listed_nodes_) {
+        listed_ = corners_.list(listed_nodes_ = contact_.last().nodes);
+        has_stepped_ = false;
+    }
+    collect(x_state_, x_state_);
+}
+
+template <int Dim>
+void PairPotentialDriver<Dim>::collect(const Points& x_0, const Points& x_1) {
+    face_gradient_.clear();
+    cell_moment_.clear();
+    pushes_.assign(frames_.n_bodies(), {});
+    rigid_pushes_.assign(bodies_.rigid().size(), {});
+    const contact::NodalStep<Dim>& step = contact_.last();
+    if (!step.is_active()) return;
+    face_gradient_.resize(listed_.here.size(), Vector<Dim>::Zero());
+    cell_moment_.resize(listed_.here.size(), Matrix<Dim>::Zero());
+    std::size_t at = 0;  // nodes and faces are in the same order
+    for (std::size_t i = 0; i < step.nodes.size(); ++i) {
+        const std::int32_t node = step.nodes[i];
+        if (corners_.is_of_obstacle(node)) break;
+        const std::size_t face = corners_.face_of(node);
+        const Vector<Dim>&p = step.gradient[i], rest = corners_.rest()[node];
+        if (!corners_.is_deformable(face)) {
+            const std::size_t rigid = corners_.rigid_of(face);
+            rigid_pushes_[rigid].add(p, rest - bodies_.rigid().rest_centre(rigid));
+            continue;
+        }
+        const std::size_t body = corners_.body_of(face);
+        pushes_[body].add(p, 0.5 * (x_0[node] - frames_.start()[body].centre + x_1[node] - frames_.end()[body].centre));
+        while (at < listed_.here.size() && static_cast<std::size_t>(listed_.here[at]) < face) ++at;
+        if (at == listed_.here.size() || static_cast<std::size_t>(listed_.here[at]) != face) continue;  // of other ranks
+        const Vector<Dim> in_frame = frames_.step(body).force_turn().transpose() * p;
+        const BoundaryFace b = listed_.boundary[at];
+        face_gradient_[at] += in_frame;
+        cell_moment_[at] += corners_.free_part(b, in_frame) * (rest - ccg_.centroid(b)).transpose();
+    }
+}
+
+template <int Dim>
+FaceCorrections<Dim> PairPotentialDriver<Dim>::corrections() const {
+    if (face_gradient_.empty()) return {};
+    return {listed_.boundary, {}, face_gradient_, cell_moment_};
+}
+
+template <int Dim>
+void PairPotentialDriver<Dim>::take_obstacle_forces(double share, double& work) {
+    obstacles_.clear_forces();
+    const contact::NodalStep<Dim>& step = contact_.last();
+    if (!step.is_active()) return;
+    const auto first = std::ranges::lower_bound(step.nodes, corners_.n_body_nodes());
+    for (auto i = static_cast<std::size_t>(first - step.nodes.begin()); i < step.nodes.size(); ++i) {
+        const std::int32_t node = step.nodes[i];
+        obstacles_.add_force(corners_.obstacle_of(node), -step.gradient[i]);
+        work += share * step.gradient[i].dot(x_1_[node] - x_0_[node]);
+    }
+}
+
+template <int Dim>
+void PairPotentialDriver<Dim>::add_impulses(double dt) {
+    for (const contact::BodyPairStep<Dim>& pair : contact_.last().body_pairs)
+        if (pair.active_pairs > 0)
+            this->impulses_.add(bodies_.mesh_body(pair.body_1), bodies_.mesh_body(pair.body_2), dt * pair.force,
+                                dt * pair.normal_force);
+    if (contact_.last().friction.empty()) return;
+    const auto mesh_body_of = [&](contact::Face face) {
+        return bodies_.mesh_body(static_cast<std::int32_t>(corners_.body_of(static_cast<std::size_t>(face))));
+    };
+    for (const contact::PairStep<Dim>& pair : contact_.last().pairs)
+        this->impulses_.add_friction(mesh_body_of(pair.face_1), mesh_body_of(pair.face_2), pair, dt);
+}
+
+template <int Dim>
+void PairPotentialDriver<Dim>::keep_touching_faces() {
+    touching_.clear();
+    for (const contact::PairStep<Dim>& pair : contact_.last().pairs) {
+        TouchingPoints<Dim> touching{corners_.points_of(pair.face_1), corners_.points_of(pair.face_2), Vector<Dim>::Zero(),
+                                     pair.normal};
+        const auto hold = [&](contact::Face body, contact::Face obstacle) {
+            touching.position = middle_of(body);
+            touching.normal = obstacle_normal(obstacle);
+        };
+        if (touching.points_1.empty()) hold(pair.face_2, pair.face_1);
+        if (touching.points_2.empty()) hold(pair.face_1, pair.face_2);
+        touching_.push_back(touching);
+    }
+}
+
+/// Of a face of a body: at rest where none turns, else in the middle of the step (dynamics::MomentArms).
+template <int Dim>
+Vector<Dim> PairPotentialDriver<Dim>::middle_of(contact::Face face) const {
+    if (!frames_.any_turns() && !bodies_.any_rigid() && !bodies_.any_finite()) return corners_.rest_centroid(face);
+    return 0.5 * (corners_.middle(face, x_0_) + corners_.middle(face, x_1_));
+}
+
+/// In the middle of the step. What a tilted face pushes along a wall must not let the filter change the momentum along it.
+template <int Dim>
+Vector<Dim> PairPotentialDriver<Dim>::obstacle_normal(contact::Face face) const {
+    const auto& surface = contact_.surface();
+    const auto nodes = surface.facets().view().vertices_of(surface.facet_offsets()[static_cast<std::size_t>(face)]);
+    std::array<Vector<Dim>, Dim> corners;
+    for (std::size_t i = 0; i < corners.size(); ++i) corners[i] = 0.5 * (x_0_[nodes[i]] + x_1_[nodes[i]]);
+    return geometry::face_normal<Dim>(corners);
+}
+
+// Results ------------------------------------------------------------------------------------------------------------
+
+template <int Dim>
+ContactField PairPotentialDriver<Dim>::field() const {
+    const mesh::Mesh<Dim>& mesh = bodies_.mesh();
+    const std::size_t n = mesh.boundary_faces.size();
+    ContactField field{std::vector<double>(n, 0.0), std::vector<double>(n, std::numeric_limits<double>::infinity())};
+    for (const contact::PairStep<Dim>& pair : contact_.last().pairs)
+        for (const contact::Face face : {pair.face_1, pair.face_2})
+            if (const BoundaryFace b = corners_.mesh_boundary(face); b != no_face) {
+                field.pressure[number_of(b)] += pair.normal_force / mesh.face_measure[mesh_face(mesh, b)];
+                field.gap[number_of(b)] = std::min(field.gap[number_of(b)], pair.gap_1);
+            }
+    if (bodies_.deformable_options().has_friction())
+        add_friction<Dim>(
+            contact_.last().pairs, contact_.last().friction,
+            [&](contact::Face face) { return corners_.mesh_boundary(face); }, mesh, field);
+    return field;
+}
+
+template <int Dim>
+std::vector<TouchingPair<Dim>> PairPotentialDriver<Dim>::touching_pairs(double gap) const {
+    std::vector<TouchingPair<Dim>> touching;
+    for (const contact::PairStep<Dim>& pair : contact_.last().pairs)
+        if (pair.gap_1 <= gap)
+            touching.push_back(
+                {corners_.mesh_boundary(pair.face_1), corners_.mesh_boundary(pair.face_2), pair.normal, pair.gap_1});
+    return touching;
+}
+
+template <int Dim>
+std::vector<dynamics::ContactPatch<Dim>> PairPotentialDriver<Dim>::patches() const {
+    return contact_patches<Dim>(touching_, [&](std::int32_t point) { return corners_.holds_of(point); });
+}
+
+// In the numbering of the mesh; that of contact has rigid bodies behind all others.
+
+template <int Dim>
+std::vector<contact::BlindCorner<Dim>> PairPotentialDriver<Dim>::blind_corners() const {
+    std::vector<contact::BlindCorner<Dim>> corners = contact_.blind_corners();
+    for (contact::BlindCorner<Dim>& corner : corners) corner.body = bodies_.mesh_body(corner.body);
+    return corners;
+}
+
+template <int Dim>
+std::optional<contact::EdgePair<Dim>> PairPotentialDriver<Dim>::unseen_edges() const {
+    auto edges = contact_.unseen_edges();
+    if (edges)
+        for (auto* edge : {&edges->edge_1, &edges->edge_2}) edge->body = bodies_.mesh_body(edge->body);
+    return edges;
+}
+
+template class PairPotentialDriver<2>;
+template class PairPotentialDriver<3>;
+
+}  // namespace abut::solid

@@ -1,0 +1,110 @@
+#include "abut/solid/load/loads.hpp"
+
+#include <string>
+#include <utility>
+
+#include "abut/base/error.hpp"
+#include "abut/base/parallel.hpp"
+
+namespace abut::solid {
+namespace {
+
+template <int Dim>
+std::vector<Vector<Dim>> body_forces(const mesh::Mesh<Dim>& mesh, const SolidOptions<Dim>& options,
+                                     std::span<const double> masses) {
+    std::vector<Vector<Dim>> forces;
+    if (options.acceleration.empty() && !options.body_load) return forces;
+    for (std::int32_t c = 0; c < mesh.n_cells(); ++c) {
+        Vector<Dim> force = Vector<Dim>::Zero();
+        if (!options.acceleration.empty()) force += masses[c] * options.acceleration[mesh.cell_body[c]];
+        if (options.body_load) force += mesh.cell_measure[c] * options.body_load(mesh.cell_centroid[c]);
+        if (!force.allFinite())
+            throw BadInput(mesh.name + ": the force on cell " + std::to_string(mesh.cell_label[c]) +
+                               " is not finite. Correct SolidOptions::body_load.",
+                           {.cell = c});
+        forces.push_back(force);
+    }
+    return forces;
+}
+
+}  // namespace
+
+template <int Dim>
+Loads<Dim>::Loads(const mesh::Mesh<Dim>& mesh, const SolidOptions<Dim>& options, std::span<const double> masses,
+                  const Ccg<Dim>& ccg, const RankPart<Dim>& part)
+    : mesh_(mesh),
+      ccg_(ccg),
+      part_(part),
+      has_conditions_(!options.boundary.dirichlet.empty() || !options.boundary.traction.empty() ||
+                      !options.temperature_rise.empty()),
+      has_body_force_(!options.acceleration.empty() || options.body_load),
+      body_force_(body_forces(mesh, options, masses)),
+      start_(ccg.load_at(0.0, 0.0)),
+      end_(start_) {}
+
+template <int Dim>
+BoundaryLoad<Dim> Loads<Dim>::mean() const {
+    BoundaryLoad<Dim> mean = end_;
+    for (std::size_t b = 0; b < mean.displacement.size(); ++b)
+        mean.displacement[b] = 0.5 * (start_.displacement[b] + end_.displacement[b]);
+    return mean;
+}
+
+template <int Dim>
+bool Loads<Dim>::begin_step(double time, double dt, const std::function<double()>& potential,
+                            const std::function<void()>& follow_jump, double& work) {
+    auto [changed, next] =
+        dynamics::agreed(part_.ranks(), [&] { return std::pair(ccg_.load_at(time, time), ccg_.load_at(time + dt, time)); });
+    is_half_done_ = true;
+    start_ = end_;
+    traction_time_ = time;
+    const bool jumps = part_.any(changed.traction != end_.traction || changed.temperature != end_.temperature);
+    if (jumps) {
+        const double before = potential();
+        end_ = std::move(changed);
+        follow_jump();
+        work += potential() - before;
+        start_ = end_;
+    }
+    end_ = std::move(next);
+    return jumps;
+}
+
+template <int Dim>
+void Loads<Dim>::add_work(double share, double& work) const {
+    if (!vary()) return;
+    work = part_.fold_faces(work, [&](BoundaryFace face) {
+        const auto b = static_cast<std::size_t>(face);
+        return share * ccg_.boundary_gradient(face).dot(end_.displacement[b] - start_.displacement[b]);
+    });
+}
+
+template <int Dim>
+double Loads<Dim>::body_work(std::span<const Vector<Dim>> u) const {
+    if (!has_body_force_) return 0.0;
+    return part_.sum_of_cells([&](std::ptrdiff_t c) { return body_force_[c].dot(u[c]); });
+}
+
+template <int Dim>
+void Loads<Dim>::to_force(std::span<Vector<Dim>> gradient) const {
+    const bool has_body_force = !body_force_.empty();
+    parallel_each(static_cast<std::ptrdiff_t>(gradient.size()), [&](std::ptrdiff_t c) {
+        gradient[c] = has_body_force ? Vector<Dim>(body_force_[c] - gradient[c]) : Vector<Dim>(-gradient[c]);
+    });
+}
+
+template <int Dim>
+void Loads<Dim>::add_impulse(std::span<const std::int32_t> cells, std::span<const Vector<Dim>> gradient, double dt,
+                             std::span<Vector<Dim>> impulse) const {
+    const bool has_body_force = !body_force_.empty();
+    parallel_each(static_cast<std::ptrdiff_t>(cells.size()), [&](std::ptrdiff_t i) {
+        const std::int32_t c = cells[i];
+        if (has_body_force) impulse[c] += dt * body_force_[c];
+        impulse[c] -= dt * gradient[i];
+    });
+}
+
+template class Loads<2>;
+template class Loads<3>;
+
+}  // namespace abut::solid
