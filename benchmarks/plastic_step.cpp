@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "abut/mesh/shapes/shapes.hpp"
+#include "abut/solid/kinematics/properties.hpp"
 #include "abut/solid/solid.hpp"
 #include "support/measure.hpp"
 #include "support/options.hpp"
@@ -91,7 +92,7 @@ private:
 template <int Dim>
 void measure(const std::string& shape, const mesh::Mesh<Dim>& mesh, solid::Kinematics kinematics, const Choices& choices,
              nlohmann::json& results) {
-    const bool is_finite = kinematics == solid::Kinematics::finite;
+    const bool is_finite = solid::properties_of(kinematics).finite_strains;
     struct Case {
         const char* name;
         solid::MaterialLaw law;
@@ -114,7 +115,7 @@ void measure(const std::string& shape, const mesh::Mesh<Dim>& mesh, solid::Kinem
         });
     }
     const auto samples = benchmark::time_in_turn(choices.repetitions, benchmark::clock_for(choices.threads), works);
-    const std::string moves = kinematics == solid::Kinematics::small ? "small" : is_finite ? "finite" : "floating";
+    const std::string_view moves = solid::properties_of(kinematics).name;
     fmt::print("{:<12} {:<9}", shape, moves);
     for (std::size_t i = 0; i < cases.size(); ++i) {
         const double least = samples[i].least() / steps / mesh.n_cells() * 1e9;

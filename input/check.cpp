@@ -18,6 +18,7 @@
 #include "abut/run/simulation.hpp"
 #include "abut/run/warnings.hpp"
 #include "abut/solid/body_inertia.hpp"
+#include "abut/solid/kinematics/properties.hpp"
 #include "abut/solid/options/option_words.hpp"
 #include "abut/solid/solid.hpp"
 
@@ -89,7 +90,7 @@ std::string cell_of_step(const run::Scene<Dim>& scene, const run::RunOptions& op
     std::vector<std::pair<double, std::int32_t>> times;
     for (std::int32_t cell = 0; cell < scene.mesh.n_cells(); ++cell) {
         const auto body = static_cast<std::size_t>(scene.mesh.cell_body[static_cast<std::size_t>(cell)]);
-        if (of_all.value_or(scene.solid.kinematics[body]) == solid::Kinematics::rigid) continue;
+        if (!solid::properties_of(of_all.value_or(scene.solid.kinematics[body])).deforms) continue;
         times.emplace_back(crossing_time(scene.mesh, cell, scene.solid.materials[body]), cell);
     }
     if (times.empty()) return "";

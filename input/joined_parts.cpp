@@ -7,6 +7,7 @@
 #include <string>
 
 #include "abut/base/disjoint_sets.hpp"
+#include "abut/solid/kinematics/properties.hpp"
 
 namespace abut::input {
 namespace {
@@ -54,7 +55,7 @@ private:
         };
         for (const std::int32_t body : piece) {
             const auto i = static_cast<std::size_t>(body);
-            if (scene_.solid.kinematics[i] == solid::Kinematics::rigid)
+            if (!solid::properties_of(scene_.solid.kinematics[i]).deforms)
                 fault(piece.back(), fmt::format("'{}' is rigid, and pieces of several materials deform. Give it another "
                                                 "kinematics, or one material and no tables of parts",
                                                 name_of(body)));

@@ -9,6 +9,7 @@
 #include "abut/input/make_body.hpp"
 #include "abut/input/nearest_word.hpp"
 #include "abut/input/patterns.hpp"
+#include "abut/solid/kinematics/properties.hpp"
 #include "abut/solid/material/known_materials.hpp"
 
 namespace abut::input {
@@ -367,10 +368,13 @@ void merge_overrides(Node& document, const std::vector<std::string>& set, std::v
 /// The first body or obstacle that may turn, as the file calls it; empty: none.
 std::string first_that_turns(const Settings& settings) {
     const auto of_all = run::kinematics_of_all(settings.options.kinematics);
+    const auto turns = [&](const BodySettings& body) {
+        return solid::properties_of(of_all.value_or(body.kinematics)).turns;
+    };
     for (const BodySettings& body : settings.bodies) {
-        if (of_all.value_or(body.kinematics) != solid::Kinematics::small) return "bodies." + body.name;
+        if (turns(body)) return "bodies." + body.name;
         for (const BodySettings& part : body.parts)
-            if (of_all.value_or(part.kinematics) != solid::Kinematics::small) return "bodies." + body.name + "." + part.name;
+            if (turns(part)) return "bodies." + body.name + "." + part.name;
     }
     for (const ObstacleSettings& obstacle : settings.obstacles)
         if (obstacle.rotation || !obstacle.spin.isZero(0.0)) return "obstacles." + obstacle.name;

@@ -8,6 +8,7 @@
 #include "abut/base/error.hpp"
 #include "abut/dynamics/ranks.hpp"
 #include "abut/solid/cell_view.hpp"
+#include "abut/solid/kinematics/properties.hpp"
 
 namespace abut::run {
 namespace {
@@ -55,7 +56,7 @@ bool takes_local_steps(SolidIntegrator integrator) { return integrator == SolidI
 /// True if a body or an obstacle may.
 template <int Dim>
 bool turns(const solid::SolidOptions<Dim>& solid) {
-    return std::ranges::any_of(solid.kinematics, [](auto kinematics) { return kinematics != solid::Kinematics::small; }) ||
+    return solid::any_body(solid.kinematics, &solid::KinematicsProperties::turns) ||
            std::ranges::any_of(solid.obstacles, [](const auto& obstacle) { return bool(obstacle.placement); });
 }
 
@@ -117,9 +118,9 @@ RunOptions with_restart(RunOptions options, const Scene<Dim>& scene) {
     if (options.restart != restart_not_given) return options;
     const auto of_all = kinematics_of_all(options.kinematics);
     const auto& kinematics = scene.solid.kinematics;
-    const bool any_finite = of_all ? *of_all == solid::Kinematics::finite
+    const bool any_finite = of_all ? solid::properties_of(*of_all).finite_strains
                                    : options.kinematics == BodyKinematics::scene &&
-                                         std::ranges::find(kinematics, solid::Kinematics::finite) != kinematics.end();
+                                         solid::any_body(kinematics, &solid::KinematicsProperties::finite_strains);
     options.restart = any_finite && options.integrator == SolidIntegrator::memm ? restart_of_finite : 0;
     if (has_friction(scene, options) && options.integrator == SolidIntegrator::memm) {
         options.filter = true;
@@ -131,7 +132,7 @@ RunOptions with_restart(RunOptions options, const Scene<Dim>& scene) {
 template <int Dim>
 solid::Kinematics kinematics_of(const Scene<Dim>& scene, const RunResult<Dim>& result, std::size_t body) {
     if (result.pilot) return result.pilot->bodies[body].picked;
-    const auto own = scene.solid.kinematics.empty() ? solid::Kinematics::small : scene.solid.kinematics[body];
+    const auto own = solid::kinematics_of(scene.solid.kinematics, body);
     return kinematics_of_all(result.options.kinematics).value_or(own);
 }
 

@@ -15,9 +15,10 @@
 #include "abut/contact/overlaps.hpp"
 #include "abut/contact/search/candidate_search.hpp"
 #include "abut/geometry/polygon.hpp"
+#include "abut/solid/body/body_frame.hpp"
 #include "abut/solid/boundary/boundary_face.hpp"
 #include "abut/solid/cell_view.hpp"
-#include "abut/solid/body/body_frame.hpp"
+#include "abut/solid/kinematics/properties.hpp"
 
 namespace abut::run {
 namespace {
@@ -209,7 +210,7 @@ SelfWatch<Dim>::SelfWatch(const Scene<Dim>& scene, const solid::Solid<Dim>& soli
     };
     for (std::int32_t body = 0; body < scene.mesh.n_bodies(); ++body) {
         if (touches_itself(body)) continue;
-        if (!kinematics.empty() && kinematics[static_cast<std::size_t>(body)] == solid::Kinematics::rigid) continue;
+        if (!solid::properties_of(kinematics, static_cast<std::size_t>(body)).deforms) continue;
         is_on_ = true;
         if (solid.ranks().is_one()) bodies_.push_back(std::make_unique<Body>(scene.mesh, body, solid.body_of_points()));
     }

@@ -11,6 +11,7 @@
 #include "abut/run/frames.hpp"
 #include "abut/run/scene.hpp"
 #include "abut/solid/cell_view.hpp"
+#include "abut/solid/kinematics/properties.hpp"
 
 namespace abut::run {
 namespace {
@@ -98,7 +99,7 @@ std::vector<std::vector<Position>> faces_of_obstacles(const std::vector<contact:
 template <int Dim>
 SnapshotMaker<Dim>::SnapshotMaker(const Scene<Dim>& scene, const RunResult<Dim>& result) {
     for (std::size_t body = 0; body < scene.mesh.body_names.size(); ++body)
-        is_rigid_.push_back(kinematics_of(scene, result, body) == solid::Kinematics::rigid);
+        is_rigid_.push_back(!solid::properties_of(kinematics_of(scene, result, body)).deforms);
     all_rigid_ = std::ranges::all_of(is_rigid_, [](char is_rigid) { return is_rigid != 0; });
     polygons_ = {.in_space = Dim == 3,
                  .value_name = all_rigid_ ? "speed" : "von Mises stress",

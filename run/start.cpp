@@ -14,10 +14,11 @@
 #include "abut/run/of_all_ranks.hpp"
 #include "abut/run/settling.hpp"
 #include "abut/run/start_contact.hpp"
-#include "abut/solid/boundary/bond_places.hpp"
 #include "abut/solid/bond_view.hpp"
+#include "abut/solid/boundary/bond_places.hpp"
 #include "abut/solid/boundary/boundary_face.hpp"
 #include "abut/solid/contact_view.hpp"
+#include "abut/solid/kinematics/properties.hpp"
 #include "abut/solid/local_steps.hpp"
 
 namespace abut::run {
@@ -36,8 +37,7 @@ solid::SolidOptions<Dim> solid_options(const Scene<Dim>& scene, RunOptions optio
     options.kinematics = BodyKinematics::scene;
     solid::SolidOptions<Dim> solid = run::solid_options(scene, options);
     solid.kinematics = pilot->kinematics();
-    const bool any_turns =
-        std::ranges::any_of(solid.kinematics, [](auto of_body) { return of_body != solid::Kinematics::small; });
+    const bool any_turns = solid::any_body(solid.kinematics, &solid::KinematicsProperties::turns);
     if (any_turns && options.law == solid::ContactLaw::automatic) solid.law = solid::ContactLaw::automatic;
     return solid;
 }
@@ -100,8 +100,7 @@ Start<Dim>::Start(const Scene<Dim>& of, const RunOptions& given, std::optional<P
     const solid::Solid<Dim>& seen = whole ? *whole : *solid;
     result.stencils = seen.ccg().stencil_report();
     result.boundary_stencils = seen.ccg().boundary().report;
-    const auto& kinematics = solid->options().kinematics;
-    result.all_may_turn = !kinematics.empty() && std::ranges::find(kinematics, solid::Kinematics::small) == kinematics.end();
+    result.all_may_turn = solid::all_bodies(solid->options().kinematics, &solid::KinematicsProperties::turns);
     if (share.ranks.rank() == 0) result.inertia = solid::inertia_of_bodies(seen);
     result.blind_corners = solid->contact().blind_corners();
     result.unseen_edges = solid->contact().unseen_edges();

@@ -21,6 +21,7 @@
 #include "abut/geometry/polygon.hpp"
 #include "abut/run/body_names.hpp"
 #include "abut/solid/contact_view.hpp"
+#include "abut/solid/kinematics/properties.hpp"
 
 namespace abut::run {
 namespace {
@@ -94,7 +95,7 @@ std::set<std::array<std::int32_t, 2>> pushing_bodies(const solid::Solid<Dim>& so
         std::vector<std::int32_t> mesh_body;
         for (const bool rigid : {false, true})
             for (std::int32_t body = 0; body < solid.mesh().n_bodies(); ++body)
-                if ((!kinematics.empty() && kinematics[static_cast<std::size_t>(body)] == solid::Kinematics::rigid) == rigid)
+                if (solid::properties_of(kinematics, static_cast<std::size_t>(body)).deforms != rigid)
                     mesh_body.push_back(body);
         const auto body_of = [&](std::int32_t body) {
             return body < solid.mesh().n_bodies() ? mesh_body[static_cast<std::size_t>(body)] : body;

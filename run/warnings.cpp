@@ -16,6 +16,7 @@
 #include "abut/run/obstacle_watch.hpp"
 #include "abut/run/remedies.hpp"
 #include "abut/run/user_words.hpp"
+#include "abut/solid/kinematics/properties.hpp"
 
 namespace abut::run {
 namespace {
@@ -171,7 +172,8 @@ void add_inertia(Counts& counts, const Scene<Dim>& scene, const RunResult<Dim>& 
     for (std::size_t body = 0; body < result.inertia.size(); ++body) {
         const auto kinematics = kinematics_of(scene, result, body);
         const double share = result.inertia[body].least();
-        if (kinematics == solid::Kinematics::small || !(share < enough_inertia)) continue;
+        const solid::KinematicsProperties& of_body = solid::properties_of(kinematics);
+        if (!of_body.turns || !(share < enough_inertia)) continue;
         counts.warnings.push_back(
             {WarningKind::missing_inertia, Severity::warning,
              fmt::format(
@@ -179,7 +181,7 @@ void add_inertia(Counts& counts, const Scene<Dim>& scene, const RunResult<Dim>& 
                  "its centroid. It turns and precesses too fast by {:.2g} %. Take smaller cells, or rigid{} where it "
                  "does not bend",
                  scene.mesh.body_names[body], name_of(kinematics), share, enough_inertia, 100.0 * (1.0 / share - 1.0),
-                 kinematics == solid::Kinematics::finite ? " or floating" : ""),
+                 of_body.finite_strains ? " or floating" : ""),
              share, enough_inertia});
     }
 }

@@ -14,6 +14,7 @@
 #include "abut/solid/contact/acting_law.hpp"
 #include "abut/solid/contact/pair_potential_driver.hpp"
 #include "abut/solid/contact/reconstruction_driver.hpp"
+#include "abut/solid/kinematics/properties.hpp"
 #include "abut/solid/load/frame_loads.hpp"
 #include "abut/solid/load/loads.hpp"
 #include "abut/solid/load/outside_loads.hpp"
@@ -34,7 +35,7 @@ void check_for_ranks(const dynamics::Ranks& ranks, const mesh::Mesh<Dim>& mesh, 
     const auto n_bodies = std::min<std::int32_t>(mesh.n_bodies(), static_cast<std::int32_t>(options.kinematics.size()));
     for (std::int32_t body = 0; body < n_bodies; ++body)
         if (const auto [first, last] = cells_of_body(mesh, body);
-            first == last && options.kinematics[static_cast<std::size_t>(body)] == Kinematics::rigid)
+            first == last && !properties_of(options.kinematics[static_cast<std::size_t>(body)]).deforms)
             throw BadInput(mesh.name + ": rigid body " + std::to_string(body) +
                            " has no cells in the part of a rank. Give each rank the whole of it (solid::part_of).");
     const bool from_outside = std::ranges::any_of(options.boundary.traction, &TractionCondition<Dim>::from_outside);

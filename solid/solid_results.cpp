@@ -17,8 +17,7 @@
 namespace abut::solid {
 namespace {
 
-constexpr double contact_margin = 0.85;      // of 2/omega_max
-constexpr double finite_margin = 2.0 / 3.0;  // the same: 0.6 of it with the 0.9 that runs take
+constexpr double contact_margin = 0.85;  // of 2/omega_max
 
 }  // namespace
 
@@ -133,8 +132,10 @@ dynamics::MomentArms Solid<Dim>::moment_arms() const {
 
 template <int Dim>
 double Solid<Dim>::step_margin() const {
-    if (bodies_->any_finite()) return finite_margin;
-    return contact_ ? contact_margin : 1.0;
+    double margin = contact_ ? contact_margin : 1.0;
+    for (std::int32_t body = 0; body < mesh_.n_bodies(); ++body)
+        margin = std::min(margin, bodies_->properties(body).step_margin);
+    return margin;
 }
 
 template <int Dim>

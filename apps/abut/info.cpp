@@ -12,6 +12,7 @@
 #include "abut/mesh/io/read_mesh.hpp"
 #include "abut/mesh/io/read_surface.hpp"
 #include "abut/mesh/quality.hpp"
+#include "abut/solid/kinematics/properties.hpp"
 #include "apps/abut/info_lines.hpp"
 #include "apps/abut/results_info.hpp"
 
@@ -122,7 +123,7 @@ std::string scene_info(const fs::path& path, const input::SceneFile& file) {
     for (std::int32_t body = 0; body < scene.mesh.n_bodies(); ++body) {
         const auto b = static_cast<std::size_t>(body);
         const double mass = scene.solid.materials[b].density * measure_of_body(scene.mesh, body);
-        const auto kinematics = scene.solid.kinematics.empty() ? solid::Kinematics::small : scene.solid.kinematics[b];
+        const auto kinematics = solid::kinematics_of(scene.solid.kinematics, b);
         text +=
             info_line(fmt::format("body '{}'", scene.mesh.body_names[b]),
                       fmt::format("{} cells, {:.6g} kg, {}, at ({:g}) m/s", std::ranges::count(scene.mesh.cell_body, body),

@@ -17,6 +17,7 @@
 #include "abut/run/summary.hpp"
 #include "abut/run/verdict.hpp"
 #include "abut/run/warnings.hpp"
+#include "abut/solid/kinematics/properties.hpp"
 #include "abut/solid/material/material_numbers.hpp"
 
 namespace abut::run {
@@ -141,7 +142,7 @@ template <int Dim>
 Markup materials_part(const Scene<Dim>& scene, const RunResult<Dim>& result) {
     std::vector<std::pair<std::vector<std::string>, std::string>> of_bodies;
     for (std::size_t body = 0; body < result.start.size(); ++body) {
-        const bool is_finite = kinematics_of(scene, result, body) == solid::Kinematics::finite;
+        const bool is_finite = solid::properties_of(kinematics_of(scene, result, body)).finite_strains;
         const std::vector<std::string> said = said_of(scene.solid.materials[body], is_finite);
         const auto known = std::ranges::find_if(of_bodies, [&](const auto& other) { return other.first == said; });
         if (known == of_bodies.end())

@@ -47,7 +47,7 @@ Bodies<Dim>::Bodies(const mesh::Mesh<Dim>& mesh, const SolidOptions<Dim>& option
     check();
     std::vector<std::int32_t> rigid;
     for (std::int32_t body = 0; body < mesh.n_bodies(); ++body)
-        (kinematics(body) == Kinematics::rigid ? rigid : deformable_bodies_).push_back(body);
+        (is_rigid(body) ? rigid : deformable_bodies_).push_back(body);
     if (!rigid.empty()) part_ = mesh::extract_bodies<Dim>(mesh, deformable_bodies_);
     part_options_ = options;
     part_options_.materials = chosen(options.materials, deformable_bodies_);
@@ -105,7 +105,7 @@ template <int Dim>
 void Bodies<Dim>::place_cell_points(const RankPart<Dim>& part) {
     cell_points_.resize(deformable_bodies_.size());
     for (std::size_t i = 0; i < deformable_bodies_.size(); ++i) {
-        if (kinematics(deformable_bodies_[i]) != Kinematics::floating) continue;
+        if (!properties(deformable_bodies_[i]).has_frame) continue;
         const auto body = static_cast<std::int32_t>(i);
         const auto cells = cells_of_body(deformable(), body);
         cell_points_[i] = find_cell_points<Dim>(deformable(), body, cells, part_options_.materials[i].density, part);
@@ -173,11 +173,6 @@ void Bodies<Dim>::keep_groups() {
 }
 
 template <int Dim>
-Kinematics Bodies<Dim>::kinematics(std::int32_t body) const {
-    return options_.kinematics.empty() ? Kinematics::small : options_.kinematics[static_cast<std::size_t>(body)];
-}
-
-template <int Dim>
 void Bodies<Dim>::set_laws() {
     auto& stored = part_options_.finite.stored_energy;
     auto& inelastic = part_options_.finite.inelastic;
@@ -214,25 +209,15 @@ void Bodies<Dim>::set_laws() {
 }
 
 template <int Dim>
-bool Bodies<Dim>::turns(std::int32_t body) const {
-    return kinematics(body) != Kinematics::small;
-}
-
-template <int Dim>
-bool Bodies<Dim>::any_finite() const {
-    return std::ranges::find(options_.kinematics, Kinematics::finite) != options_.kinematics.end();
-}
-
-template <int Dim>
 BodyFrames<Dim> Bodies<Dim>::frames(const RankPart<Dim>& part) const {
     std::vector<std::int32_t> begin{0};
-    std::vector<bool> floating;
+    std::vector<bool> have_frames;
     for (const std::int32_t body : deformable_bodies_) {
-        floating.push_back(kinematics(body) == Kinematics::floating);
+        have_frames.push_back(properties(body).has_frame);
         begin.push_back(cells_of_body(deformable(), static_cast<std::int32_t>(begin.size()) - 1).second);
     }
     return BodyFrames<Dim>(deformable().cell_centroid, std::span(masses_).first(static_cast<std::size_t>(n_cells())),
-                           std::move(begin), std::move(floating), deformable().body_names, part);
+                           std::move(begin), std::move(have_frames), deformable().body_names, part);
 }
 
 // Cells and points ---------------------------------------------------------------------------------------------------

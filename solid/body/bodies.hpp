@@ -12,6 +12,7 @@
 #include "abut/solid/body/rigid_bodies.hpp"
 #include "abut/solid/body/turning_tractions.hpp"
 #include "abut/solid/boundary/bond_places.hpp"
+#include "abut/solid/kinematics/properties.hpp"
 #include "abut/solid/options/options.hpp"
 
 namespace abut::solid {
@@ -42,11 +43,14 @@ public:
     /// Of the bodies that deform: `mesh` itself where all do, and none is floating.
     [[nodiscard]] const mesh::Mesh<Dim>& deformable() const { return part_ ? *part_ : mesh_; }
     [[nodiscard]] const SolidOptions<Dim>& options() const { return options_; }
-    [[nodiscard]] Kinematics kinematics(std::int32_t body) const;
-    [[nodiscard]] bool turns(std::int32_t body) const;  ///< whether it may: it is not `small`
-    [[nodiscard]] bool is_rigid(std::int32_t body) const { return kinematics(body) == Kinematics::rigid; }
-    [[nodiscard]] bool is_finite(std::int32_t body) const { return kinematics(body) == Kinematics::finite; }
-    [[nodiscard]] bool any_finite() const;
+    [[nodiscard]] Kinematics kinematics(std::int32_t body) const {
+        return kinematics_of(options_.kinematics, static_cast<std::size_t>(body));
+    }
+    [[nodiscard]] const KinematicsProperties& properties(std::int32_t body) const { return properties_of(kinematics(body)); }
+    [[nodiscard]] bool turns(std::int32_t body) const { return properties(body).turns; }  ///< whether it may
+    [[nodiscard]] bool is_rigid(std::int32_t body) const { return !properties(body).deforms; }
+    [[nodiscard]] bool is_finite(std::int32_t body) const { return properties(body).finite_strains; }
+    [[nodiscard]] bool any_finite() const { return any_body(options_.kinematics, &KinematicsProperties::finite_strains); }
     /// Of a traction of `options`.
     [[nodiscard]] TractionHold traction_hold(std::size_t condition) const { return traction_holds_[condition]; }
     /// Its points are [first, second).

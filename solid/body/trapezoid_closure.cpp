@@ -6,6 +6,7 @@
 #include "abut/solid/body/bodies.hpp"
 #include "abut/solid/body/body_frame.hpp"
 #include "abut/solid/ccg/ccg.hpp"
+#include "abut/solid/kinematics/properties.hpp"
 #include "abut/solid/part/body_cells.hpp"
 #include "abut/solid/part/rank_part.hpp"
 
@@ -103,7 +104,7 @@ TrapezoidClosure<Dim>::TrapezoidClosure(const Bodies<Dim>& bodies, const RankPar
         bool is_held = false;
         for (std::int32_t cell = first; cell < last; ++cell) is_held = is_held || !ccg.prescribed_faces_of(cell).empty();
         is_held = part.any(is_held);
-        if (bodies.deformable_options().kinematics[static_cast<std::size_t>(body)] == Kinematics::finite)
+        if (properties_of(bodies.deformable_options().kinematics[static_cast<std::size_t>(body)]).finite_strains)
             closed_.push_back({static_cast<std::size_t>(body), is_held});
     }
 }

@@ -6,6 +6,7 @@
 
 #include "abut/base/decompositions.hpp"
 #include "abut/solid/ccg/directed_cells.hpp"
+#include "abut/solid/kinematics/properties.hpp"
 
 namespace abut::solid {
 namespace {
@@ -109,7 +110,7 @@ private:
     }
 
     FreeFaceRule rule_of(std::int32_t cell) const {
-        const bool finite = !kinematics_.empty() && kinematics_[mesh_.cell_body[cell]] == Kinematics::finite;
+        const bool finite = properties_of(kinematics_, mesh_.cell_body[cell]).finite_strains;
         return finite ? FreeFaceRule::extrapolate : rule_;
     }
 

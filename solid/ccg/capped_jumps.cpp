@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <utility>
+#include "abut/solid/kinematics/properties.hpp"
 
 namespace abut::solid {
 namespace {
@@ -20,7 +21,7 @@ bool is_simplex(const mesh::Mesh<Dim>& mesh, std::int32_t cell) {
 }
 
 bool is_finite(std::span<const Kinematics> kinematics, std::size_t body) {
-    return !kinematics.empty() && kinematics[body] == Kinematics::finite;
+    return properties_of(kinematics, body).finite_strains;
 }
 
 /// Cells whose jumps stay elastic, as nothing else holds them:

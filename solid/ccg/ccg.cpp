@@ -19,6 +19,7 @@
 #include "abut/solid/ccg/sweeps.hpp"
 #include "abut/solid/ccg/thermal_cells.hpp"
 #include "abut/solid/ccg/viscous_cells.hpp"
+#include "abut/solid/kinematics/properties.hpp"
 
 namespace abut::solid {
 namespace {
@@ -38,7 +39,7 @@ template <int Dim>
 void refuse_finite(const mesh::Mesh<Dim>& mesh, std::span<const Kinematics> kinematics, const std::string& steps,
                    const std::string& remedy) {
     for (std::size_t body = 0; body < kinematics.size(); ++body)
-        if (kinematics[body] == Kinematics::finite)
+        if (properties_of(kinematics[body]).finite_strains)
             throw BadInput(mesh.name + ": body '" + mesh.body_names[body] +
                            "' is of Kinematics::finite, whose steps are not made " + steps + ". Take " + remedy +
                            ", or other kinematics.");

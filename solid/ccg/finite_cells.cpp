@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "abut/base/decompositions.hpp"
+#include "abut/solid/kinematics/properties.hpp"
 
 namespace abut::solid {
 namespace {
@@ -27,7 +28,7 @@ FreeCell<Dim> free_cell(std::int32_t cell, const std::vector<Vector<Dim>>& norma
 template <int Dim>
 FiniteCells<Dim>::FiniteCells(const mesh::Mesh<Dim>& mesh, const FaceConditions<Dim>& conditions,
                               std::span<const Kinematics> kinematics, const FiniteOptions<Dim>& options) {
-    if (std::ranges::find(kinematics, Kinematics::finite) == kinematics.end()) return;
+    if (!any_body(kinematics, &KinematicsProperties::finite_strains)) return;
     takes_ends_ = options.mean_force != MeanForce::discrete_gradient;
     if (std::ranges::any_of(options.stored_energy, [](const auto& law) { return law != nullptr; })) {
         laws_ = options.stored_energy;
@@ -35,7 +36,7 @@ FiniteCells<Dim>::FiniteCells(const mesh::Mesh<Dim>& mesh, const FaceConditions<
     }
     position_.assign(static_cast<std::size_t>(mesh.n_cells()), linear);
     for (std::int32_t c = 0; c < mesh.n_cells(); ++c)
-        if (kinematics[static_cast<std::size_t>(mesh.cell_body[c])] == Kinematics::finite) position_[c] = inside;
+        if (properties_of(kinematics[static_cast<std::size_t>(mesh.cell_body[c])]).finite_strains) position_[c] = inside;
     std::vector<std::vector<Vector<Dim>>> normals(position_.size());
     std::vector<double> area(position_.size(), 0.0);
     const auto is_loaded = conditions.are_loaded();  // what is behind these bears it

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "abut/base/parallel.hpp"
+#include "abut/solid/kinematics/properties.hpp"
 #include "abut/solid/material/rising_root.hpp"
 
 namespace abut::solid {
@@ -99,7 +100,7 @@ PlasticCells<Dim>::PlasticCells(const mesh::Mesh<Dim>& mesh, std::span<const Mat
                                 FreeFaceRule rule, FreeFaces free_faces, const CcgArrays<Dim>& arrays)
     : materials_(materials.begin(), materials.end()) {
     const auto flows = [&](std::size_t body) {
-        return materials_[body].law == MaterialLaw::j2 && (kinematics.empty() || kinematics[body] != Kinematics::finite);
+        return materials_[body].law == MaterialLaw::j2 && !properties_of(kinematics, body).finite_strains;
     };
     for (std::size_t body = 0; body < materials_.size(); ++body) {
         any_ = any_ || flows(body);

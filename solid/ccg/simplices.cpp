@@ -1,4 +1,5 @@
 #include "abut/solid/ccg/simplices.hpp"
+#include "abut/solid/kinematics/properties.hpp"
 
 namespace abut::solid {
 
@@ -8,7 +9,7 @@ Simplices<Dim>::Simplices(const mesh::Mesh<Dim>& mesh, std::span<const Material>
     std::vector<bool> suits;
     for (std::int32_t body = 0; body < mesh.n_bodies(); ++body)
         suits.push_back(materials[static_cast<std::size_t>(body)].is_isotropic() &&
-                        (kinematics.empty() || kinematics[static_cast<std::size_t>(body)] != Kinematics::finite));
+                        !properties_of(kinematics, static_cast<std::size_t>(body)).finite_strains);
     for (std::int32_t c = 0; c < mesh.n_cells(); ++c)
         if (mesh.cell_faces[c].size() != Dim + 1) suits[static_cast<std::size_t>(mesh.cell_body[c])] = false;
     all_ = true;

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "abut/base/error.hpp"
+#include "abut/solid/kinematics/properties.hpp"
 #include "abut/solid/part/body_cells.hpp"
 #include "abut/solid/part/solid_points.hpp"
 
@@ -13,12 +14,12 @@ namespace {
 std::vector<std::int32_t> rigid_bodies(std::span<const Kinematics> kinematics) {
     std::vector<std::int32_t> bodies;
     for (std::size_t body = 0; body < kinematics.size(); ++body)
-        if (kinematics[body] == Kinematics::rigid) bodies.push_back(static_cast<std::int32_t>(body));
+        if (!properties_of(kinematics[body]).deforms) bodies.push_back(static_cast<std::int32_t>(body));
     return bodies;
 }
 
 bool is_rigid(std::span<const Kinematics> kinematics, std::int32_t body) {
-    return !kinematics.empty() && kinematics[static_cast<std::size_t>(body)] == Kinematics::rigid;
+    return !properties_of(kinematics, static_cast<std::size_t>(body)).deforms;
 }
 
 template <int Dim>
@@ -32,7 +33,9 @@ void require_one_per_body(const mesh::Mesh<Dim>& mesh, std::span<const Kinematic
 }  // namespace
 
 int copy_layers(std::span<const Kinematics> kinematics) {
-    return mesh::default_layers + (std::ranges::find(kinematics, Kinematics::finite) == kinematics.end() ? 0 : 1);
+    int more = properties_of(Kinematics{}).more_layers;
+    for (const Kinematics of_body : kinematics) more = std::max(more, properties_of(of_body).more_layers);
+    return mesh::default_layers + more;
 }
 
 template <int Dim>

@@ -1,4 +1,4 @@
-// The table of what bodies of each kinematics have, and what solids do.
+// The tables of what bodies of each kinematics are and have, and what solids do.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <functional>
@@ -7,7 +7,9 @@
 
 #include "abut/base/error.hpp"
 #include "abut/solid/kinematics/capabilities.hpp"
+#include "abut/solid/kinematics/properties.hpp"
 #include "abut/solid/local_step_checks.hpp"
+#include "abut/solid/part/share_out.hpp"
 #include "abut/solid/statics.hpp"
 #include "solid/turning_scenes.hpp"
 
@@ -91,6 +93,39 @@ std::string said(const mesh::Mesh<2>& mesh, const Options& options, const Asked&
 }
 
 }  // namespace
+
+TEST_CASE("a solid is what the table of its kinematics says", "[solid][kinematics]") {
+    const auto mesh = mesh::structured_box<2>({0.0, 0.0}, {1.0, 0.5}, {4, 3}, CellShape::quadrangle, "box");
+    for (const Kinematics kinematics :
+         {Kinematics::small, Kinematics::floating, Kinematics::finite, Kinematics::rigid}) {
+        const solid::KinematicsProperties& is = solid::properties_of(kinematics);
+        CAPTURE(is.name);
+        Options options = bodies<2>(1);
+        options.contact.reset();
+        options.kinematics = {kinematics};
+        solid::Solid<2> solid(mesh, options);
+        CHECK(solid.rest_positions().size() == (is.deforms ? 12 : 3));
+        CHECK((solid.moment_arms() != dynamics::MomentArms::rest) == is.turns);
+        CHECK(solid.step_margin() == is.step_margin);
+        CHECK(solid::copy_layers(options.kinematics) == solid::copy_layers({}) + is.more_layers);
+
+        // Of a bend by u_y = a x^2 a linear body has twice the force where a is doubled; a frame takes out its mean turn alone.
+        const auto forces_of_bend = [&](double a) {
+            std::vector<Vector<2>> bend;
+            for (const Vector<2>& x : mesh.cell_centroid) bend.push_back({0.0, a * (x[0] - 0.5) * (x[0] - 0.5)});
+            std::vector<double> force(solid.size());
+            solid.force(solid.displacement_of_points(bend), force);
+            return force;
+        };
+        const std::vector<double> once = forces_of_bend(0.05), twice = forces_of_bend(0.1);
+        double largest = 0.0, off = 0.0;
+        for (std::size_t i = 0; i < once.size(); ++i) {
+            largest = std::max(largest, std::abs(twice[i]));
+            off = std::max(off, std::abs(twice[i] - 2.0 * once[i]));
+        }
+        if (is.deforms) CHECK((off > 1e-6 * largest) == is.finite_strains);
+    }
+}
 
 TEST_CASE("each capability has its line in the table, in the order of their numbers", "[solid][kinematics]") {
     for (std::size_t i = 0; i < solid::capabilities.size(); ++i) {
