@@ -7,8 +7,7 @@
 #include "abut/dynamics/integrator.hpp"
 #include "abut/solid/body/bodies.hpp"
 #include "abut/solid/bond/bonds.hpp"
-#include "abut/solid/contact/pair_potential_driver.hpp"
-#include "abut/solid/contact/reconstruction_driver.hpp"
+#include "abut/solid/contact/contact_driver.hpp"
 #include "abut/solid/load/frame_loads.hpp"
 #include "abut/solid/load/loads.hpp"
 #include "abut/solid/load/outside_loads.hpp"
@@ -50,37 +49,6 @@ std::vector<std::int32_t> old_deformable_cells(const Bodies<Dim>& before, const 
     std::vector<std::int32_t> old;
     for (std::int32_t cell = 0; cell < after.n_cells(); ++cell)
         old.push_back(before.deformable_cell(old_cells[static_cast<std::size_t>(after.mesh_cell(cell))]).first);
-    return old;
-}
-
-/// Old number of each face of contact: obstacles are behind the faces of bodies, and stay.
-template <int Dim>
-std::vector<std::int32_t> old_contact_faces(const ContactDriver<Dim>& before, std::int32_t n_before,
-                                            const ContactDriver<Dim>& after, std::int32_t n_after,
-                                            std::span<const std::int32_t> old_boundary) {
-    std::vector<std::int32_t> of_boundary;  // face of contact before
-    std::int32_t obstacles_before = 0;
-    for (std::int32_t face = 0; face < n_before; ++face) {
-        const BoundaryFace b = before.mesh_boundary(contact::Face{face});
-        if (b == no_face) continue;
-        obstacles_before = face + 1;
-        of_boundary.resize(std::max(of_boundary.size(), static_cast<std::size_t>(b) + 1), was_not_there);
-        of_boundary[static_cast<std::size_t>(b)] = face;
-    }
-    std::vector<std::int32_t> old;
-    std::int32_t obstacle = obstacles_before;
-    for (std::int32_t face = 0; face < n_after; ++face) {
-        const BoundaryFace b = after.mesh_boundary(contact::Face{face});
-        if (b == no_face) {
-            old.push_back(obstacle++);
-            continue;
-        }
-        const std::int32_t was = old_boundary[static_cast<std::size_t>(b)];
-        old.push_back(was < 0 ? was_not_there : of_boundary[static_cast<std::size_t>(was)]);
-    }
-    if (obstacle != n_before)
-        throw BadInput("a run goes on with other obstacles: they have " + std::to_string(obstacle - obstacles_before) +
-                       " faces, and had " + std::to_string(n_before - obstacles_before) + ". Keep obstacles as they are.");
     return old;
 }
 
@@ -207,131 +175,12 @@ dynamics::IntegratorState Solid<Dim>::take_over(const Solid& before, const dynam
     return motion_of(before, motion, old_cells);
 }
 
-// Parts --------------------------------------------------------------------------------------------------------------
-
-template <int Dim>
-void Loads<Dim>::take_over(const Loads& before, std::span<const std::int32_t> old_boundary, double time) {
-    if (ccg_.is_warm() != before.ccg_.is_warm())
-        refuse_change(mesh_.name, "bodies are warm before the change or after it, not both (temperature_rise). Keep it.");
-    traction_time_ = before.traction_time_;
-    end_ = ccg_.load_at(time, ccg_.is_warm() ? traction_time_ : time);
-    const auto take = [&](const std::vector<Vector<Dim>>& old, std::vector<Vector<Dim>>& now) {
-        if (old.empty()) return;
-        for (std::size_t b = 0; b < now.size(); ++b)
-            if (old_boundary[b] >= 0) now[b] = old[static_cast<std::size_t>(old_boundary[b])];
-    };
-    take(before.end_.displacement, end_.displacement);
-    take(before.end_.traction, end_.traction);
-    start_ = end_;
-}
-
-template <int Dim>
-void PointLoads<Dim>::take_over(const PointLoads& before) {
-    if (springs_.size() != before.springs_.size() || moments_.size() != before.moments_.size())
-        refuse_change(bodies_.mesh().name, "it has " + std::to_string(springs_.size()) + " springs and " +
-                                               std::to_string(moments_.size()) + " moments, and before there were " +
-                                               std::to_string(before.springs_.size()) + " and " +
-                                               std::to_string(before.moments_.size()) + ". Keep them.");
-    for (std::size_t i = 0; i < springs_.size(); ++i) springs_[i].rate = before.springs_[i].rate;
-    for (std::size_t i = 0; i < moments_.size(); ++i) moments_[i].spin = before.moments_[i].spin;
-}
-
-template <int Dim>
-void OutsideLoads<Dim>::take_over(const OutsideLoads& before, std::span<const std::int32_t> old_faces) {
-    work_ = before.work_;
-    for (Group& group : groups_) {
-        const auto from = std::ranges::find(before.groups_, group.name, &Group::name);
-        if (from == before.groups_.end()) continue;
-        std::vector<Vector<Dim>> traction = group.traction;
-        for (std::size_t i = 0; i < group.faces.size(); ++i) {
-            const auto at = std::ranges::lower_bound(from->faces, old_faces[static_cast<std::size_t>(group.faces[i])]);
-            if (at == from->faces.end() || *at != old_faces[static_cast<std::size_t>(group.faces[i])]) continue;
-            const auto k = static_cast<std::size_t>(at - from->faces.begin());
-            traction[i] = from->traction[k];
-            group.acting[i] = from->acting[k];
-        }
-        set_traction(group.name, traction);
-    }
-}
-
-template <int Dim>
-void RigidBodies<Dim>::take_over(const RigidBodies& before) {
-    for (std::size_t i = 0; i < bodies_.size(); ++i) {
-        const Body& from = before.bodies_[i];
-        for (const auto of : {&Body::turn_0, &Body::turn_1, &Body::rate_before, &Body::rate_after})
-            bodies_[i].*of = from.*of;
-    }
-}
-
-template <int Dim>
-void RigidBodies<Dim>::take_points(std::size_t index, const RigidBodies& before, std::span<const Vector<Dim>> old_q,
-                                   std::span<Vector<Dim>> q) const {
-    const Body &body = bodies_[index], &from = before.bodies_[index];
-    const RigidPlace<Dim> place = before.place(index, old_q);
-    for (std::size_t i = 0; i < body.rest.size(); ++i) {
-        Vector<Dim>& of_point = q[static_cast<std::size_t>(body.first_point) + i];
-        of_point = body.rest == from.rest ? of_points(from, old_q)[i]
-                                          : Vector<Dim>(place(body.rest[i] - from.centre) - body.rest[i]);
-    }
-}
-
-template <int Dim>
-void RigidBodies<Dim>::take_momenta(std::size_t index, const RigidBodies& before, std::span<const Vector<Dim>> old_p,
-                                    std::span<Vector<Dim>> p) const {
-    const Body &body = bodies_[index], &from = before.bodies_[index];
-    const RigidPlace<Dim> per_mass = before.velocity(index, old_p);  // momenta of the points, as an affine function
-    for (std::size_t i = 0; i < body.rest.size(); ++i) {
-        Vector<Dim>& of_point = p[static_cast<std::size_t>(body.first_point) + i];
-        of_point = body.rest == from.rest ? of_points(from, old_p)[i] : Vector<Dim>(per_mass(body.rest[i] - from.centre));
-    }
-}
-
-template <int Dim>
-void Bonds<Dim>::take_over(const Bonds& before, std::span<const std::int32_t> old_boundary) {
-    for (std::size_t p = 0; p < places_.size(); ++p) {
-        const BondPlace<Dim>& place = places_[p];
-        const auto from = std::ranges::find_if(before.places_, [&](const BondPlace<Dim>& old) {
-            const auto was = [&](std::size_t side) { return old_boundary[static_cast<std::size_t>(place.faces[side])]; };
-            return old.bond == place.bond && static_cast<std::int32_t>(old.faces[0]) == was(0) &&
-                   static_cast<std::int32_t>(old.faces[1]) == was(1);
-        });
-        if (from == before.places_.end())
-            refuse_change(bodies_.mesh().name, "faces are bonded that were not. Keep bonds as they are.");
-        share_[p] = before.share_[static_cast<std::size_t>(from - before.places_.begin())];
-    }
-}
-
-template <int Dim>
-void ReconstructionDriver<Dim>::take_over(const ContactDriver<Dim>& other, std::span<const std::int32_t> old_boundary) {
-    const auto& before = dynamic_cast<const ReconstructionDriver&>(other);
-    contact_->take_over(*before.contact_,
-                        old_contact_faces(before, before.surface_.size(), *this, surface_.size(), old_boundary));
-}
-
-template <int Dim>
-void PairPotentialDriver<Dim>::take_over(const ContactDriver<Dim>& other, std::span<const std::int32_t> old_boundary) {
-    const auto& before = dynamic_cast<const PairPotentialDriver&>(other);
-    contact_.take_over(before.contact_, old_contact_faces(before, before.contact_.surface().n_faces(), *this,
-                                                          contact_.surface().n_faces(), old_boundary));
-}
-
-#define ABUT_INSTANTIATE(Dim)                                                                                     \
-    template dynamics::IntegratorState Solid<Dim>::take_over(const Solid&, const dynamics::IntegratorState&,      \
-                                                             std::span<const std::int32_t>);                      \
-    template void Solid<Dim>::check_old_cells(const Solid&, std::span<const std::int32_t>) const;                 \
-    template dynamics::IntegratorState Solid<Dim>::motion_of(const Solid&, const dynamics::IntegratorState&,      \
-                                                             std::span<const std::int32_t>) const;                \
-    template void Loads<Dim>::take_over(const Loads&, std::span<const std::int32_t>, double);                     \
-    template void PointLoads<Dim>::take_over(const PointLoads&);                                                  \
-    template void OutsideLoads<Dim>::take_over(const OutsideLoads&, std::span<const std::int32_t>);               \
-    template void RigidBodies<Dim>::take_over(const RigidBodies&);                                                \
-    template void RigidBodies<Dim>::take_points(std::size_t, const RigidBodies&, std::span<const Vector<Dim>>,    \
-                                                std::span<Vector<Dim>>) const;                                    \
-    template void RigidBodies<Dim>::take_momenta(std::size_t, const RigidBodies&, std::span<const Vector<Dim>>,   \
-                                                 std::span<Vector<Dim>>) const;                                   \
-    template void Bonds<Dim>::take_over(const Bonds&, std::span<const std::int32_t>);                             \
-    template void ReconstructionDriver<Dim>::take_over(const ContactDriver<Dim>&, std::span<const std::int32_t>); \
-    template void PairPotentialDriver<Dim>::take_over(const ContactDriver<Dim>&, std::span<const std::int32_t>);
+#define ABUT_INSTANTIATE(Dim)                                                                                \
+    template dynamics::IntegratorState Solid<Dim>::take_over(const Solid&, const dynamics::IntegratorState&, \
+                                                             std::span<const std::int32_t>);                 \
+    template void Solid<Dim>::check_old_cells(const Solid&, std::span<const std::int32_t>) const;            \
+    template dynamics::IntegratorState Solid<Dim>::motion_of(const Solid&, const dynamics::IntegratorState&, \
+                                                             std::span<const std::int32_t>) const;
 ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)
 #undef ABUT_INSTANTIATE

@@ -6,8 +6,7 @@
 #include "abut/base/state_bytes.hpp"
 #include "abut/solid/body/bodies.hpp"
 #include "abut/solid/bond/bonds.hpp"
-#include "abut/solid/contact/pair_potential_driver.hpp"
-#include "abut/solid/contact/reconstruction_driver.hpp"
+#include "abut/solid/contact/contact_driver.hpp"
 #include "abut/solid/load/frame_loads.hpp"
 #include "abut/solid/load/loads.hpp"
 #include "abut/solid/load/outside_loads.hpp"
@@ -207,143 +206,12 @@ void Solid<Dim>::restore_memory(StateReader& state) {
     ccg_.set_memory(memory);
 }
 
-// Parts --------------------------------------------------------------------------------------------------------------
-
-template <int Dim>
-void Loads<Dim>::save(StateWriter& state) const {
-    if (!has_conditions_) {
-        put_all<Dim>(state, end_.displacement);
-        put_all<Dim>(state, end_.traction);
-    } else {
-        put_all<Dim>(state, part_.gather_faces(end_.displacement));
-        put_all<Dim>(state, part_.gather_faces(end_.traction));
-    }
-    if (ccg_.is_warm()) state.put(traction_time_);
-}
-
-template <int Dim>
-void Loads<Dim>::restore(StateReader& state) {
-    if (!has_conditions_) {
-        take_all<Dim>(state, end_.displacement);
-        take_all<Dim>(state, end_.traction);
-    } else {
-        std::vector<Vector<Dim>> of_all(part_.n_all_faces());
-        take_all<Dim>(state, of_all);
-        end_.displacement = part_.faces_here(mesh_, of_all);
-        take_all<Dim>(state, of_all);
-        end_.traction = part_.faces_here(mesh_, of_all);
-    }
-    if (ccg_.is_warm()) {
-        traction_time_ = state.get<double>();
-        end_.temperature = ccg_.load_at(traction_time_, traction_time_).temperature;
-    }
-    start_ = end_;
-}
-
-template <int Dim>
-void PointLoads<Dim>::save(StateWriter& state) const {
-    const auto save_last = [&](const auto& last) {
-        state.put(static_cast<std::uint8_t>(last.has_value()));
-        if (last) put(state, *last);
-    };
-    for (const HeldSpring& spring : springs_) save_last(spring.rate);
-    for (const HeldMoment& moment : moments_) save_last(moment.spin);
-}
-
-template <int Dim>
-void PointLoads<Dim>::restore(StateReader& state) {
-    const auto take_last = [&](auto& last) {
-        last.reset();
-        if (state.get<std::uint8_t>() != 0) take(state, last.emplace());
-    };
-    for (HeldSpring& spring : springs_) take_last(spring.rate);
-    for (HeldMoment& moment : moments_) take_last(moment.spin);
-}
-
-template <int Dim>
-void OutsideLoads<Dim>::save(StateWriter& state) const {
-    state.put(work_.steps);
-    state.put(work_.changes);
-    for (const Group& group : groups_) {
-        put_all<Dim>(state, group.traction);
-        put_all<Dim>(state, group.acting);
-    }
-}
-
-template <int Dim>
-void OutsideLoads<Dim>::restore(StateReader& state) {
-    work_.steps = state.get<double>();
-    work_.changes = state.get<double>();
-    for (Group& group : groups_) {
-        std::vector<Vector<Dim>> traction = group.traction;
-        take_all<Dim>(state, traction);
-        set_traction(group.name, traction);
-        take_all<Dim>(state, group.acting);
-    }
-}
-
-template <int Dim>
-void RigidBodies<Dim>::save(StateWriter& state, const RankPart<Dim>& part) const {
-    std::vector<double> values;
-    for (const std::int32_t i : constrained_) {
-        const Body& body = bodies_[i];
-        for (const Matrix<Dim>* matrix : {&body.turn_0, &body.turn_1, &body.rate_before, &body.rate_after})
-            values.insert(values.end(), matrix->data(), matrix->data() + matrix->size());
-    }
-    for (const double value : part.gather_rigid(values)) state.put(value);
-}
-
-template <int Dim>
-void RigidBodies<Dim>::restore(StateReader& state) {
-    for (Body& body : bodies_)
-        for (Matrix<Dim>* matrix : {&body.turn_0, &body.turn_1, &body.rate_before, &body.rate_after}) take(state, *matrix);
-}
-
-template <int Dim>
-std::vector<std::byte> ReconstructionDriver<Dim>::state() const {
-    return contact_->state();
-}
-
-template <int Dim>
-void ReconstructionDriver<Dim>::restore(std::span<const std::byte> state, std::span<const Vector<Dim>> q, double time) {
-    contact_->restore(state);
-    search(q, q, time, 0.0);
-    touching_.clear();
-    has_stepped_ = true;
-}
-
-template <int Dim>
-std::vector<std::byte> PairPotentialDriver<Dim>::state() const {
-    return contact_.state();
-}
-
-template <int Dim>
-void PairPotentialDriver<Dim>::restore(std::span<const std::byte> state, std::span<const Vector<Dim>> q, double time) {
-    contact_.restore(state);
-    search(q, q, time, 0.0);
-    touching_.clear();
-    end_time_ = time;
-    has_stepped_ = true;
-}
-
-#define ABUT_INSTANTIATE(Dim)                                                                                           \
-    template std::vector<std::byte> Solid<Dim>::state() const;                                                          \
-    template void Solid<Dim>::restore(std::span<const std::byte>, std::span<const double>);                             \
-    template void Solid<Dim>::save_memory(StateWriter&) const;                                                          \
-    template void Solid<Dim>::restore_memory(StateReader&);                                                             \
-    template void Solid<Dim>::begin_run();                                                                              \
-    template void Loads<Dim>::save(StateWriter&) const;                                                                 \
-    template void Loads<Dim>::restore(StateReader&);                                                                    \
-    template void PointLoads<Dim>::save(StateWriter&) const;                                                            \
-    template void PointLoads<Dim>::restore(StateReader&);                                                               \
-    template void OutsideLoads<Dim>::save(StateWriter&) const;                                                          \
-    template void OutsideLoads<Dim>::restore(StateReader&);                                                             \
-    template void RigidBodies<Dim>::save(StateWriter&, const RankPart<Dim>&) const;                                     \
-    template void RigidBodies<Dim>::restore(StateReader&);                                                              \
-    template std::vector<std::byte> ReconstructionDriver<Dim>::state() const;                                           \
-    template void ReconstructionDriver<Dim>::restore(std::span<const std::byte>, std::span<const Vector<Dim>>, double); \
-    template std::vector<std::byte> PairPotentialDriver<Dim>::state() const;                                            \
-    template void PairPotentialDriver<Dim>::restore(std::span<const std::byte>, std::span<const Vector<Dim>>, double);
+#define ABUT_INSTANTIATE(Dim)                                                               \
+    template std::vector<std::byte> Solid<Dim>::state() const;                              \
+    template void Solid<Dim>::restore(std::span<const std::byte>, std::span<const double>); \
+    template void Solid<Dim>::save_memory(StateWriter&) const;                              \
+    template void Solid<Dim>::restore_memory(StateReader&);                                 \
+    template void Solid<Dim>::begin_run();
 ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)
 #undef ABUT_INSTANTIATE

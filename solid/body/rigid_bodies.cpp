@@ -11,6 +11,7 @@
 #include "abut/base/error.hpp"
 #include "abut/base/parallel.hpp"
 #include "abut/solid/part/body_cells.hpp"
+#include "abut/solid/part/state_of_eigen.hpp"
 
 namespace abut::solid {
 namespace {
@@ -238,6 +239,55 @@ void RigidBodies<Dim>::add_constraint_forces(std::span<const Vector<Dim>> q, std
         const double mass = body.mass / points_per_body;
         for (int i = 0; i < points_per_body; ++i)
             force[body.first_point + i] = mass * (sum / body.mass + acceleration * rest_arm(body, i));
+    }
+}
+
+template <int Dim>
+void RigidBodies<Dim>::save(StateWriter& state, const RankPart<Dim>& part) const {
+    std::vector<double> values;
+    for (const std::int32_t i : constrained_) {
+        const Body& body = bodies_[i];
+        for (const Matrix<Dim>* matrix : {&body.turn_0, &body.turn_1, &body.rate_before, &body.rate_after})
+            values.insert(values.end(), matrix->data(), matrix->data() + matrix->size());
+    }
+    for (const double value : part.gather_rigid(values)) state.put(value);
+}
+
+template <int Dim>
+void RigidBodies<Dim>::restore(StateReader& state) {
+    for (Body& body : bodies_)
+        for (Matrix<Dim>* matrix : {&body.turn_0, &body.turn_1, &body.rate_before, &body.rate_after}) take(state, *matrix);
+}
+
+template <int Dim>
+void RigidBodies<Dim>::take_over(const RigidBodies& before) {
+    for (std::size_t i = 0; i < bodies_.size(); ++i) {
+        const Body& from = before.bodies_[i];
+        for (const auto of : {&Body::turn_0, &Body::turn_1, &Body::rate_before, &Body::rate_after})
+            bodies_[i].*of = from.*of;
+    }
+}
+
+template <int Dim>
+void RigidBodies<Dim>::take_points(std::size_t index, const RigidBodies& before, std::span<const Vector<Dim>> old_q,
+                                   std::span<Vector<Dim>> q) const {
+    const Body &body = bodies_[index], &from = before.bodies_[index];
+    const RigidPlace<Dim> place = before.place(index, old_q);
+    for (std::size_t i = 0; i < body.rest.size(); ++i) {
+        Vector<Dim>& of_point = q[static_cast<std::size_t>(body.first_point) + i];
+        of_point = body.rest == from.rest ? of_points(from, old_q)[i]
+                                          : Vector<Dim>(place(body.rest[i] - from.centre) - body.rest[i]);
+    }
+}
+
+template <int Dim>
+void RigidBodies<Dim>::take_momenta(std::size_t index, const RigidBodies& before, std::span<const Vector<Dim>> old_p,
+                                    std::span<Vector<Dim>> p) const {
+    const Body &body = bodies_[index], &from = before.bodies_[index];
+    const RigidPlace<Dim> per_mass = before.velocity(index, old_p);  // momenta of the points, as an affine function
+    for (std::size_t i = 0; i < body.rest.size(); ++i) {
+        Vector<Dim>& of_point = p[static_cast<std::size_t>(body.first_point) + i];
+        of_point = body.rest == from.rest ? of_points(from, old_p)[i] : Vector<Dim>(per_mass(body.rest[i] - from.centre));
     }
 }
 

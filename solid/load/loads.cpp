@@ -5,6 +5,7 @@
 
 #include "abut/base/error.hpp"
 #include "abut/base/parallel.hpp"
+#include "abut/solid/part/state_of_eigen.hpp"
 
 namespace abut::solid {
 namespace {
@@ -102,6 +103,54 @@ void Loads<Dim>::add_impulse(std::span<const std::int32_t> cells, std::span<cons
         if (has_body_force) impulse[c] += dt * body_force_[c];
         impulse[c] -= dt * gradient[i];
     });
+}
+
+template <int Dim>
+void Loads<Dim>::save(StateWriter& state) const {
+    if (!has_conditions_) {
+        put_all<Dim>(state, end_.displacement);
+        put_all<Dim>(state, end_.traction);
+    } else {
+        put_all<Dim>(state, part_.gather_faces(end_.displacement));
+        put_all<Dim>(state, part_.gather_faces(end_.traction));
+    }
+    if (ccg_.is_warm()) state.put(traction_time_);
+}
+
+template <int Dim>
+void Loads<Dim>::restore(StateReader& state) {
+    if (!has_conditions_) {
+        take_all<Dim>(state, end_.displacement);
+        take_all<Dim>(state, end_.traction);
+    } else {
+        std::vector<Vector<Dim>> of_all(part_.n_all_faces());
+        take_all<Dim>(state, of_all);
+        end_.displacement = part_.faces_here(mesh_, of_all);
+        take_all<Dim>(state, of_all);
+        end_.traction = part_.faces_here(mesh_, of_all);
+    }
+    if (ccg_.is_warm()) {
+        traction_time_ = state.get<double>();
+        end_.temperature = ccg_.load_at(traction_time_, traction_time_).temperature;
+    }
+    start_ = end_;
+}
+
+template <int Dim>
+void Loads<Dim>::take_over(const Loads& before, std::span<const std::int32_t> old_boundary, double time) {
+    if (ccg_.is_warm() != before.ccg_.is_warm())
+        throw BadInput(mesh_.name +
+                       ": bodies are warm before the change or after it, not both (temperature_rise). Keep it.");
+    traction_time_ = before.traction_time_;
+    end_ = ccg_.load_at(time, ccg_.is_warm() ? traction_time_ : time);
+    const auto take = [&](const std::vector<Vector<Dim>>& old, std::vector<Vector<Dim>>& now) {
+        if (old.empty()) return;
+        for (std::size_t b = 0; b < now.size(); ++b)
+            if (old_boundary[b] >= 0) now[b] = old[static_cast<std::size_t>(old_boundary[b])];
+    };
+    take(before.end_.displacement, end_.displacement);
+    take(before.end_.traction, end_.traction);
+    start_ = end_;
 }
 
 template class Loads<2>;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "abut/base/error.hpp"
+#include "abut/solid/part/state_of_eigen.hpp"
 
 namespace abut::solid {
 namespace {
@@ -22,13 +23,13 @@ std::vector<BoundaryFace> faces_from_outside(const mesh::Mesh<Dim>& part, const 
 
 template <int Dim>
 OutsideLoads<Dim>::OutsideLoads(const Bodies<Dim>& bodies, Ccg<Dim>& ccg, const Loads<Dim>& loads,
-                                PointLoads<Dim>& point_loads)
-    : bodies_(bodies), ccg_(ccg), loads_(loads), point_loads_(point_loads) {
+                                PointTractions<Dim>& tractions)
+    : bodies_(bodies), ccg_(ccg), loads_(loads), tractions_(tractions) {
     const auto& conditions = bodies.options().boundary.traction;
     for (std::size_t i = 0; i < conditions.size(); ++i) {
         if (!conditions[i].from_outside) continue;
         Group group{conditions[i].group, i, bodies.mesh().group(conditions[i].group).faces, {}, {}, {}, {}};
-        group.places = point_loads.traction_places(i);
+        group.places = tractions.places_of(i);
         if (group.places.empty()) group.boundary = faces_from_outside(bodies.deformable(), group.name);
         group.traction.assign(group.faces.size(), conditions[i].value);
         group.acting = group.traction;
@@ -64,7 +65,7 @@ void OutsideLoads<Dim>::set_traction(const std::string& name, std::span<const Ve
     if (changed.places.empty())
         ccg_.set_traction(name, traction);
     else
-        point_loads_.set_traction(changed.condition, traction);
+        tractions_.set(changed.condition, traction);
 }
 
 template <int Dim>
@@ -128,7 +129,7 @@ double OutsideLoads<Dim>::held_change(std::span<const Vector<Dim>> q) const {
 
 template <int Dim>
 void OutsideLoads<Dim>::add_step(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1,
-                                 const typename PointLoads<Dim>::TurnOf& turn_of) {
+                                 const TurnOf<Dim>& turn_of) {
     for (Group& group : groups_) {
         group.acting = group.traction;
         const bool follows = bodies_.options().boundary.traction[group.condition].follows;
@@ -147,6 +148,46 @@ OutsideWork OutsideLoads<Dim>::work(std::span<const Vector<Dim>> q) const {
     OutsideWork work = work_;
     for (const Group& group : groups_) work.held += held(group, group.acting, q, loads_.end());
     return work;
+}
+
+template <int Dim>
+void OutsideLoads<Dim>::save(StateWriter& state) const {
+    state.put(work_.steps);
+    state.put(work_.changes);
+    for (const Group& group : groups_) {
+        put_all<Dim>(state, group.traction);
+        put_all<Dim>(state, group.acting);
+    }
+}
+
+template <int Dim>
+void OutsideLoads<Dim>::restore(StateReader& state) {
+    work_.steps = state.get<double>();
+    work_.changes = state.get<double>();
+    for (Group& group : groups_) {
+        std::vector<Vector<Dim>> traction = group.traction;
+        take_all<Dim>(state, traction);
+        set_traction(group.name, traction);
+        take_all<Dim>(state, group.acting);
+    }
+}
+
+template <int Dim>
+void OutsideLoads<Dim>::take_over(const OutsideLoads& before, std::span<const std::int32_t> old_faces) {
+    work_ = before.work_;
+    for (Group& group : groups_) {
+        const auto from = std::ranges::find(before.groups_, group.name, &Group::name);
+        if (from == before.groups_.end()) continue;
+        std::vector<Vector<Dim>> traction = group.traction;
+        for (std::size_t i = 0; i < group.faces.size(); ++i) {
+            const auto at = std::ranges::lower_bound(from->faces, old_faces[static_cast<std::size_t>(group.faces[i])]);
+            if (at == from->faces.end() || *at != old_faces[static_cast<std::size_t>(group.faces[i])]) continue;
+            const auto k = static_cast<std::size_t>(at - from->faces.begin());
+            traction[i] = from->traction[k];
+            group.acting[i] = from->acting[k];
+        }
+        set_traction(group.name, traction);
+    }
 }
 
 template class OutsideLoads<2>;

@@ -10,7 +10,7 @@
 #include "abut/solid/ccg/ccg.hpp"
 #include "abut/solid/load/loads.hpp"
 #include "abut/solid/load/outside_work.hpp"
-#include "abut/solid/load/point_loads.hpp"
+#include "abut/solid/load/point_tractions.hpp"
 
 namespace abut::solid {
 
@@ -30,7 +30,7 @@ public:
     };
 
     /// All must outlive it.
-    OutsideLoads(const Bodies<Dim>& bodies, Ccg<Dim>& ccg, const Loads<Dim>& loads, PointLoads<Dim>& point_loads);
+    OutsideLoads(const Bodies<Dim>& bodies, Ccg<Dim>& ccg, const Loads<Dim>& loads, PointTractions<Dim>& tractions);
 
     [[nodiscard]] bool any() const { return !groups_.empty(); }
     [[nodiscard]] const Group& group(const std::string& name) const;
@@ -50,8 +50,7 @@ public:
     /// A change of the tractions between two steps has given the bodies this energy [J].
     void add_change(double energy) { work_.changes += energy; }
     /// A step from q_0 to q_1; `turn_of(body)`: the mean of its rotations at both ends.
-    void add_step(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1,
-                  const typename PointLoads<Dim>::TurnOf& turn_of);
+    void add_step(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1, const TurnOf<Dim>& turn_of);
     [[nodiscard]] OutsideWork work(std::span<const Vector<Dim>> q) const;
 
     void clear_work() { work_ = {}; }
@@ -74,7 +73,7 @@ private:
     const Bodies<Dim>& bodies_;
     Ccg<Dim>& ccg_;
     const Loads<Dim>& loads_;
-    PointLoads<Dim>& point_loads_;
+    PointTractions<Dim>& tractions_;
     std::vector<Group> groups_;
     OutsideWork work_;  // `held` is that of a state, and not kept
 };

@@ -1,6 +1,9 @@
 #pragma once
 // Private to the sources of this layer.
+#include <cstdint>
+#include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "abut/base/error.hpp"
@@ -16,6 +19,17 @@ void put(StateWriter& state, const Eigen::MatrixBase<Derived>& matrix) {
 template <class Derived>
 void take(StateReader& state, Eigen::MatrixBase<Derived>& matrix) {
     for (double& value : matrix.reshaped()) value = state.get<double>();
+}
+
+template <class Matrix>
+void put_optional(StateWriter& state, const std::optional<Matrix>& matrix) {
+    state.put(static_cast<std::uint8_t>(matrix.has_value()));
+    if (matrix) put(state, *matrix);
+}
+template <class Matrix>
+void take_optional(StateReader& state, std::optional<Matrix>& matrix) {
+    matrix.reset();
+    if (state.get<std::uint8_t>() != 0) take(state, matrix.emplace());
 }
 
 template <int Dim>

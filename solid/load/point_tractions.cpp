@@ -1,0 +1,161 @@
+#include "abut/solid/load/point_tractions.hpp"
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <utility>
+
+#include "abut/base/error.hpp"
+#include "abut/base/messages.hpp"
+
+namespace abut::solid {
+namespace {
+
+constexpr double along_normal = 1e-12;    // what a pressure may have across, over all of it
+constexpr std::size_t most_corners = 12;  // of a face, without memory of its own
+
+}  // namespace
+
+template <int Dim>
+PointTractions<Dim>::PointTractions(const Bodies<Dim>& bodies, HeldPlaces<Dim>& places, const HeldPoints<Dim>& held)
+    : bodies_(bodies), held_(held) {
+    const auto& conditions = bodies.options().boundary.traction;
+    for (std::size_t i = 0; i < conditions.size(); ++i) {
+        const std::size_t n_faces = bodies_.mesh().group(conditions[i].group).faces.size();
+        outside_.emplace_back(conditions[i].from_outside ? n_faces : 0, conditions[i].value);
+        if (bodies_.traction_hold(i) == TractionHold::cells) continue;
+        for (const auto& face : places.faces_of(conditions[i].group)) {
+            if (bodies_.traction_hold(i) == TractionHold::frames && !bodies_.is_rigid(face.body)) continue;
+            Held traction{places.of({.body = face.body, .position = face.centroid}),
+                          face.area,
+                          face.body,
+                          i,
+                          face.in_group,
+                          face.normal,
+                          {}};
+            if (conditions[i].follows && bodies_.is_finite(face.body))
+                for (const Vector<Dim>& corner : face.corners)
+                    traction.corners.push_back(places.of({.body = face.body, .position = corner}));
+            tractions_.push_back(std::move(traction));
+        }
+    }
+}
+
+template <int Dim>
+std::vector<HeldPlace<Dim>*> PointTractions<Dim>::places() {
+    std::vector<HeldPlace<Dim>*> places;
+    for (Held& traction : tractions_) {
+        places.push_back(&traction.place);
+        for (HeldPlace<Dim>& corner : traction.corners) places.push_back(&corner);
+    }
+    return places;
+}
+
+template <int Dim>
+std::vector<HeldPlace<Dim>> PointTractions<Dim>::places_of(std::size_t condition) const {
+    std::vector<std::pair<std::size_t, HeldPlace<Dim>>> by_face;
+    for (const Held& traction : tractions_) {
+        if (traction.condition != condition) continue;
+        HeldPlace<Dim>& place = by_face.emplace_back(traction.face, traction.place).second;
+        for (std::int32_t& point : place.points) point = held_.numbers()[static_cast<std::size_t>(point)];
+    }
+    std::ranges::sort(by_face, {}, [](const auto& entry) { return entry.first; });
+    std::vector<HeldPlace<Dim>> places;
+    for (auto& entry : by_face) places.push_back(std::move(entry.second));
+    return places;
+}
+
+template <int Dim>
+Vector<Dim> PointTractions<Dim>::value_of(const Held& traction, double time) const {
+    const TractionCondition<Dim>& condition = bodies_.options().boundary.traction[traction.condition];
+    if (condition.from_outside) return outside_[traction.condition][traction.face];
+    const Vector<Dim> value = condition.history ? condition.history(time, traction.place.rest) : condition.value;
+    if (!value.allFinite())
+        throw BadInput("traction on '" + condition.group + "': its value at t = " + number(time) +
+                       " s is not finite. Correct its value or history.");
+    return value;
+}
+
+template <int Dim>
+void PointTractions<Dim>::add(const PointStep<Dim>& step, std::span<Vector<Dim>> force, double& work) {
+    work += add_all(step.q_0.held, step.q_1.held, step.time, step.turn_of, force);
+}
+
+template <int Dim>
+void PointTractions<Dim>::add_at(const ByPoint<Dim>& q, double time, const TurnOf<Dim>& turn_of,
+                                 std::span<Vector<Dim>> force) const {
+    add_all(q.held, q.held, time, turn_of, force);
+}
+
+/// Of bodies that turn; those of the others are part of the loads of their cells. Constant within a step, as it begins. Their
+/// work [J].
+template <int Dim>
+double PointTractions<Dim>::add_all(Points q_0, Points q_1, double time, const TurnOf<Dim>& turn_of,
+                                    std::span<Vector<Dim>> force) const {
+    double work = 0.0;
+    for (const Held& traction : tractions_) {
+        if (!traction.corners.empty()) {
+            work += add_pressure(traction, value_of(traction, time), q_0, q_1, force);
+            continue;
+        }
+        Vector<Dim> push = traction.area * value_of(traction, time);
+        if (bodies_.options().boundary.traction[traction.condition].follows) push = turn_of(traction.body) * push;
+        held_.push(traction.place, push, force);
+        work += push.dot(traction.place.at(q_1) - traction.place.at(q_0));
+    }
+    return work;
+}
+
+/// Of a face of a body of Kinematics::finite: along its area vector in the middle of the step, half of it (in space a third of that
+/// of each triangle with the middle of the face) on each corner. Faces share their corners, so that an equal pressure all
+/// round has no force and no moment about the mean positions. Its work [J].
+template <int Dim>
+double PointTractions<Dim>::add_pressure(const Held& traction, const Vector<Dim>& value, Points q_0, Points q_1,
+                                         std::span<Vector<Dim>> force) const {
+    const double along = value.dot(traction.normal);
+    if (!((value - along * traction.normal).norm() <= along_normal * value.norm()))
+        throw BadInput(
+            "traction on '" + bodies_.options().boundary.traction[traction.condition].group +
+            "': it follows a body of Kinematics::finite, and is not along the normals of its faces: only a pressure "
+            "turns with these. Leave follows out, or give a pressure.");
+    const auto n = traction.corners.size();
+    std::array<Vector<Dim>, most_corners> room_x, room_push;
+    std::vector<Vector<Dim>> more_x, more_push;
+    if (n > most_corners) {
+        more_x.resize(n);
+        more_push.resize(n);
+    }
+    const std::span<Vector<Dim>> x = n > most_corners ? std::span(more_x) : std::span(room_x).first(n);
+    const std::span<Vector<Dim>> push = n > most_corners ? std::span(more_push) : std::span(room_push).first(n);
+    Vector<Dim> middle = Vector<Dim>::Zero();
+    for (std::size_t i = 0; i < n; ++i) {
+        x[i] = 0.5 * (traction.corners[i].at(q_0) + traction.corners[i].at(q_1));
+        middle += x[i] / static_cast<double>(n);
+        push[i] = Vector<Dim>::Zero();
+    }
+    if constexpr (Dim == 2) {
+        push[0] = push[1] = 0.5 * along * area_vector<2>(x);
+    } else {
+        Vector<Dim> on_middle = Vector<Dim>::Zero();
+        for (std::size_t i = 0; i < n; ++i) {
+            const std::size_t j = (i + 1) % n;
+            const std::array<Vector<Dim>, 3> triangle{middle, x[i], x[j]};
+            const Vector<Dim> third = along / 3.0 * area_vector<3>(triangle);
+            push[i] += third;
+            push[j] += third;
+            on_middle += third / static_cast<double>(n);
+        }
+        for (Vector<Dim>& of_corner : push) of_corner += on_middle;
+    }
+    double work = 0.0;
+    for (std::size_t i = 0; i < n; ++i) {
+        held_.push(traction.corners[i], push[i], force);
+        work += push[i].dot(traction.corners[i].at(q_1) - traction.corners[i].at(q_0));
+    }
+    return work;
+}
+
+template class PointTractions<2>;
+template class PointTractions<3>;
+
+}  // namespace abut::solid
