@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "abut/run/cell_velocity.hpp"
-#include "abut/solid/boundary/bond_places.hpp"
 #include "abut/solid/bond_view.hpp"
+#include "abut/solid/boundary/bond_places.hpp"
 #include "abut/solid/cell_view.hpp"
 #include "abut/solid/contact_view.hpp"
 

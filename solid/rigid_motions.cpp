@@ -7,8 +7,8 @@
 
 #include "abut/base/decompositions.hpp"
 #include "abut/base/messages.hpp"
-#include "abut/solid/boundary/bond_places.hpp"
 #include "abut/solid/bond_view.hpp"
+#include "abut/solid/boundary/bond_places.hpp"
 #include "abut/solid/contact_view.hpp"
 
 namespace abut::solid {

@@ -9,8 +9,8 @@
 #include "abut/dynamics/point_system.hpp"
 #include "abut/dynamics/ranks.hpp"
 #include "abut/solid/ccg/ccg.hpp"
-#include "abut/solid/options/options.hpp"
 #include "abut/solid/load/outside_work.hpp"
+#include "abut/solid/options/options.hpp"
 
 namespace abut {
 class StateReader;

@@ -182,7 +182,8 @@ void SolidRun<Dim>::write_cells(const std::string& body, const abut_solid_cell_a
     static_cast<void>(solid.potential(now.q));  // leaves the stresses of this state behind
     std::vector<double> momentum(now.p_before.begin(), now.p_before.end());
     for (std::size_t i = 0; i < momentum.size(); ++i) momentum[i] = 0.5 * (momentum[i] + now.p_after[i]);
-    const std::vector<Vector<Dim>> displacement = solid.cells().displacement(now.q), velocity = solid.cells().velocity(momentum);
+    const std::vector<Vector<Dim>> displacement = solid.cells().displacement(now.q),
+                                   velocity = solid.cells().velocity(momentum);
     std::vector<Vector<Dim>> position, of_body;
     std::vector<double> stress, plastic;
     for (std::int32_t c = 0; c < mesh_.n_cells(); ++c) {

@@ -40,7 +40,9 @@ public:
 
     [[nodiscard]] bool has_begun() const { return run_.has_value(); }
     [[nodiscard]] solid::SteppedRun<Dim>& run() { return *run_; }
-    [[nodiscard]] std::int64_t n_faces(const std::string& group) const { return std::ssize(run_->solid().outside(group).traction()); }
+    [[nodiscard]] std::int64_t n_faces(const std::string& group) const {
+        return std::ssize(run_->solid().outside(group).traction());
+    }
     void write_faces(const std::string& group, const abut_solid_face_arrays& faces);
     void set_traction(const std::string& group, const abut_array& traction);
     [[nodiscard]] std::int64_t n_cells(const std::string& body) const;

@@ -6,7 +6,6 @@
 #include <string>
 #include <utility>
 
-#include "abut/base/decompositions.hpp"
 #include "abut/base/error.hpp"
 #include "abut/mesh/extract.hpp"
 #include "abut/solid/kinematics/capabilities.hpp"
@@ -27,16 +26,6 @@ std::vector<Value> chosen(const std::vector<Value>& values, std::span<const std:
     if (values.empty()) return result;
     for (const std::int32_t body : bodies) result.push_back(values[static_cast<std::size_t>(body)]);
     return result;
-}
-
-/// The rotation that fits sum m x' X'^T best; of points on a line, about which it is not known, the least one.
-template <int Dim>
-Matrix<Dim> least_rotation(const Matrix<Dim>& moment) {
-    if constexpr (Dim == 3) {
-        const SingularValues svd = singular_values(moment);
-        if (svd.values[1] <= 1e-10 * svd.values[0]) return rotation_between(svd.v.col(0), svd.u.col(0));
-    }
-    return nearest_rotation<Dim>(moment);
 }
 
 }  // namespace
@@ -118,48 +107,6 @@ void Bodies<Dim>::place_cell_points(const RankPart<Dim>& part) {
     }
 }
 
-/// Sum of m v (x - centre)^T over the cells of a body, `x_of` being where the values v are.
-template <int Dim>
-template <class PositionOf>
-Matrix<Dim> Bodies<Dim>::mean_slope(std::size_t body, std::span<const Vector<Dim>> of_mesh_cells, std::int32_t on,
-                                    const PositionOf& x_of) const {
-    return rank_part_->sum_of_body(body, Matrix<Dim>(Matrix<Dim>::Zero()), [&](std::int32_t c) -> Matrix<Dim> {
-        return masses_[c] * of_mesh_cells[c + on] * (x_of(c) - cell_points_[body]->centre).transpose();
-    });
-}
-
-/// Takes values at the points of the cells to their centroids, in the order of the whole mesh.
-template <int Dim>
-void Bodies<Dim>::to_centroids(std::vector<Vector<Dim>>& of_mesh_cells) const {
-    for (std::size_t i = 0; i < cell_points_.size(); ++i) {
-        if (!cell_points_[i]) continue;
-        const CellPoints<Dim>& points = *cell_points_[i];
-        const auto cells = cells_of_body(deformable(), static_cast<std::int32_t>(i));
-        const std::int32_t on = cells_of_body(mesh_, deformable_bodies_[i]).first - cells.first;
-        const Matrix<Dim> slope =
-            mean_slope(i, of_mesh_cells, on, [&](std::int32_t c) { return rest_[c]; }) * points.inverse_y;
-        for (std::int32_t c = cells.first; c < cells.second; ++c)
-            of_mesh_cells[c + on] += slope * (mesh_.cell_centroid[c + on] - rest_[c]);
-    }
-}
-
-/// The other way round.
-template <int Dim>
-std::vector<Vector<Dim>> Bodies<Dim>::to_points(std::span<const Vector<Dim>> of_mesh_cells) const {
-    std::vector<Vector<Dim>> at_points(of_mesh_cells.begin(), of_mesh_cells.end());
-    for (std::size_t i = 0; i < cell_points_.size(); ++i) {
-        if (!cell_points_[i]) continue;
-        const CellPoints<Dim>& points = *cell_points_[i];
-        const auto cells = cells_of_body(deformable(), static_cast<std::int32_t>(i));
-        const std::int32_t on = cells_of_body(mesh_, deformable_bodies_[i]).first - cells.first;
-        const Matrix<Dim> slope =
-            mean_slope(i, of_mesh_cells, on, [&](std::int32_t c) { return mesh_.cell_centroid[c + on]; }) * points.inverse_x;
-        for (std::int32_t c = cells.first; c < cells.second; ++c)
-            at_points[c + on] += slope * (rest_[c] - mesh_.cell_centroid[c + on]);
-    }
-    return at_points;
-}
-
 /// The group of a condition may have no face in the part of a rank, and mesh::extract_bodies leaves such groups out.
 template <int Dim>
 void Bodies<Dim>::keep_groups() {
@@ -218,104 +165,6 @@ BodyFrames<Dim> Bodies<Dim>::frames(const RankPart<Dim>& part) const {
     }
     return BodyFrames<Dim>(deformable().cell_centroid, std::span(masses_).first(static_cast<std::size_t>(n_cells())),
                            std::move(begin), std::move(have_frames), deformable().body_names, part);
-}
-
-// Cells and points ---------------------------------------------------------------------------------------------------
-
-template <int Dim>
-double Bodies<Dim>::cell_mass(std::int32_t cell) const {
-    return options_.materials[static_cast<std::size_t>(mesh_.cell_body[cell])].density * mesh_.cell_measure[cell];
-}
-
-/// Of the cells of the whole mesh; those of rigid bodies are left open.
-template <int Dim>
-std::vector<Vector<Dim>> Bodies<Dim>::of_deformable_cells(std::span<const Vector<Dim>> of_points) const {
-    std::vector<Vector<Dim>> result(static_cast<std::size_t>(mesh_.n_cells()));
-    auto next = of_points.begin();
-    for (const std::int32_t body : deformable_bodies_) {
-        const auto [begin, end] = cells_of_body(mesh_, body);
-        std::copy_n(next, end - begin, result.begin() + begin);
-        next += end - begin;
-    }
-    return result;
-}
-
-template <int Dim>
-std::vector<Vector<Dim>> Bodies<Dim>::of_cells(std::span<const Vector<Dim>> q) const {
-    std::vector<Vector<Dim>> result = of_deformable_cells(q);
-    to_centroids(result);
-    for (std::size_t i = 0; i < rigid_->size(); ++i) {
-        const RigidPlace<Dim> place = rigid_->place(i, q);
-        const auto [begin, end] = cells_of_body(mesh_, rigid_->mesh_body(i));
-        for (std::int32_t c = begin; c < end; ++c)
-            result[c] = place(mesh_.cell_centroid[c] - rigid_->rest_centre(i)) - mesh_.cell_centroid[c];
-    }
-    return result;
-}
-
-template <int Dim>
-std::vector<Vector<Dim>> Bodies<Dim>::of_points(std::span<const Vector<Dim>> displacement) const {
-    const std::vector<Vector<Dim>> at_points = to_points(displacement);
-    std::vector<Vector<Dim>> q;
-    for (const std::int32_t body : deformable_bodies_) {
-        const auto [begin, end] = cells_of_body(mesh_, body);
-        q.insert(q.end(), at_points.begin() + begin, at_points.begin() + end);
-    }
-    q.resize(rest_.size());
-    for (std::size_t i = 0; i < rigid_->size(); ++i) {
-        const auto [begin, end] = cells_of_body(mesh_, rigid_->mesh_body(i));
-        Vector<Dim> shift = Vector<Dim>::Zero();
-        Matrix<Dim> moment = Matrix<Dim>::Zero();
-        double largest = 0.0;
-        for (std::int32_t c = begin; c < end; ++c) {
-            const Vector<Dim> arm = mesh_.cell_centroid[c] - rigid_->rest_centre(i);
-            shift += cell_mass(c) / rigid_->mass(i) * displacement[c];
-            moment += cell_mass(c) * (arm + displacement[c]) * arm.transpose();
-            largest = std::max(largest, (displacement[c] - displacement[begin]).norm());
-        }
-        const Matrix<Dim> turn = largest == 0.0 ? Matrix<Dim>(Matrix<Dim>::Identity()) : least_rotation<Dim>(moment);
-        rigid_->set_displacement(i, {rigid_->rest_centre(i) + shift, turn}, q);
-    }
-    return q;
-}
-
-template <int Dim>
-std::vector<Vector<Dim>> Bodies<Dim>::momenta(std::span<const Vector<Dim>> velocity) const {
-    const std::vector<Vector<Dim>> at_points = to_points(velocity);
-    std::vector<Vector<Dim>> p;
-    for (const std::int32_t body : deformable_bodies_) {
-        const auto [begin, end] = cells_of_body(mesh_, body);
-        for (std::int32_t c = begin; c < end; ++c) p.push_back(cell_mass(c) * at_points[c]);
-    }
-    p.resize(rest_.size());
-    for (std::size_t i = 0; i < rigid_->size(); ++i) {
-        const auto [begin, end] = cells_of_body(mesh_, rigid_->mesh_body(i));
-        Vector<Dim> mean = Vector<Dim>::Zero();
-        AxialVector<Dim> angular = AxialVector<Dim>::Zero();
-        Matrix<Dim> second_moment = Matrix<Dim>::Zero();
-        for (std::int32_t c = begin; c < end; ++c) {
-            const Vector<Dim> arm = mesh_.cell_centroid[c] - rigid_->rest_centre(i);
-            mean += cell_mass(c) / rigid_->mass(i) * velocity[c];
-            angular += cell_mass(c) * moment<Dim>(arm, Vector<Dim>(velocity[c] - velocity[begin]));
-            second_moment += cell_mass(c) * arm * arm.transpose();
-        }
-        rigid_->set_momentum(i, mean, spin_of<Dim>(second_moment, angular), p);
-    }
-    return p;
-}
-
-template <int Dim>
-std::vector<Vector<Dim>> Bodies<Dim>::velocities(std::span<const Vector<Dim>> p) const {
-    std::vector<Vector<Dim>> of_points(p.begin(), p.end());
-    for (std::size_t i = 0; i < of_points.size(); ++i) of_points[i] /= masses_[i];
-    std::vector<Vector<Dim>> result = of_deformable_cells(of_points);
-    to_centroids(result);
-    for (std::size_t i = 0; i < rigid_->size(); ++i) {
-        const RigidPlace<Dim> velocity = rigid_->velocity(i, of_points);
-        const auto [begin, end] = cells_of_body(mesh_, rigid_->mesh_body(i));
-        for (std::int32_t c = begin; c < end; ++c) result[c] = velocity(mesh_.cell_centroid[c] - rigid_->rest_centre(i));
-    }
-    return result;
 }
 
 template <int Dim>

@@ -7,13 +7,15 @@
 #include <vector>
 
 #include "abut/base/decompositions.hpp"
+#include "abut/solid/body/bodies.hpp"
+#include "abut/solid/part/body_cells.hpp"
 #include "abut/solid/part/rank_part.hpp"
 
 namespace abut::solid {
 namespace {
 
 constexpr int most_placings = 20;
-constexpr double placed_well = 1e-13;         // of the second moments of the body
+constexpr double placed_well = 1e-13;     // of the second moments of the body
 constexpr double cells_on_a_line = 1e-8;  // least second moment over the largest
 constexpr double stays_inside = 0.25;     // of the depth of its cell behind each face
 
@@ -55,6 +57,16 @@ bool is_inside(const mesh::Mesh<Dim>& mesh, std::int32_t cell, const Vector<Dim>
         if (!((mesh.face_centroid[f] - point).dot(out) >= stays_inside * depth)) return false;
     }
     return true;
+}
+
+/// The rotation that fits sum m x' X'^T best; of points on a line, about which it is not known, the least one.
+template <int Dim>
+Matrix<Dim> least_rotation(const Matrix<Dim>& moment) {
+    if constexpr (Dim == 3) {
+        const SingularValues svd = singular_values(moment);
+        if (svd.values[1] <= 1e-10 * svd.values[0]) return rotation_between(svd.v.col(0), svd.u.col(0));
+    }
+    return nearest_rotation<Dim>(moment);
 }
 
 }  // namespace
@@ -155,11 +167,159 @@ std::optional<CellPoints<Dim>> find_cell_points(const mesh::Mesh<Dim>& mesh, std
     return points;
 }
 
-#define ABUT_INSTANTIATE(Dim)                                                                \
-    template Matrix<Dim> own_second_moment(const mesh::Mesh<Dim>&, std::int32_t);            \
-    template Vector<Dim> CellPoints<Dim>::place(const mesh::Mesh<Dim>&, std::int32_t) const; \
-    template std::optional<CellPoints<Dim>> find_cell_points(                                \
-        const mesh::Mesh<Dim>&, std::int32_t, std::pair<std::int32_t, std::int32_t>, double, const RankPart<Dim>&);
+// Values of cells, at their centroids or at their points --------------------------------------------------------------
+
+/// Sum of m v (x - centre)^T over the cells of a body, `x_of` being where the values v are.
+template <int Dim>
+template <class PositionOf>
+Matrix<Dim> Bodies<Dim>::mean_slope(std::size_t body, std::span<const Vector<Dim>> of_mesh_cells, std::int32_t on,
+                                    const PositionOf& x_of) const {
+    return rank_part_->sum_of_body(body, Matrix<Dim>(Matrix<Dim>::Zero()), [&](std::int32_t c) -> Matrix<Dim> {
+        return masses_[c] * of_mesh_cells[c + on] * (x_of(c) - cell_points_[body]->centre).transpose();
+    });
+}
+
+/// Takes values at the points of the cells to their centroids, in the order of the whole mesh.
+template <int Dim>
+void Bodies<Dim>::to_centroids(std::vector<Vector<Dim>>& of_mesh_cells) const {
+    for (std::size_t i = 0; i < cell_points_.size(); ++i) {
+        if (!cell_points_[i]) continue;
+        const CellPoints<Dim>& points = *cell_points_[i];
+        const auto cells = cells_of_body(deformable(), static_cast<std::int32_t>(i));
+        const std::int32_t on = cells_of_body(mesh_, deformable_bodies_[i]).first - cells.first;
+        const Matrix<Dim> slope =
+            mean_slope(i, of_mesh_cells, on, [&](std::int32_t c) { return rest_[c]; }) * points.inverse_y;
+        for (std::int32_t c = cells.first; c < cells.second; ++c)
+            of_mesh_cells[c + on] += slope * (mesh_.cell_centroid[c + on] - rest_[c]);
+    }
+}
+
+/// The other way round.
+template <int Dim>
+std::vector<Vector<Dim>> Bodies<Dim>::to_points(std::span<const Vector<Dim>> of_mesh_cells) const {
+    std::vector<Vector<Dim>> at_points(of_mesh_cells.begin(), of_mesh_cells.end());
+    for (std::size_t i = 0; i < cell_points_.size(); ++i) {
+        if (!cell_points_[i]) continue;
+        const CellPoints<Dim>& points = *cell_points_[i];
+        const auto cells = cells_of_body(deformable(), static_cast<std::int32_t>(i));
+        const std::int32_t on = cells_of_body(mesh_, deformable_bodies_[i]).first - cells.first;
+        const Matrix<Dim> slope =
+            mean_slope(i, of_mesh_cells, on, [&](std::int32_t c) { return mesh_.cell_centroid[c + on]; }) * points.inverse_x;
+        for (std::int32_t c = cells.first; c < cells.second; ++c)
+            at_points[c + on] += slope * (rest_[c] - mesh_.cell_centroid[c + on]);
+    }
+    return at_points;
+}
+
+template <int Dim>
+double Bodies<Dim>::cell_mass(std::int32_t cell) const {
+    return options_.materials[static_cast<std::size_t>(mesh_.cell_body[cell])].density * mesh_.cell_measure[cell];
+}
+
+/// Of the cells of the whole mesh; those of rigid bodies are left open.
+template <int Dim>
+std::vector<Vector<Dim>> Bodies<Dim>::of_deformable_cells(std::span<const Vector<Dim>> of_points) const {
+    std::vector<Vector<Dim>> result(static_cast<std::size_t>(mesh_.n_cells()));
+    auto next = of_points.begin();
+    for (const std::int32_t body : deformable_bodies_) {
+        const auto [begin, end] = cells_of_body(mesh_, body);
+        std::copy_n(next, end - begin, result.begin() + begin);
+        next += end - begin;
+    }
+    return result;
+}
+
+template <int Dim>
+std::vector<Vector<Dim>> Bodies<Dim>::of_cells(std::span<const Vector<Dim>> q) const {
+    std::vector<Vector<Dim>> result = of_deformable_cells(q);
+    to_centroids(result);
+    for (std::size_t i = 0; i < rigid_->size(); ++i) {
+        const RigidPlace<Dim> place = rigid_->place(i, q);
+        const auto [begin, end] = cells_of_body(mesh_, rigid_->mesh_body(i));
+        for (std::int32_t c = begin; c < end; ++c)
+            result[c] = place(mesh_.cell_centroid[c] - rigid_->rest_centre(i)) - mesh_.cell_centroid[c];
+    }
+    return result;
+}
+
+template <int Dim>
+std::vector<Vector<Dim>> Bodies<Dim>::of_points(std::span<const Vector<Dim>> displacement) const {
+    const std::vector<Vector<Dim>> at_points = to_points(displacement);
+    std::vector<Vector<Dim>> q;
+    for (const std::int32_t body : deformable_bodies_) {
+        const auto [begin, end] = cells_of_body(mesh_, body);
+        q.insert(q.end(), at_points.begin() + begin, at_points.begin() + end);
+    }
+    q.resize(rest_.size());
+    for (std::size_t i = 0; i < rigid_->size(); ++i) {
+        const auto [begin, end] = cells_of_body(mesh_, rigid_->mesh_body(i));
+        Vector<Dim> shift = Vector<Dim>::Zero();
+        Matrix<Dim> moment = Matrix<Dim>::Zero();
+        double largest = 0.0;
+        for (std::int32_t c = begin; c < end; ++c) {
+            const Vector<Dim> arm = mesh_.cell_centroid[c] - rigid_->rest_centre(i);
+            shift += cell_mass(c) / rigid_->mass(i) * displacement[c];
+            moment += cell_mass(c) * (arm + displacement[c]) * arm.transpose();
+            largest = std::max(largest, (displacement[c] - displacement[begin]).norm());
+        }
+        const Matrix<Dim> turn = largest == 0.0 ? Matrix<Dim>(Matrix<Dim>::Identity()) : least_rotation<Dim>(moment);
+        rigid_->set_displacement(i, {rigid_->rest_centre(i) + shift, turn}, q);
+    }
+    return q;
+}
+
+template <int Dim>
+std::vector<Vector<Dim>> Bodies<Dim>::momenta(std::span<const Vector<Dim>> velocity) const {
+    const std::vector<Vector<Dim>> at_points = to_points(velocity);
+    std::vector<Vector<Dim>> p;
+    for (const std::int32_t body : deformable_bodies_) {
+        const auto [begin, end] = cells_of_body(mesh_, body);
+        for (std::int32_t c = begin; c < end; ++c) p.push_back(cell_mass(c) * at_points[c]);
+    }
+    p.resize(rest_.size());
+    for (std::size_t i = 0; i < rigid_->size(); ++i) {
+        const auto [begin, end] = cells_of_body(mesh_, rigid_->mesh_body(i));
+        Vector<Dim> mean = Vector<Dim>::Zero();
+        AxialVector<Dim> angular = AxialVector<Dim>::Zero();
+        Matrix<Dim> second_moment = Matrix<Dim>::Zero();
+        for (std::int32_t c = begin; c < end; ++c) {
+            const Vector<Dim> arm = mesh_.cell_centroid[c] - rigid_->rest_centre(i);
+            mean += cell_mass(c) / rigid_->mass(i) * velocity[c];
+            angular += cell_mass(c) * moment<Dim>(arm, Vector<Dim>(velocity[c] - velocity[begin]));
+            second_moment += cell_mass(c) * arm * arm.transpose();
+        }
+        rigid_->set_momentum(i, mean, spin_of<Dim>(second_moment, angular), p);
+    }
+    return p;
+}
+
+template <int Dim>
+std::vector<Vector<Dim>> Bodies<Dim>::velocities(std::span<const Vector<Dim>> p) const {
+    std::vector<Vector<Dim>> of_points(p.begin(), p.end());
+    for (std::size_t i = 0; i < of_points.size(); ++i) of_points[i] /= masses_[i];
+    std::vector<Vector<Dim>> result = of_deformable_cells(of_points);
+    to_centroids(result);
+    for (std::size_t i = 0; i < rigid_->size(); ++i) {
+        const RigidPlace<Dim> velocity = rigid_->velocity(i, of_points);
+        const auto [begin, end] = cells_of_body(mesh_, rigid_->mesh_body(i));
+        for (std::int32_t c = begin; c < end; ++c) result[c] = velocity(mesh_.cell_centroid[c] - rigid_->rest_centre(i));
+    }
+    return result;
+}
+
+#define ABUT_INSTANTIATE(Dim)                                                                                       \
+    template Matrix<Dim> own_second_moment(const mesh::Mesh<Dim>&, std::int32_t);                                   \
+    template Vector<Dim> CellPoints<Dim>::place(const mesh::Mesh<Dim>&, std::int32_t) const;                        \
+    template std::optional<CellPoints<Dim>> find_cell_points(                                                       \
+        const mesh::Mesh<Dim>&, std::int32_t, std::pair<std::int32_t, std::int32_t>, double, const RankPart<Dim>&); \
+    template void Bodies<Dim>::to_centroids(std::vector<Vector<Dim>>&) const;                                       \
+    template std::vector<Vector<Dim>> Bodies<Dim>::to_points(std::span<const Vector<Dim>>) const;                   \
+    template double Bodies<Dim>::cell_mass(std::int32_t) const;                                                     \
+    template std::vector<Vector<Dim>> Bodies<Dim>::of_deformable_cells(std::span<const Vector<Dim>>) const;         \
+    template std::vector<Vector<Dim>> Bodies<Dim>::of_cells(std::span<const Vector<Dim>>) const;                    \
+    template std::vector<Vector<Dim>> Bodies<Dim>::of_points(std::span<const Vector<Dim>>) const;                   \
+    template std::vector<Vector<Dim>> Bodies<Dim>::momenta(std::span<const Vector<Dim>>) const;                     \
+    template std::vector<Vector<Dim>> Bodies<Dim>::velocities(std::span<const Vector<Dim>>) const;
 ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)
 #undef ABUT_INSTANTIATE

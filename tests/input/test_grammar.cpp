@@ -36,7 +36,8 @@ TEST_CASE("the document shows what each kinematics is", "[input][grammar][kinema
         {"has a frame of its own, in which strains are linear", flag(&Of::has_frame)},
         {"has finite strains, whose forces are not linear", flag(&Of::finite_strains)},
         {"more layers of neighbours that a part of it needs", [](const Of& of) { return std::to_string(of.more_layers); }},
-        {"part of 2/omega_max that is stable without contact", [](const Of& of) { return fmt::format("{:.3g}", of.step_margin); }}};
+        {"part of 2/omega_max that is stable without contact",
+         [](const Of& of) { return fmt::format("{:.3g}", of.step_margin); }}};
     std::string table = "| |";
     for (const Of& of : abut::solid::kinematics_properties) table += " `" + std::string(of.name) + "` |";
     table += "\n|---|---|---|---|---|\n";

@@ -5,8 +5,8 @@
 
 #include "abut/geometry/box.hpp"
 #include "abut/solid/bond/bond_law.hpp"
-#include "abut/solid/boundary/bond_places.hpp"
 #include "abut/solid/bond_view.hpp"
+#include "abut/solid/boundary/bond_places.hpp"
 #include "abut/solid/contact_view.hpp"
 #include "abut/solid/statics.hpp"
 #include "solid/turning_scenes.hpp"

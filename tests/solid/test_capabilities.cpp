@@ -96,8 +96,7 @@ std::string said(const mesh::Mesh<2>& mesh, const Options& options, const Asked&
 
 TEST_CASE("a solid is what the table of its kinematics says", "[solid][kinematics]") {
     const auto mesh = mesh::structured_box<2>({0.0, 0.0}, {1.0, 0.5}, {4, 3}, CellShape::quadrangle, "box");
-    for (const Kinematics kinematics :
-         {Kinematics::small, Kinematics::floating, Kinematics::finite, Kinematics::rigid}) {
+    for (const Kinematics kinematics : {Kinematics::small, Kinematics::floating, Kinematics::finite, Kinematics::rigid}) {
         const solid::KinematicsProperties& is = solid::properties_of(kinematics);
         CAPTURE(is.name);
         Options options = bodies<2>(1);

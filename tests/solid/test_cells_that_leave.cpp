@@ -1,8 +1,8 @@
 // A run goes on without some of its cells.
 #include <catch2/catch.hpp>
 
-#include "abut/solid/boundary/bond_places.hpp"
 #include "abut/solid/bond_view.hpp"
+#include "abut/solid/boundary/bond_places.hpp"
 #include "abut/solid/boundary/boundary_face.hpp"
 #include "abut/solid/cell_view.hpp"
 #include "abut/solid/contact_view.hpp"

@@ -1,0 +1,65 @@
+#pragma once
+// Private to the sources of Ccg.
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "abut/solid/ccg/arrays.hpp"
+#include "abut/solid/ccg/capped_jumps.hpp"
+#include "abut/solid/ccg/ccg.hpp"
+#include "abut/solid/ccg/finite_cells.hpp"
+#include "abut/solid/ccg/motion_bound.hpp"
+#include "abut/solid/ccg/plastic_cells.hpp"
+#include "abut/solid/ccg/step_sweeps.hpp"
+#include "abut/solid/ccg/sweeps.hpp"
+#include "abut/solid/ccg/thermal_cells.hpp"
+#include "abut/solid/ccg/viscous_cells.hpp"
+
+namespace abut::solid {
+
+template <int Dim>
+struct Ccg<Dim>::Impl {
+    BoundaryConditions<Dim> conditions;
+    FaceConditions<Dim> face_conditions;
+    CcgArrays<Dim> arrays;
+    FiniteCells<Dim> finite;
+    ViscousCells<Dim> viscous;
+    PlasticCells<Dim> plastic;
+    CappedJumps<Dim> capped;
+    ThermalCells<Dim> thermal;
+    CcgSweeps<Dim> sweeps;
+    std::unique_ptr<StepSweeps<Dim>> steps;  // null: `sweeps` make them
+    bool steps_were_last = false;            // to compute gradients
+    bool steps_have_state = false;           // were the last to be given a state
+    std::optional<MotionBound<Dim>> motion_bound;
+    IdVector<BoundaryFace, Vector<Dim>> boundary_centroid;
+    IdVector<BoundaryFace, double> boundary_measure;
+    std::vector<std::vector<Vector<Dim>>> outside;  // tractions by face, of each traction condition; empty: not from outside
+    bool varies = false;
+
+    Impl(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials,
+         const BoundaryConditions<Dim>& boundary_conditions, std::span<const Kinematics> kinematics, CellForm form,
+         Precision precision, StepDevice device, const FiniteOptions<Dim>& finite_options, FreeFaces free_faces);
+
+    /// Free faces bear the thermal stress of their cell as if it were a traction.
+    [[nodiscard]] Vector<Dim> moved_by_heat(BoundaryFace b, std::span<const double> temperature) const {
+        const std::int32_t cell = arrays.cell_of(b);
+        const Matrix<Dim> stress = temperature[static_cast<std::size_t>(cell)] * thermal.stress(cell);
+        Vector<Dim> sum = Vector<Dim>::Zero();
+        for (std::int32_t i = arrays.boundary.load_offsets[number_of(b)]; i < arrays.boundary.load_offsets[number_of(b) + 1];
+             ++i)
+            sum += arrays.boundary.from_traction[i] * (stress * arrays.normal_of(arrays.boundary.load_faces[i]));
+        return sum;
+    }
+
+    /// evaluate(sweeps) of those that make steps.
+    template <class Evaluate>
+    void take_step(const Evaluate& evaluate) {
+        if (!steps) return evaluate(sweeps);
+        evaluate(*steps);
+        steps_were_last = steps_have_state = true;
+    }
+};
+
+}  // namespace abut::solid

@@ -1,0 +1,207 @@
+// What cells remember and lose: flow, damping and viscosity.
+#include <algorithm>
+#include <optional>
+#include <string>
+
+#include "abut/base/error.hpp"
+#include "abut/solid/ccg/ccg_impl.hpp"
+
+namespace abut::solid {
+
+template <int Dim>
+bool Ccg<Dim>::any_inelastic() const {
+    return impl_->finite.any_inelastic() || impl_->plastic.any();
+}
+
+template <int Dim>
+bool Ccg<Dim>::flows_linearly() const {
+    return impl_->plastic.any();
+}
+
+template <int Dim>
+bool Ccg<Dim>::may_have_flowed() const {
+    return impl_->finite.any_inelastic() || impl_->plastic.any_flowed() || impl_->capped.any_yielded();
+}
+
+template <int Dim>
+bool Ccg<Dim>::any_face_moves() const {
+    return impl_->plastic.any_face_moves();
+}
+
+template <int Dim>
+void Ccg<Dim>::begin_step(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load, double dt) {
+    if (impl_->finite.any_inelastic()) impl_->sweeps.begin_step(u, load, dt);
+}
+
+template <int Dim>
+void Ccg<Dim>::end_step() {
+    impl_->sweeps.end_step();
+    impl_->viscous.end_step();
+    impl_->plastic.end_step();
+    impl_->capped.end_step();
+}
+
+template <int Dim>
+void Ccg<Dim>::bring_to_rest() {
+    impl_->viscous.bring_to_rest();
+}
+
+template <int Dim>
+bool Ccg<Dim>::any_damped() const {
+    return impl_->viscous.any();
+}
+
+template <int Dim>
+double Ccg<Dim>::damping_ratio(double omega) const {
+    return impl_->viscous.damping_ratio(omega);
+}
+
+template <int Dim>
+Vector<Dim> Ccg<Dim>::drag(std::int32_t cell, double mass, const Vector<Dim>& motion, double dt) {
+    if (!impl_->viscous.contains(cell)) return Vector<Dim>::Zero();
+    return impl_->viscous.drag(cell, mass, motion, dt);
+}
+
+template <int Dim>
+dynamics::Losses Ccg<Dim>::step_loss(std::int32_t cell) const {
+    dynamics::Losses loss;
+    if (impl_->viscous.any()) loss = impl_->viscous.loss(cell);
+    loss.in_cells = impl_->plastic.loss(cell);
+    loss.on_faces = -impl_->plastic.work_of_push(cell);
+    if (impl_->finite.any_inelastic()) loss += impl_->sweeps.step_loss(cell);
+    loss.in_jumps = impl_->capped.loss(cell);
+    return loss;
+}
+
+template <int Dim>
+double Ccg<Dim>::plastic_strain(std::int32_t cell) const {
+    const std::int32_t inelastic = impl_->finite.inelastic(cell);
+    if (inelastic < 0) return impl_->plastic.plastic_strain(cell);
+    return impl_->finite.inelastic_cell(inelastic).law->plastic_strain(impl_->sweeps.memory_of(inelastic));
+}
+
+template <int Dim>
+std::optional<double> Ccg<Dim>::out_of_plane_stress(std::int32_t cell) const {
+    if (impl_->plastic.contains(cell))
+        return impl_->plastic.out_of_plane_stress(cell, displacement_gradient(cell)) - impl_->sweeps.heat_out_of_plane(cell);
+    if (impl_->arrays.directed.contains(cell))
+        return impl_->sweeps.directed_out_of_plane_stress(cell) - impl_->sweeps.heat_out_of_plane(cell);
+    if (const std::int32_t inelastic = impl_->finite.inelastic(cell); inelastic >= 0)
+        return impl_->finite.inelastic_cell(inelastic).law->out_of_plane_stress(impl_->sweeps.law_gradient(cell),
+                                                                                impl_->sweeps.memory_of(inelastic));
+    if (!impl_->thermal.any() || impl_->finite.contains(cell)) return std::nullopt;
+    return impl_->arrays.cells[cell].lambda * displacement_gradient(cell).trace() - impl_->sweeps.heat_out_of_plane(cell);
+}
+
+template <int Dim>
+std::vector<std::int32_t> Ccg<Dim>::memory_sizes() const {
+    std::vector<std::int32_t> sizes;
+    for (std::int32_t c = 0; c < n_cells(); ++c)
+        sizes.push_back(impl_->viscous.memory_size(c) + impl_->plastic.memory_size(c) + impl_->capped.memory_size(c));
+    for (std::int32_t i = 0; i < static_cast<std::int32_t>(impl_->finite.n_inelastic()); ++i) {
+        const auto& cell = impl_->finite.inelastic_cell(i);
+        sizes[static_cast<std::size_t>(cell.cell)] += static_cast<std::int32_t>(cell.end - cell.begin);
+    }
+    return sizes;
+}
+
+template <int Dim>
+std::vector<double> Ccg<Dim>::memory() const {
+    std::vector<double> values;
+    for (std::int32_t c = 0; c < n_cells(); ++c) {
+        if (const std::int32_t inelastic = impl_->finite.inelastic(c); inelastic >= 0) {
+            const auto& cell = impl_->finite.inelastic_cell(inelastic);
+            const std::span<const double> all = impl_->sweeps.memory();
+            values.insert(values.end(), all.begin() + cell.begin, all.begin() + cell.end);
+        }
+        impl_->viscous.put_memory(c, values);
+        impl_->plastic.put_memory(c, values);
+        impl_->capped.put_memory(c, values);
+    }
+    return values;
+}
+
+template <int Dim>
+void Ccg<Dim>::set_memory(std::span<const double> values) {
+    std::vector<double> of_laws;
+    for (std::int32_t c = 0; c < n_cells(); ++c) {
+        const auto take = [&](std::ptrdiff_t size) {
+            const std::span<const double> taken = values.first(static_cast<std::size_t>(size));
+            values = values.subspan(taken.size());
+            return taken;
+        };
+        if (const std::int32_t inelastic = impl_->finite.inelastic(c); inelastic >= 0) {
+            const auto& cell = impl_->finite.inelastic_cell(inelastic);
+            const std::span<const double> of_law = take(cell.end - cell.begin);
+            of_laws.insert(of_laws.end(), of_law.begin(), of_law.end());
+        }
+        if (impl_->viscous.contains(c)) impl_->viscous.set_memory(c, take(impl_->viscous.memory_size(c)));
+        if (impl_->plastic.contains(c)) impl_->plastic.set_memory(c, take(impl_->plastic.memory_size(c)));
+        if (impl_->capped.contains(c)) impl_->capped.set_memory(c, take(impl_->capped.memory_size(c)));
+    }
+    if (impl_->finite.any_inelastic()) impl_->sweeps.set_memory(of_laws);
+}
+
+template <int Dim>
+void Ccg<Dim>::take_memory(const Ccg& before, std::span<const std::int32_t> old_cells,
+                           std::span<const std::int32_t> old_faces) {
+    const Impl& from = *before.impl_;
+    std::vector<double> of_laws(impl_->sweeps.memory().begin(), impl_->sweeps.memory().end()), values;
+    for (std::int32_t c = 0; c < n_cells(); ++c) {
+        const std::int32_t old = old_cells[static_cast<std::size_t>(c)];
+        const std::int32_t inelastic = impl_->finite.inelastic(c), old_inelastic = from.finite.inelastic(old);
+        if (impl_->viscous.contains(c) != from.viscous.contains(old) ||
+            impl_->plastic.contains(c) != from.plastic.contains(old) ||
+            impl_->capped.contains(c) != from.capped.contains(old) || (inelastic < 0) != (old_inelastic < 0))
+            throw BadInput("cell " + std::to_string(c) +
+                               ", counted from 0 among those of bodies that deform, is of a "
+                               "material that remembers other things than before. Keep the laws of materials.",
+                           {.cell = c});
+        if (inelastic >= 0) {
+            const auto &cell = impl_->finite.inelastic_cell(inelastic),
+                       &old_cell = from.finite.inelastic_cell(old_inelastic);
+            const std::ptrdiff_t size = std::min(cell.end - cell.begin, old_cell.end - old_cell.begin);
+            std::copy_n(from.sweeps.memory().begin() + old_cell.begin, size, of_laws.begin() + cell.begin);
+        }
+        const auto take = [&](const auto& old_cells_of, auto& cells) {
+            if (!cells.contains(c)) return;
+            values.clear();
+            old_cells_of.put_memory(old, values);
+            cells.set_memory(c, values);
+        };
+        take(from.viscous, impl_->viscous);
+        take(from.plastic, impl_->plastic);
+        if (!impl_->capped.contains(c)) continue;
+        values.clear();
+        for (const HalfFace& half_face : impl_->arrays.half_faces_of(c)) {
+            const Vector<Dim> lasting = from.capped.lasting_on(old, old_faces[static_cast<std::size_t>(half_face.face)]);
+            values.insert(values.end(), lasting.begin(), lasting.end());
+        }
+        impl_->capped.set_memory(c, values);
+    }
+    if (impl_->finite.any_inelastic()) impl_->sweeps.set_memory(of_laws);
+}
+
+#define ABUT_INSTANTIATE(Dim)                                                                   \
+    template bool Ccg<Dim>::any_inelastic() const;                                              \
+    template bool Ccg<Dim>::flows_linearly() const;                                             \
+    template bool Ccg<Dim>::may_have_flowed() const;                                            \
+    template bool Ccg<Dim>::any_face_moves() const;                                             \
+    template void Ccg<Dim>::begin_step(std::span<const Vector<Dim>>, const BoundaryLoad<Dim>&); \
+    template void Ccg<Dim>::end_step();                                                         \
+    template void Ccg<Dim>::bring_to_rest();                                                    \
+    template bool Ccg<Dim>::any_damped() const;                                                 \
+    template double Ccg<Dim>::damping_ratio(double) const;                                      \
+    template Vector<Dim> Ccg<Dim>::drag(std::int32_t, double, const Vector<Dim>&, double);      \
+    template dynamics::Losses Ccg<Dim>::step_loss(std::int32_t) const;                          \
+    template double Ccg<Dim>::plastic_strain(std::int32_t) const;                               \
+    template std::optional<double> Ccg<Dim>::out_of_plane_stress(std::int32_t) const;           \
+    template std::vector<std::int32_t> Ccg<Dim>::memory_sizes() const;                          \
+    template std::vector<double> Ccg<Dim>::memory() const;                                      \
+    template void Ccg<Dim>::set_memory(std::span<const double>);                                \
+    template void Ccg<Dim>::take_memory(const Ccg&, std::span<const std::int32_t>, std::span<const std::int32_t>);
+ABUT_INSTANTIATE(2)
+ABUT_INSTANTIATE(3)
+#undef ABUT_INSTANTIATE
+
+}  // namespace abut::solid
