@@ -11,6 +11,7 @@
 #include "abut/base/error.hpp"
 #include "abut/base/parallel.hpp"
 #include "abut/solid/part/body_cells.hpp"
+#include "abut/solid/part/rank_part.hpp"
 #include "abut/solid/part/state_of_eigen.hpp"
 
 namespace abut::solid {

@@ -182,23 +182,23 @@ void Ccg<Dim>::take_memory(const Ccg& before, std::span<const std::int32_t> old_
     if (impl_->finite.any_inelastic()) impl_->sweeps.set_memory(of_laws);
 }
 
-#define ABUT_INSTANTIATE(Dim)                                                                   \
-    template bool Ccg<Dim>::any_inelastic() const;                                              \
-    template bool Ccg<Dim>::flows_linearly() const;                                             \
-    template bool Ccg<Dim>::may_have_flowed() const;                                            \
-    template bool Ccg<Dim>::any_face_moves() const;                                             \
-    template void Ccg<Dim>::begin_step(std::span<const Vector<Dim>>, const BoundaryLoad<Dim>&); \
-    template void Ccg<Dim>::end_step();                                                         \
-    template void Ccg<Dim>::bring_to_rest();                                                    \
-    template bool Ccg<Dim>::any_damped() const;                                                 \
-    template double Ccg<Dim>::damping_ratio(double) const;                                      \
-    template Vector<Dim> Ccg<Dim>::drag(std::int32_t, double, const Vector<Dim>&, double);      \
-    template dynamics::Losses Ccg<Dim>::step_loss(std::int32_t) const;                          \
-    template double Ccg<Dim>::plastic_strain(std::int32_t) const;                               \
-    template std::optional<double> Ccg<Dim>::out_of_plane_stress(std::int32_t) const;           \
-    template std::vector<std::int32_t> Ccg<Dim>::memory_sizes() const;                          \
-    template std::vector<double> Ccg<Dim>::memory() const;                                      \
-    template void Ccg<Dim>::set_memory(std::span<const double>);                                \
+#define ABUT_INSTANTIATE(Dim)                                                                           \
+    template bool Ccg<Dim>::any_inelastic() const;                                                      \
+    template bool Ccg<Dim>::flows_linearly() const;                                                     \
+    template bool Ccg<Dim>::may_have_flowed() const;                                                    \
+    template bool Ccg<Dim>::any_face_moves() const;                                                     \
+    template void Ccg<Dim>::begin_step(std::span<const Vector<Dim>>, const BoundaryLoad<Dim>&, double); \
+    template void Ccg<Dim>::end_step();                                                                 \
+    template void Ccg<Dim>::bring_to_rest();                                                            \
+    template bool Ccg<Dim>::any_damped() const;                                                         \
+    template double Ccg<Dim>::damping_ratio(double) const;                                              \
+    template Vector<Dim> Ccg<Dim>::drag(std::int32_t, double, const Vector<Dim>&, double);              \
+    template dynamics::Losses Ccg<Dim>::step_loss(std::int32_t) const;                                  \
+    template double Ccg<Dim>::plastic_strain(std::int32_t) const;                                       \
+    template std::optional<double> Ccg<Dim>::out_of_plane_stress(std::int32_t) const;                   \
+    template std::vector<std::int32_t> Ccg<Dim>::memory_sizes() const;                                  \
+    template std::vector<double> Ccg<Dim>::memory() const;                                              \
+    template void Ccg<Dim>::set_memory(std::span<const double>);                                        \
     template void Ccg<Dim>::take_memory(const Ccg&, std::span<const std::int32_t>, std::span<const std::int32_t>);
 ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)

@@ -10,6 +10,7 @@
 #include "abut/dynamics/stable_step.hpp"
 #include "abut/mesh/shapes/shapes.hpp"
 #include "abut/solid/body_motion.hpp"
+#include "abut/solid/cell_view.hpp"
 #include "abut/solid/material/known_materials.hpp"
 #include "abut/solid/material/material_numbers.hpp"
 #include "abut/solid/stepped_run.hpp"
@@ -154,13 +155,13 @@ Results in_cxx(const Given& given, const Vector<3>& velocity) {
     const auto entry = dynamics::measure(run.memm(), run.solid());
     results.pseudo_energy = entry.pseudo_energy;
     results.dissipated = entry.dissipated;
-    const auto moved = run.solid().cell_displacement(run.memm().q());
+    const auto moved = run.solid().cells().displacement(run.memm().q());
     for (std::int32_t c = 0; c < mesh.n_cells(); ++c) {
         const Vector<3> at = mesh.cell_centroid[static_cast<std::size_t>(c)] + moved[static_cast<std::size_t>(c)];
-        const Matrix<3> sigma = run.solid().stress(c);
+        const Matrix<3> sigma = run.solid().cells().stress(c);
         results.position.insert(results.position.end(), at.data(), at.data() + 3);
         results.stress.insert(results.stress.end(), sigma.data(), sigma.data() + 9);
-        results.plastic_strain.push_back(run.solid().plastic_strain(c));
+        results.plastic_strain.push_back(run.solid().cells().plastic_strain(c));
     }
     return results;
 }

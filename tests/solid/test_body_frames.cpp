@@ -9,6 +9,7 @@
 
 #include "abut/base/error.hpp"
 #include "abut/mesh/shapes/shapes.hpp"
+#include "abut/solid/body/bodies.hpp"
 #include "abut/solid/body/body_frames.hpp"
 #include "abut/solid/part/rank_part.hpp"
 #include "support/worst.hpp"
@@ -25,7 +26,7 @@ namespace {
 template <int Dim>
 struct WholePart {
     explicit WholePart(int n)
-        : mesh(row(n)), bodies(mesh, {.materials = {solid::Material{}}}, {}), part(dynamics::one_rank(), bodies) {}
+        : mesh(row(n)), bodies(mesh, {.materials = {solid::Material{}}}, {}), part(dynamics::one_rank(), bodies.points()) {}
 
     static mesh::Mesh<Dim> row(int n) {
         std::array<int, Dim> cells;

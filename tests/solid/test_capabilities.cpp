@@ -6,6 +6,7 @@
 #include <string>
 
 #include "abut/base/error.hpp"
+#include "abut/solid/cell_view.hpp"
 #include "abut/solid/kinematics/capabilities.hpp"
 #include "abut/solid/kinematics/properties.hpp"
 #include "abut/solid/local_step_checks.hpp"
@@ -113,7 +114,7 @@ TEST_CASE("a solid is what the table of its kinematics says", "[solid][kinematic
             std::vector<Vector<2>> bend;
             for (const Vector<2>& x : mesh.cell_centroid) bend.push_back({0.0, a * (x[0] - 0.5) * (x[0] - 0.5)});
             std::vector<double> force(solid.size());
-            solid.force(solid.displacement_of_points(bend), force);
+            solid.force(solid.cells().to_q(bend), force);
             return force;
         };
         const std::vector<double> once = forces_of_bend(0.05), twice = forces_of_bend(0.1);

@@ -6,6 +6,7 @@
 
 #include "abut/base/error.hpp"
 #include "abut/solid/cell_view.hpp"
+#include "abut/solid/contact_view.hpp"
 #include "solid/finite_scenes.hpp"
 
 using namespace abut;
@@ -338,7 +339,7 @@ TEST_CASE(
             if (i == 0) CHECK(solid.dissipated().in_cells > 0.0);
         }
         const auto end = dynamics::measure(memm, solid);
-        CHECK(solid.contact_report().active_pairs_max > 0);
+        CHECK(solid.contact().report().active_pairs_max > 0);
         CHECK(std::abs(end.pseudo_energy + end.dissipated - start.pseudo_energy - end.work) <= 1e-13 * start.kinetic);
     }
 }
