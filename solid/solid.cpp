@@ -40,7 +40,6 @@ void check_for_ranks(const dynamics::Ranks& ranks, const mesh::Mesh<Dim>& mesh, 
                            " has no cells in the part of a rank. Give each rank the whole of it (solid::part_of).");
     const bool from_outside = std::ranges::any_of(options.boundary.traction, &TractionCondition<Dim>::from_outside);
     dynamics::refuse_ranks(ranks, {{"a load from outside", from_outside},
-                                   {"a temperature", !options.temperature_rise.empty()},
                                    {"bonds under the modified reconstruction",
                                     !options.bonds.empty() && options.contact && options.law == ContactLaw::reconstruction},
                                    {"a bulk in single precision", options.precision == Precision::single_precision},

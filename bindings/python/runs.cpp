@@ -90,10 +90,11 @@ template <int Dim>
 py::object simulate(const mesh::Mesh<Dim>& mesh, const std::vector<solid::Material>& materials, const py::object& velocity,
                     const py::object& acceleration, const std::map<std::string, py::object>& held,
                     const std::vector<std::string>& rollers, const std::map<std::string, py::object>& traction,
-                    const py::object& displacement, const py::object& added_velocity, bool contact,
-                    std::optional<double> energy_scale, const py::object& look, const py::kwargs& given) {
+                    const std::map<std::string, py::object>& temperature_rise, const py::object& displacement,
+                    const py::object& added_velocity, bool contact, std::optional<double> energy_scale,
+                    const py::object& look, const py::kwargs& given) {
     const run::Scene<Dim> scene = scene_of<Dim>({mesh, materials, velocity, acceleration, held, rollers, traction,
-                                                 displacement, added_velocity, contact, energy_scale});
+                                                 temperature_rise, displacement, added_velocity, contact, energy_scale});
     return run_scene<Dim>(scene, options_of(given), "python", look);
 }
 
@@ -263,11 +264,22 @@ template <int Dim>
 std::unique_ptr<Memm<Dim>> make_memm(const mesh::Mesh<Dim>& mesh, const std::vector<solid::Material>& materials,
                                      const py::object& velocity, const py::object& acceleration,
                                      const std::map<std::string, py::object>& held, const std::vector<std::string>& rollers,
-                                     const std::map<std::string, py::object>& traction, const py::object& displacement,
-                                     const py::object& added_velocity, bool contact, const std::vector<std::string>& outside,
-                                     const py::kwargs& given) {
-    run::Scene<Dim> scene = scene_of<Dim>(
-        {mesh, materials, velocity, acceleration, held, rollers, traction, displacement, added_velocity, contact, {}});
+                                     const std::map<std::string, py::object>& traction,
+                                     const std::map<std::string, py::object>& temperature_rise,
+                                     const py::object& displacement, const py::object& added_velocity, bool contact,
+                                     const std::vector<std::string>& outside, const py::kwargs& given) {
+    run::Scene<Dim> scene = scene_of<Dim>({mesh,
+                                           materials,
+                                           velocity,
+                                           acceleration,
+                                           held,
+                                           rollers,
+                                           traction,
+                                           temperature_rise,
+                                           displacement,
+                                           added_velocity,
+                                           contact,
+                                           {}});
     for (const std::string& group : outside) scene.solid.boundary.traction.push_back({.group = group, .from_outside = true});
     require_of_memm(given);
     const run::RunOptions options = options_of(given);
@@ -296,6 +308,9 @@ constexpr const char* scene_text =
     "the "
     "same shape; held: {group: displacement [m]}; rollers: groups held along their normals; traction: {group: traction "
     "[Pa]}; "
+    "temperature_rise: {body: kelvins above where it has no thermal strain}, a number or a function of t and x that is "
+    "asked for "
+    "each cell in each step; "
     "displacement(x), added_velocity(x): at the start, by position; contact: False lets bodies pass through each other. "
     "Options, those of the command line of abut run with _ for -:\n";
 
@@ -338,8 +353,9 @@ void add_dimension(py::module_& module, const std::string& suffix) {
     const std::map<std::string, py::object> none;
     module.def(
         "simulate", &simulate<Dim>, "mesh"_a, "materials"_a, "velocity"_a, py::kw_only(), "acceleration"_a = py::none(),
-        "held"_a = none, "rollers"_a = std::vector<std::string>(), "traction"_a = none, "displacement"_a = py::none(),
-        "added_velocity"_a = py::none(), "contact"_a = true, "energy_scale"_a = py::none(), "look"_a = py::none(),
+        "held"_a = none, "rollers"_a = std::vector<std::string>(), "traction"_a = none, "temperature_rise"_a = none,
+        "displacement"_a = py::none(), "added_velocity"_a = py::none(), "contact"_a = true, "energy_scale"_a = py::none(),
+        "look"_a = py::none(),
         (std::string(
              "Runs a scene and returns a dict: ledger (structured array), displacement at the end [m], start and end (mass "
              "[kg], "
@@ -351,8 +367,9 @@ void add_dimension(py::module_& module, const std::string& suffix) {
          scene_text + option_text())
             .c_str());
     module.def("memm", &make_memm<Dim>, "mesh"_a, "materials"_a, "velocity"_a, py::kw_only(), "acceleration"_a = py::none(),
-               "held"_a = none, "rollers"_a = std::vector<std::string>(), "traction"_a = none, "displacement"_a = py::none(),
-               "added_velocity"_a = py::none(), "contact"_a = true, "outside"_a = std::vector<std::string>(),
+               "held"_a = none, "rollers"_a = std::vector<std::string>(), "traction"_a = none, "temperature_rise"_a = none,
+               "displacement"_a = py::none(), "added_velocity"_a = py::none(), "contact"_a = true,
+               "outside"_a = std::vector<std::string>(),
                (std::string("The same under MEMM, to be taken step by step; options of steps and files are for simulate. "
                             "outside: groups that set_traction loads. ") +
                 scene_text + option_text())

@@ -2,6 +2,7 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <functional>
 #include <map>
@@ -29,6 +30,7 @@ struct SceneArguments {
     std::map<std::string, py::object> held;
     std::vector<std::string> rollers;
     std::map<std::string, py::object> traction;
+    std::map<std::string, py::object> temperature_rise;
     py::object displacement;  // functions of a position, or None
     py::object added_velocity;
     bool contact;
@@ -54,18 +56,65 @@ struct SceneSource {
     }
 };
 
+/// An object that may be copied and dropped without the interpreter's lock.
+inline std::shared_ptr<py::object> kept(const py::object& object) {
+    return {new py::object(object), [](py::object* held) {
+                const py::gil_scoped_acquire lock;
+                delete held;
+            }};
+}
+
 /// A function of Python as a field; empty for None. It may be called, copied and dropped without the interpreter's lock.
 template <int Dim>
 std::function<Vector<Dim>(const Vector<Dim>&)> field_of(const py::object& function, const char* name) {
     if (function.is_none()) return {};
-    const std::shared_ptr<py::object> held(new py::object(function), [](py::object* object) {
-        const py::gil_scoped_acquire lock;
-        delete object;
-    });
-    return [held, name](const Vector<Dim>& x) {
+    return [held = kept(function), name](const Vector<Dim>& x) {
         const py::gil_scoped_acquire lock;
         return vector_of<Dim>((*held)(py::array_t<double>(py::ssize_t{Dim}, x.data())), name);
     };
+}
+
+/// A number, or a function of time and position that is asked in each step.
+template <int Dim>
+solid::TemperatureRise<Dim> temperature_of(const py::object& given, const std::string& name) {
+    if (PyCallable_Check(given.ptr()) == 0) {
+        try {
+            return {.value = [value = py::cast<double>(given)](double, const Vector<Dim>&) { return value; }};
+        } catch (const py::cast_error&) {
+            throw py::type_error(name + " is a number [K] or a function of t and x, not " +
+                                 std::string(py::str(py::repr(given))));
+        }
+    }
+    return {
+        .value =
+            [function = kept(given), name](double time, const Vector<Dim>& x) {
+                const py::gil_scoped_acquire lock;
+                const py::object value = (*function)(time, py::array_t<double>(py::ssize_t{Dim}, x.data()));
+                try {
+                    return py::cast<double>(value);
+                } catch (const py::cast_error&) {
+                    throw py::type_error(name + " gave " + std::string(py::str(py::repr(value))) + ", which is no number");
+                }
+            },
+        .varies = true};
+}
+
+template <int Dim>
+std::vector<solid::TemperatureRise<Dim>> temperatures_of(const std::map<std::string, py::object>& given,
+                                                         const mesh::Mesh<Dim>& mesh) {
+    std::vector<solid::TemperatureRise<Dim>> rises;
+    if (!given.empty()) rises.resize(mesh.body_names.size());
+    for (const auto& [body, value] : given) {
+        const std::string name = "temperature_rise['" + body + "']";
+        const auto found = std::ranges::find(mesh.body_names, body);
+        if (found == mesh.body_names.end()) {
+            std::string all;
+            for (const std::string& one : mesh.body_names) all += (all.empty() ? "'" : ", '") + one + "'";
+            throw BadInput(mesh.name + ": " + name + ": there is no body of this name; there are " + all + ".");
+        }
+        rises[static_cast<std::size_t>(found - mesh.body_names.begin())] = temperature_of<Dim>(value, name);
+    }
+    return rises;
 }
 
 template <int Dim>
@@ -90,6 +139,7 @@ run::Scene<Dim> scene_of(const SceneArguments<Dim>& given) {
     for (const auto& [group, value] : given.traction)
         scene.solid.boundary.traction.push_back(
             {.group = group, .value = vector_of<Dim>(value, ("traction['" + group + "']").c_str())});
+    scene.solid.temperature_rise = temperatures_of<Dim>(given.temperature_rise, given.mesh);
     scene.displacement = field_of<Dim>(given.displacement, "displacement(x)");
     scene.added_velocity = field_of<Dim>(given.added_velocity, "added_velocity(x)");
     scene.contact = given.contact;

@@ -131,7 +131,8 @@ void Loads<Dim>::restore(StateReader& state) {
     }
     if (ccg_.is_warm()) {
         traction_time_ = state.get<double>();
-        end_.temperature = ccg_.load_at(traction_time_, traction_time_).temperature;
+        end_.temperature =
+            dynamics::agreed(part_.ranks(), [&] { return ccg_.load_at(traction_time_, traction_time_).temperature; });
     }
     start_ = end_;
 }

@@ -401,6 +401,41 @@ class Runs(unittest.TestCase):
             with self.assertRaisesRegex(error, text):
                 make()
 
+    def test_warm_bodies_expand_or_press_as_closed_forms_say(self):
+        # plane strain: free (1 + nu) alpha T in the plane, and a bar between two walls -E alpha T/(1 - nu) along it
+        material = solid.Material(young=2.0, poisson=0.25, density=1.0, thermal_expansion=1e-5, mass_damping=4.0)
+        bar = solid.structured_box((0, 0), (1, 0.5), (4, 2), name="bar")
+        free = solid.simulate(bar, [material], [(0, 0)], temperature_rise={"bar": 80}, rollers=["xmin", "ymin"], time=30.0)
+        np.testing.assert_allclose(free.displacement, 1.25 * 80e-5 * bar.centroids, rtol=0, atol=1e-12)
+        rises = []
+
+        def rise(t, x):
+            rises.append(t)
+            return 80.0 * min(t / 10.0, 1.0) * (1.0 + 0.0 * x[0])
+
+        run = solid.memm(bar, [material], [(0, 0)], temperature_rise={"bar": rise}, rollers=["xmin", "xmax", "ymin"])
+        start = run.ledger["pseudo_energy"][0]
+        while run.time < 40.0:
+            run.step(10)
+        run.record()
+        np.testing.assert_allclose(run.stress[:, 0, 0], -2.0 * 80e-5 / 0.75, rtol=1e-2)
+        end = run.ledger[-1]
+        self.assertNotEqual(end["work"], 0.0)
+        self.assertLess(abs(end["pseudo_energy"] + end["dissipated"] - start - end["work"]), 1e-12 * 80e-5**2)
+        self.assertGreater(len(set(rises)), 10)
+
+        def fails(t, x):
+            if t > 0.0:
+                raise RuntimeError("too hot")
+            return 0.0
+
+        for error, text, warm in ((abut.BadInput, r"temperature_rise\['lid'\]: there is no body .*'bar'", {"lid": 1.0}),
+                                  (TypeError, r"temperature_rise\['bar'\] is a number", {"bar": "hot"}),
+                                  (TypeError, r"temperature_rise\['bar'\] gave 'hot'", {"bar": lambda t, x: "hot"}),
+                                  (RuntimeError, "too hot", {"bar": fails})):
+            with self.assertRaisesRegex(error, text):
+                solid.simulate(bar, [material], [(0, 0)], temperature_rise=warm, steps=5)
+
     def test_options_have_units(self):
         mesh = two_boxes()
         result = solid.simulate(mesh, **falling(), time="10 ms", dt="1 ms")

@@ -153,7 +153,12 @@ TEST_CASE("weights of cells are what their rank has cost, over the cells that it
 TEST_CASE("a run goes on from checkpoints of another number of ranks, with loads that vary and other parts",
           "[ranks][run][checkpoint]") {
     const ranks::Communicator all = test::world();
-    const auto scene = test::loaded_strip();
+    auto scene = test::loaded_strip();
+    if (GENERATE(false, true)) {  // and warm
+        scene.solid.materials[0].thermal_expansion = 1e-4;
+        scene.solid.temperature_rise = {
+            {.value = [](double t, const Vector<2>& x) { return 50.0 * (std::sin(4.0 * t) + 0.2 * x[0]); }, .varies = true}};
+    }
     run::RunOptions options = options_of(40);
     options.rebalance = 6;
     options.rebalance_above = 1.0;

@@ -270,6 +270,47 @@ TEST_CASE("what one rank finds wrong is thrown on all, and nobody waits", "[rank
     CHECK_THROWS_AS(make_steps(), BadInput);
 }
 
+TEMPLATE_TEST_CASE_SIG("warm bodies that collide, turn and yield have the bits of one rank, and the same work of heat",
+                       "[ranks][solid][temperature]", ((int Dim), Dim), 2, 3) {
+    const ranks::Communicator all = test::world();
+    const auto mesh = two_round_bodies<Dim>();
+    const bool yields = GENERATE(false, true);
+    const auto kinematics = GENERATE(solid::Kinematics::small, solid::Kinematics::floating);
+    CAPTURE(yields, static_cast<int>(kinematics));
+    solid::SolidOptions<Dim> options;
+    options.materials.assign(2, steel);
+    for (solid::Material& material : options.materials) {
+        material.thermal_expansion = 1e-4;
+        if (!yields) continue;
+        material.law = solid::MaterialLaw::j2;
+        material.yield_stress = 1e-3;
+        material.hardening = 0.1;
+    }
+    options.kinematics.assign(2, kinematics);
+    options.contact = contact::ContactOptions{};
+    options.law = solid::ContactLaw::pair_potential;
+    for (const double amplitude : {60.0, -40.0})
+        options.temperature_rise.push_back(
+            {.value = [amplitude](double t, const Vector<Dim>& x) { return amplitude * (std::sin(2.0 * t) + 0.3 * x[1]); },
+             .varies = true});
+    const auto report =
+        check_same_bits<Dim>(all, mesh, options, towards_each_other<Dim>(Dim == 2 ? 0.1 : 0.3), 20, parts(all, mesh),
+                             {.spin = kinematics == solid::Kinematics::floating ? 0.05 : 0.0});
+    CHECK(report.active_pairs_max > 0);
+}
+
+TEST_CASE("a temperature that strains too much in a cell of one rank is refused on all of them, by its cell",
+          "[ranks][solid][temperature][errors]") {
+    const ranks::Communicator all = test::world();
+    const auto mesh = bar<2>(mesh::CellShape::triangle);
+    solid::SolidOptions<2> options;
+    options.materials = {steel};
+    options.materials[0].thermal_expansion = 1e-3;
+    options.temperature_rise = {{.value = [](double, const Vector<2>& x) { return x[0] > 3.95 ? 200.0 : 1.0; }}};
+    CHECK_THROWS_WITH(test::SharedSolid<2>(all, mesh, options, parts(all, mesh)),
+                      Catch::Contains("K warmer") && Catch::Contains("a thermal strain of 0.2"));
+}
+
 TEST_CASE("what is not made for ranks yet is refused by name", "[ranks][solid]") {
     const ranks::Communicator all = test::world();
     const auto mesh = bar<2>(mesh::CellShape::triangle);

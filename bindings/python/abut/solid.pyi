@@ -9,6 +9,7 @@ from . import Result
 _Doubles = NDArray[np.float64]
 _Integers = NDArray[np.int32]
 _Field = Optional[Callable[[_Doubles], ArrayLike]]
+_Rise = Union[float, Callable[[float, _Doubles], float]]
 
 class Material:
     def __init__(self, material: Optional[str] = ..., **kwargs: Any) -> None: ...
@@ -149,9 +150,10 @@ def cylinder(centre: Sequence[float] = ..., radius: float = ..., length: float =
 def sphere(centre: Sequence[float] = ..., radius: float = ..., size: float = ..., variant: int = ..., name: str = ...) -> Mesh3D: ...
 def simulate(mesh: Union[Mesh2D, Mesh3D], materials: Sequence[Material], velocity: ArrayLike, *,
              acceleration: Optional[ArrayLike] = ..., held: Mapping[str, ArrayLike] = ..., rollers: Sequence[str] = ...,
-             traction: Mapping[str, ArrayLike] = ..., displacement: _Field = ..., added_velocity: _Field = ..., contact: bool = ...,
-             energy_scale: Optional[float] = ..., look: Optional[Callable[[Any], Any]] = ..., **kwargs: Any) -> Result: ...
+             traction: Mapping[str, ArrayLike] = ..., temperature_rise: Mapping[str, _Rise] = ..., displacement: _Field = ...,
+             added_velocity: _Field = ..., contact: bool = ..., energy_scale: Optional[float] = ...,
+             look: Optional[Callable[[Any], Any]] = ..., **kwargs: Any) -> Result: ...
 def memm(mesh: Union[Mesh2D, Mesh3D], materials: Sequence[Material], velocity: ArrayLike, *, acceleration: Optional[ArrayLike] = ...,
          held: Mapping[str, ArrayLike] = ..., rollers: Sequence[str] = ..., traction: Mapping[str, ArrayLike] = ...,
-         displacement: _Field = ..., added_velocity: _Field = ..., contact: bool = ..., outside: Sequence[str] = ...,
+         temperature_rise: Mapping[str, _Rise] = ..., displacement: _Field = ..., added_velocity: _Field = ..., contact: bool = ..., outside: Sequence[str] = ...,
          **kwargs: Any) -> Any: ...
