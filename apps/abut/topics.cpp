@@ -52,7 +52,7 @@ const Topic materials{
 bends (kinematics = "finite") is of St. Venant and Kirchhoff's material: linear elastic in the strain of
 Green, good for strains up to 0.2. Beyond, `law` = "neo_hookean" or "mooney_rivlin" are rubber, the latter with
 `second_share`; at small strains all are the same. `law` = "j2" is metal: beyond `yield_stress` it flows, hardens by
-`hardening`, `saturation` and, unless it is finite, `kinematic_hardening`, and remembers. `mass_damping` and
+`hardening`, `saturation` and `kinematic_hardening`, and remembers. `mass_damping` and
 `stiffness_damping` are Rayleigh's, `linear_viscosity` and `quadratic_viscosity` are for shocks. What all of these
 dissipate is booked. `law` = "orthotropic" has other moduli along three axes, which `axis_angle` or `axis_1` and
 `axis_2` lay. `thermal_expansion` acts with `temperature_rise` of a body. A rigid body uses its density alone.

@@ -54,10 +54,6 @@ void Bodies<Dim>::check_material(std::int32_t body) const {
     const std::string who = mesh_.name + ": body '" + mesh_.body_names[static_cast<std::size_t>(body)] + "' ";
     if (material.law == MaterialLaw::j2 && !has(kinematics(body), Capability::flow))
         throw BadInput(who + "is rigid, and has a material that yields. Take other kinematics, or another law.");
-    if (material.kinematic_hardening > 0.0 && !has(kinematics(body), Capability::kinematic_hardening))
-        throw BadInput(who +
-                       "is of Kinematics::finite, whose plastic flow knows no kinematic_hardening. Take hardening, or "
-                       "kinematics \"floating\".");
     if (!material.is_isotropic()) check_directions(material, body, who);
     if (!material.is_damped()) return;
     if (!has(kinematics(body), Capability::damping))

@@ -18,12 +18,11 @@ enum class Capability {
     bond,                    ///< faces that hold on to those of another body
     large_strains,           ///< a material whose energy is not that of small strains
     flow,                    ///< a material that yields
-    kinematic_hardening,
-    temperature,  ///< that is given, and strains
-    damping,      ///< of the material: Rayleigh's and viscosity
-    rest,         ///< a state at rest that is sought (`solve_statics`)
-    loaded_rest,  ///< the same under tractions and moments
-    local_steps,  ///< steps of its own for each cell
+    temperature,             ///< that is given, and strains
+    damping,                 ///< of the material: Rayleigh's and viscosity
+    rest,                    ///< a state at rest that is sought (`solve_statics`)
+    loaded_rest,             ///< the same under tractions and moments
+    local_steps,             ///< steps of its own for each cell
 };
 
 /// Which kinematics have one, and why the others have not: the end of a sentence.
@@ -35,7 +34,7 @@ struct CapabilityRow {
 };
 
 /// All that is refused because of the kinematics of a body. docs/kinematics.md shows it.
-inline constexpr std::array<CapabilityRow, 15> capabilities{{
+inline constexpr std::array<CapabilityRow, 14> capabilities{{
     // clang-format off
     //                                                                              small, floating, finite, rigid
     {Capability::clamp, "clamp",                                                    {true, false, true, false}, "a displacement is given in space, and a frame that turns has no place for it"},
@@ -47,7 +46,6 @@ inline constexpr std::array<CapabilityRow, 15> capabilities{{
     {Capability::bond, "bond",                                                      {true, true, true, false}, "bonds pull at faces through the cells behind them"},
     {Capability::large_strains, "law of large strains",                             {false, false, true, true}, "strains are linear; a rigid body has none, whatever its law"},
     {Capability::flow, "metal that yields",                                         {true, true, true, false}, "nothing deforms"},
-    {Capability::kinematic_hardening, "kinematic hardening",                        {true, true, false, false}, "the back stress of large strains is not made; rigid bodies do not yield"},
     {Capability::temperature, "temperature",                                        {true, true, false, false}, "thermal strain is added to linear ones; rigid bodies have none"},
     {Capability::damping, "damping and viscosity of the material",                  {true, true, true, false}, "nothing deforms"},
     {Capability::rest, "state at rest that is sought",                              {true, false, true, false}, "the search knows no turns of frames and of rigid bodies"},

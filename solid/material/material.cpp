@@ -10,6 +10,7 @@
 #include "abut/base/error.hpp"
 #include "abut/base/messages.hpp"
 #include "abut/solid/material/j2_plasticity.hpp"
+#include "abut/solid/material/logarithmic_plasticity.hpp"
 #include "abut/solid/material/material_numbers.hpp"
 #include "abut/solid/material/mooney_rivlin.hpp"
 #include "abut/solid/material/orthotropic.hpp"
@@ -137,6 +138,7 @@ std::shared_ptr<const StoredEnergy<Dim>> stored_energy(const Material& material)
 template <int Dim>
 std::shared_ptr<const InelasticLaw<Dim>> inelastic_law(const Material& material) {
     if (material.law != MaterialLaw::j2) return nullptr;
+    if (material.kinematic_hardening > 0.0) return std::make_shared<LogarithmicPlasticity<Dim>>(material);
     return std::make_shared<J2Plasticity<Dim>>(material);
 }
 

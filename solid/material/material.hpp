@@ -65,7 +65,7 @@ struct Material {
     double johnson_cook_rate = 0.0;        ///< r at which the stress is sigma(alpha) [1/s], >= 0; 0: the rate does not count
     double johnson_cook_factor = 0.0;      ///< C [-], > 0 with `johnson_cook_rate`
     double kinematic_hardening =
-        0.0;  ///< Prager's: by how much yielding shifts the stresses at which it does [Pa], >= 0; not of finite bodies
+        0.0;  ///< Prager's: by how much yielding shifts the stresses at which it does, per plastic strain [Pa], >= 0
     /// Largest traction of the stabilisation of jumps between cells over `yield_stress` [-], >= 0; 0: 0.1 where both cells are
     /// simplices and 0.3 elsewhere, none in finite bodies that contact may push.
     double jump_cap = 0.0;

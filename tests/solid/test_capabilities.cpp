@@ -59,12 +59,6 @@ std::vector<Asked> all_asked() {
              o.materials[0].law = solid::MaterialLaw::j2;
              o.materials[0].yield_stress = 1e-3;
          }},
-        {Capability::kinematic_hardening, "yield|kinematic_hardening",
-         [](Options& o) {
-             o.materials[0].law = solid::MaterialLaw::j2;
-             o.materials[0].yield_stress = 1e-3;
-             o.materials[0].kinematic_hardening = 0.1;
-         }},
         {Capability::temperature, "is given a temperature",
          [](Options& o) {
              for (solid::Material& material : o.materials) material.thermal_expansion = 0.01;

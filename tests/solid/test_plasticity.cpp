@@ -27,6 +27,13 @@ const Material metal{.young = 1.0,
                      .saturation = 2e-3,
                      .saturation_rate = 8.0};
 
+/// The same with kinematic hardening.
+const Material kinematic = [] {
+    Material material = metal;
+    material.kinematic_hardening = 0.04;
+    return material;
+}();
+
 constexpr double any_dt = 1.0;  // of materials whose stress does not depend on rates
 
 /// A law that counts the steps of a cell that have ended; elastic as St. Venant and Kirchhoff's material.
@@ -101,7 +108,7 @@ TEMPLATE_TEST_CASE_SIG(
 
 TEMPLATE_TEST_CASE_SIG("the stress at the end of a plastic step is the slope of what the step stores and dissipates",
                        "[solid][material]", ((int Dim), Dim), 2, 3) {
-    const auto law = solid::inelastic_law<Dim>(metal);
+    const auto law = solid::inelastic_law<Dim>(GENERATE(false, true) ? kinematic : metal);
     constexpr double h = 1e-6;
     for (const unsigned seed : {1u, 2u, 3u}) {
         std::vector<double> memory = law->initial_memory();
@@ -119,7 +126,7 @@ TEMPLATE_TEST_CASE_SIG("the stress at the end of a plastic step is the slope of 
 
 TEMPLATE_TEST_CASE_SIG("changes of the stress of metal are its slopes, in a state and in a step that flows",
                        "[solid][material]", ((int Dim), Dim), 2, 3) {
-    const auto law = solid::inelastic_law<Dim>(metal);
+    const auto law = solid::inelastic_law<Dim>(GENERATE(false, true) ? kinematic : metal);
     constexpr double h = 1e-6;
     for (const unsigned seed : {1u, 2u, 3u})
         for (const double size : {1e-4, 0.1}) {  // before it yields, and beyond
@@ -163,6 +170,105 @@ TEST_CASE("pure shear in the plane hardens as the closed form says, for small an
     }
 }
 
+TEMPLATE_TEST_CASE_SIG(
+    "metal with kinematic hardening ends steps of any size on its yield surface, keeps volume and knows no turn",
+    "[solid][material]", ((int Dim), Dim), 2, 3) {
+    const auto law = solid::inelastic_law<Dim>(kinematic);
+    const Matrix<Dim> turn = turned_by<Dim>(0.8), unit = Matrix<Dim>::Identity();
+    for (const double size : {0.01, 0.1, 0.3})
+        for (unsigned seed = 1; seed <= 40; ++seed) {
+            std::vector<double> memory = law->initial_memory();
+            const Matrix<Dim> first = some_gradient<Dim>(seed, size), last = first + some_gradient<Dim>(seed + 100, size);
+            if ((unit + first).determinant() < 0.2 || (unit + last).determinant() < 0.2) continue;
+            (void)law->advance(first, any_dt, memory);
+            auto turned_memory = memory;
+            const double before = law->plastic_strain(memory);
+            const auto step = law->advance(last, any_dt, memory);
+            // Volume: the mean of Kirchhoff's stress is that of an elastic one.
+            if constexpr (Dim == 3) {
+                const double pressure =
+                    (kinematic.lambda() + 2.0 / 3.0 * kinematic.mu()) * std::log((unit + last).determinant());
+                CHECK(std::abs((step.response.stress * (unit + last).transpose()).trace() / 3.0 - pressure) <= 1e-13);
+            }
+            CHECK((law->at(last, memory).stress - step.response.stress).norm() <= 1e-15);
+            const auto turned = law->advance(turn * (unit + last) - unit, any_dt, turned_memory);
+            CHECK((turned.response.stress - turn * step.response.stress).norm() <= 1e-13);
+            CHECK(std::abs(turned.response.energy - step.response.energy) <= 1e-13);
+            for (std::size_t i = 0; i < memory.size(); ++i) CHECK(std::abs(turned_memory[i] - memory[i]) <= 1e-13);
+            // On the surface: a step that stays there does not flow.
+            CHECK(law->plastic_strain(memory) >= before);
+            auto again = memory;
+            (void)law->advance(last, any_dt, again);
+            for (std::size_t i = 0; i < memory.size(); ++i) CHECK(std::abs(again[i] - memory[i]) <= 1e-15);
+        }
+}
+
+TEST_CASE("a bar of metal with kinematic hardening follows the closed form of cyclic tension in logarithmic strains",
+          "[solid][material]") {
+    // ln F = diag(e, l, l) with l = -nu (e - p) - p/2, so that no stress is across; Kirchhoff's along is E (e - p). It flows where
+    // |E (e - p) - H p| reaches sigma_y + H_i alpha: forth at sigma_y, back 2 (sigma_y + H_i alpha) below where it turned (Bauschinger).
+    Material bar = kinematic;
+    bar.saturation = bar.saturation_rate = 0.0;
+    for (const double hardening : {0.0, 0.05}) {
+        bar.hardening = hardening;
+        const auto law = solid::inelastic_law<3>(bar);
+        const Matrix<3> axes = turned_by<3>(0.7), turn = turned_by<3>(-1.1);
+        std::vector<double> memory = law->initial_memory();
+        double plastic = 0.0, alpha = 0.0, largest = 0.0;
+        for (int i = 1; i <= 400; ++i) {
+            const double strain = 0.4 * std::sin(0.05 * i);
+            const double beyond = bar.young * (strain - plastic) - bar.kinematic_hardening * plastic;
+            const double over = std::abs(beyond) - bar.yield_stress - bar.hardening * alpha;
+            if (over > 0.0) {
+                const double flowed = over / (bar.young + bar.kinematic_hardening + bar.hardening);
+                plastic += std::copysign(flowed, beyond);
+                alpha += flowed;
+            }
+            const double across = -bar.poisson * (strain - plastic) - 0.5 * plastic;
+            const Matrix<3> stretch =
+                axes * Vector<3>(std::exp(strain), std::exp(across), std::exp(across)).asDiagonal() * axes.transpose();
+            const Matrix<3> f = turn * stretch;
+            const auto step = law->advance(f - Matrix<3>::Identity(), any_dt, memory);
+            const Matrix<3> expected =
+                bar.young * (strain - plastic) * (turn * axes.col(0)) * (turn * axes.col(0)).transpose();
+            raise(largest, (step.response.stress * f.transpose() - expected).norm());
+            raise(largest, std::abs(law->plastic_strain(memory) - alpha));
+        }
+        CHECK(alpha > 1.0);
+        CHECK(largest <= 1e-13);
+    }
+}
+
+TEST_CASE("hardly any kinematic hardening is none where axes do not turn, and in shears up to a half", "[solid][material]") {
+    // One rule adds logarithmic strains, the other multiplies stretches.
+    Material none{
+        .young = 1.0, .poisson = 0.3, .density = 1.0, .law = MaterialLaw::j2, .yield_stress = 2e-3, .hardening = 0.02};
+    Material hardly = none;
+    hardly.kinematic_hardening = 1e-14;
+    const auto sum = solid::inelastic_law<2>(hardly), product = solid::inelastic_law<2>(none);
+    const auto shear_off = [&](double most, bool turns) {
+        std::vector<double> of_sum = sum->initial_memory(), of_product = product->initial_memory();
+        double off = 0.0;
+        for (int i = 1; i <= 1000; ++i) {
+            const double shear = most * i / 1000.0;
+            Matrix<2> g = Matrix<2>::Zero();
+            if (turns)
+                g(0, 1) = shear;
+            else
+                g(0, 0) = std::expm1(shear), g(1, 1) = std::expm1(-0.7 * shear);
+            const int column = turns ? 1 : 0;
+            const double stress = sum->advance(g, any_dt, of_sum).response.stress(0, column);
+            off = stress / product->advance(g, any_dt, of_product).response.stress(0, column) - 1.0;
+        }
+        return off;
+    };
+    CHECK(std::abs(shear_off(1.0, false)) <= 1e-11);
+    CHECK(std::abs(shear_off(0.2, true)) <= 2e-4);
+    CHECK(std::abs(shear_off(0.5, true)) <= 4e-3);
+    CHECK(shear_off(1.0, true) == Approx(-0.03).epsilon(0.2));
+    CHECK(shear_off(2.0, true) == Approx(-0.20).epsilon(0.1));
+}
+
 TEST_CASE("a bar that hits a wall has the two fronts and the plateau of the exact bilinear bar", "[solid][material]") {
     // Two bricks across each way, each with two free sides: a bar of E and E_t = E H/(E + H). An elastic front at c, then a plastic one at
     // sqrt(E_t/rho), behind which the stress is sigma_y + rho sqrt(E_t/rho) (v_0 - sigma_y/(rho c)).
@@ -204,11 +310,13 @@ TEST_CASE("a bar that hits a wall has the two fronts and the plateau of the exac
 
 TEMPLATE_TEST_CASE_SIG("a metal block that spins and rings flows, keeps H~ + D and J~, and dissipates in each step",
                        "[solid][material]", ((int Dim), Dim), 2, 3) {
+    const Material& material = GENERATE(false, true) ? kinematic : metal;
     for (const auto& [name, mesh] : boxes<Dim>()) {
-        CAPTURE(name);
+        CAPTURE(name, material.kinematic_hardening);
         const Motion<Dim> spinning{Vector<Dim>::Zero(), some_spin<Dim>(0.02)};
-        TurningScene<Dim> scene(mesh, alone<Dim>(metal), {spinning}, 0.4, Kinematics::finite, 0.03);
-        const double fall = fall_of_dissipation<Dim>(scene, 400, &dynamics::Losses::in_cells);
+        TurningScene<Dim> scene(mesh, alone<Dim>(material), {spinning}, 0.4, Kinematics::finite, 0.03);
+        const double fall = fall_of_dissipation<Dim>(scene, Dim == 3 && material.kinematic_hardening > 0.0 ? 150 : 400,
+                                                     &dynamics::Losses::in_cells);
         const Drifts drifts = scene.drifts();
         CHECK(scene.solid.dissipated().in_cells > 0.1 * scene.ledger.largest_energy());
         CHECK(fall <= 0.0);
@@ -222,7 +330,7 @@ TEMPLATE_TEST_CASE_SIG("a metal block that spins and rings flows, keeps H~ + D a
 
 TEMPLATE_TEST_CASE_SIG("metal bodies that spin collide, flow where they touch, and keep H~ + D, momentum and J~",
                        "[solid][material]", ((int Dim), Dim), 2, 3) {
-    const auto scene = spinning_collision<Dim>(finite_of<Dim>(metal, 2));
+    const auto scene = spinning_collision<Dim>(finite_of<Dim>(GENERATE(false, true) ? kinematic : metal, 2));
     scene->run(steps_of_collision<Dim>);
     check_collision<Dim>(*scene);
     CHECK(scene->solid.dissipated().in_cells > 0.01 * scene->ledger.largest_energy());
@@ -266,13 +374,14 @@ TEMPLATE_TEST_CASE_SIG("only a step that has ended is remembered: looks, forces 
 
 TEMPLATE_TEST_CASE_SIG("a run of metal bodies that goes on from its state has the same bits", "[solid][material]",
                        ((int Dim), Dim), 2, 3) {
-    const auto whole = spinning_collision<Dim>(finite_of<Dim>(metal, 2)),
-               first = spinning_collision<Dim>(finite_of<Dim>(metal, 2));
+    const Material& material = GENERATE(false, true) ? kinematic : metal;
+    const auto whole = spinning_collision<Dim>(finite_of<Dim>(material, 2)),
+               first = spinning_collision<Dim>(finite_of<Dim>(material, 2));
     const int half = Dim == 2 ? 200 : 80;
     whole->run(2 * half);
     first->run(half);
     CHECK(first->solid.dissipated().in_cells > 0.0);
-    const auto second = spinning_collision<Dim>(finite_of<Dim>(metal, 2));
+    const auto second = spinning_collision<Dim>(finite_of<Dim>(material, 2));
     second->memm.restore(first->memm.state());
     second->solid.restore(first->solid.state(), second->memm.q());
     second->run(half);
