@@ -36,7 +36,7 @@ constexpr std::size_t n_plastic = Dim*(Dim + 1) / 2;  // and, in the plane, the 
 
 /// b_e - I where nothing has flowed: G + G^T + G G^T.
 template <int Dim>
-Matrix<Dim> stretched(const Matrix<Dim>& g) {
+Matrix<Dim> left_stretched(const Matrix<Dim>& g) {
     return g + g.transpose() + g * g.transpose();
 }
 
@@ -60,7 +60,7 @@ template <int Dim>
 auto J2Plasticity<Dim>::elastic_part(const Matrix<Dim>& g, std::span<const double> memory) const -> Elastic {
     const Matrix<Dim> f = Matrix<Dim>::Identity() + g;
     const Matrix<Dim> part = plastic_part<Dim>(memory);
-    const Matrix<Dim> left = stretched<Dim>(g) + f * part * f.transpose();
+    const Matrix<Dim> left = left_stretched<Dim>(g) + f * part * f.transpose();
     const SymmetricEigen<Dim> eigen = symmetric_eigen(Matrix<Dim>(0.5 * (left + left.transpose())));
     Elastic elastic{eigen.vectors, eigen.values, Eigen::Vector3d::Zero(), f.determinant() > 0.0};
     for (int k = 0; k < Dim; ++k) elastic.strain[k] = 0.5 * std::log1p(eigen.values[k]);
@@ -111,7 +111,7 @@ Advance<Dim> J2Plasticity<Dim>::advance(const Matrix<Dim>& g, double dt, std::sp
     for (int k = 0; k < Dim; ++k)
         left += std::expm1(2.0 * elastic.strain[k]) * elastic.directions.col(k) * elastic.directions.col(k).transpose();
     const Matrix<Dim> inverse = (Matrix<Dim>::Identity() + g).inverse();
-    set_plastic_part<Dim>(inverse * (left - stretched<Dim>(g)) * inverse.transpose(), memory);
+    set_plastic_part<Dim>(inverse * (left - left_stretched<Dim>(g)) * inverse.transpose(), memory);
     if constexpr (Dim == 2) memory[n_plastic<2>] = std::expm1(2.0 * elastic.strain[2]);
     memory.back() += alpha_per_flow * flowed;
     Advance<Dim> advance{response(g, elastic), true};

@@ -36,7 +36,7 @@ void set_plastic_strain(const Matrix<3>& plastic, std::span<double> memory) {
 
 /// F^T F - I.
 template <int Dim>
-Matrix<Dim> stretched(const Matrix<Dim>& g) {
+Matrix<Dim> right_stretched(const Matrix<Dim>& g) {
     return g + g.transpose() + g.transpose() * g;
 }
 
@@ -99,7 +99,7 @@ std::vector<double> LogarithmicPlasticity<Dim>::initial_memory() const {
 
 template <int Dim>
 auto LogarithmicPlasticity<Dim>::strain_of(const Matrix<Dim>& g) -> Strain {
-    const SymmetricEigen<Dim> eigen = symmetric_eigen(stretched<Dim>(g));
+    const SymmetricEigen<Dim> eigen = symmetric_eigen(right_stretched<Dim>(g));
     Strain strain{
         .axes = eigen.vectors, .stretch = eigen.values, .is_sound = (Matrix<Dim>::Identity() + g).determinant() > 0.0};
     Vector<Dim> logarithms;
