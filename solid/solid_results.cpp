@@ -126,8 +126,7 @@ OutsideWork Solid<Dim>::outside_work(std::span<const double> q) const {
 
 template <int Dim>
 dynamics::MomentArms Solid<Dim>::moment_arms() const {
-    return frames_->any_turns() || bodies_->any_rigid() || bodies_->any_finite() ? dynamics::MomentArms::mid_step
-                                                                                 : dynamics::MomentArms::rest;
+    return bodies_->any_turns() ? dynamics::MomentArms::mid_step : dynamics::MomentArms::rest;
 }
 
 template <int Dim>

@@ -50,7 +50,8 @@ public:
     [[nodiscard]] bool turns(std::int32_t body) const { return properties(body).turns; }  ///< whether it may
     [[nodiscard]] bool is_rigid(std::int32_t body) const { return !properties(body).deforms; }
     [[nodiscard]] bool is_finite(std::int32_t body) const { return properties(body).finite_strains; }
-    [[nodiscard]] bool any_finite() const { return any_body(options_.kinematics, &KinematicsProperties::finite_strains); }
+    [[nodiscard]] bool any_finite() const { return any_finite_; }
+    [[nodiscard]] bool any_turns() const { return any_turns_; }
     /// Of a traction of `options`.
     [[nodiscard]] TractionHold traction_hold(std::size_t condition) const { return traction_holds_[condition]; }
     /// Its points are [first, second).
@@ -141,6 +142,8 @@ private:
 
     const mesh::Mesh<Dim>& mesh_;
     SolidOptions<Dim> options_;
+    bool any_finite_ = any_body(options_.kinematics, &KinematicsProperties::finite_strains);
+    bool any_turns_ = any_body(options_.kinematics, &KinematicsProperties::turns);
     std::vector<TractionHold> traction_holds_;
     std::optional<mesh::Mesh<Dim>> part_;  // none: all bodies deform, and no cell has its point beside its centroid
     template <class PositionOf>

@@ -14,8 +14,7 @@ template <int Dim>
 ContactLaw acting_law(const Bodies<Dim>& bodies) {
     const SolidOptions<Dim>& options = bodies.options();
     const mesh::Mesh<Dim>& mesh = bodies.mesh();
-    bool any_turns = Obstacles<Dim>(std::span(options.obstacles)).turn();
-    for (std::int32_t body = 0; body < mesh.n_bodies(); ++body) any_turns = any_turns || bodies.turns(body);
+    const bool any_turns = bodies.any_turns() || Obstacles<Dim>(std::span(options.obstacles)).turn();
     if (any_turns && options.law == ContactLaw::reconstruction)
         throw BadInput(
             mesh.name +

@@ -320,7 +320,7 @@ void PairPotentialDriver<Dim>::keep_touching_faces() {
 /// Of a face of a body: at rest where none turns, else in the middle of the step (dynamics::MomentArms).
 template <int Dim>
 Vector<Dim> PairPotentialDriver<Dim>::middle_of(contact::Face face) const {
-    if (!frames_.any_turns() && !bodies_.any_rigid() && !bodies_.any_finite()) return corners_.rest_centroid(face);
+    if (!bodies_.any_turns()) return corners_.rest_centroid(face);
     return 0.5 * (corners_.middle(face, x_0_) + corners_.middle(face, x_1_));
 }
 
