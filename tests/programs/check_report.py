@@ -69,16 +69,18 @@ def look(browser, folder, width, report="report.html"):
     """What a page shows in a window of that width [pixels]."""
     page = pathlib.Path(folder, "measure.html")
     page.write_text(MEASURE.replace("WIDTH", str(width)).replace("report.html", report))
-    with tempfile.TemporaryDirectory() as profile:
-        shown = subprocess.run(
-            [browser, "--headless", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", "--user-data-dir=" + profile,
-             "--host-resolver-rules=MAP * ~NOTFOUND", "--allow-file-access-from-files", f"--window-size={width},900",
-             "--virtual-time-budget=10000", "--dump-dom", page.as_uri()],
-            check=True, capture_output=True, text=True, timeout=120).stdout
-    answer = Answer()
-    answer.feed(shown)
-    assert answer.text, shown[-2000:]
-    return json.loads(answer.text)
+    for _ in range(3):  # on a busy machine a browser may give its page away before the frame in it has loaded
+        with tempfile.TemporaryDirectory() as profile:
+            shown = subprocess.run(
+                [browser, "--headless", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage",
+                 "--user-data-dir=" + profile, "--host-resolver-rules=MAP * ~NOTFOUND", "--allow-file-access-from-files",
+                 f"--window-size={width},900", "--virtual-time-budget=10000", "--dump-dom", page.as_uri()],
+                check=True, capture_output=True, text=True, timeout=120).stdout
+        answer = Answer()
+        answer.feed(shown)
+        if answer.text:
+            return json.loads(answer.text)
+    raise AssertionError(shown[-2000:])
 
 
 def at(summary, place):
