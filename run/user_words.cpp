@@ -51,7 +51,6 @@ constexpr std::array names_of_cpp = std::to_array<Name>({
     {"Scene::spin", "spin"},
     {"SearchLimits::bytes", "the limit on memory (abut detect: --max-memory)"},
     {"SearchLimits::pairs", "contact.max_pairs (--max-pairs)"},
-    {"CellView::own", "own_cells"},
     {"SolidOptions::acceleration", "gravity"},
     {"SolidOptions::temperature_rise", "temperature_rise"},
     {"SolidOptions::body_load", "the load on its cells"},

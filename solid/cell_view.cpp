@@ -93,7 +93,7 @@ std::span<const Vector<Dim>> CellView<Dim>::own_points_of(std::size_t rigid, std
     if (found == own.end())
         throw Misuse("solid: the displacement gradient of rigid body " +
                      std::to_string(solid_.bodies_->rigid().mesh_body(rigid)) +
-                     " is asked for on a rank that does not own its points. Ask the one that does (CellView::own).");
+                     " is asked for on a rank that does not own its points. Ask the rank that owns the body.");
     return q.subspan(solid_.part_->own_cells().size() + n * static_cast<std::size_t>(found - own.begin()), n);
 }
 

@@ -17,9 +17,9 @@ struct OwnCells {
     std::vector<std::int32_t> position;  ///< of each in the part of the rank, increasing
 };
 
-/// The cells of the mesh of a solid (Solid::cells), and the path between them and its points. It is of use as long as the solid
-/// lives. Cells are numbered as in `Solid::mesh`; stresses and gradients are those of the state that was evaluated last, by a
-/// step or otherwise.
+/// The cells of the mesh of a solid (Solid::cells), and the path to its points, as long as the solid lives. Cells are numbered as
+/// in `Solid::mesh`; stresses and gradients are those of the state that was evaluated last, by a step or otherwise. On several
+/// ranks functions that take or return q or p are calls of all ranks, except `displacement_gradient`.
 template <int Dim>
 class CellView {
 public:

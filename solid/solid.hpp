@@ -183,7 +183,7 @@ public:
     // Parts, each in a value of its own
 
     [[nodiscard]] ContactView<Dim> contact() const;  ///< contact_view.hpp
-    /// Contact in state q. contact_view.hpp.
+    /// Contact in state q; a call of all ranks. contact_view.hpp.
     [[nodiscard]] ContactState<Dim> contact_at(std::span<const double> q);
     [[nodiscard]] dynamics::ContactCounts contact_counts() const;  ///< what of it the ledger records
     [[nodiscard]] BondView<Dim> bonds() const;                     ///< bond_view.hpp

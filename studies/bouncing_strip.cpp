@@ -7,11 +7,10 @@
 // H - H~ over a million steps (--steps 1000000) with and without the energy-neutral filter. docs/filter.md has the table.
 #include <vector>
 
+#include "abut/solid/contact_view.hpp"
 #include "apps/support/run_scene.hpp"
 #include "studies/program/entry.hpp"
 #include "studies/scenes/bars.hpp"
-
-#include "abut/solid/contact_view.hpp"
 
 namespace abut::studies::bouncing_strip_study {
 namespace {

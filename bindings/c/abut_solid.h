@@ -1,5 +1,5 @@
-/* Bodies in contact that another program drives, elastic, of rubber, wood or metal that yields, for C99: it sets tractions on boundary faces, dictates the step, and is
-   told where these faces go. docs/loads.md has the equations; the rules of abut.h hold here, too: statuses, errors, arrays of the
+/* Solids in contact that another program drives, for C99. Bodies may be elastic, rubber, wood or metal that yields. The program sets
+   tractions on boundary faces, dictates the step, and is told where these faces move. docs/loads.md has the equations; the rules of abut.h hold here, too: statuses, errors, arrays of the
    caller's own, one thread at a time.
 
    First bodies, supports and loads are added; `abut_solid_begin` makes the solid, and after it nothing can be added. Then each step:
@@ -55,7 +55,7 @@ ABUT_API int abut_solid_bond(abut_solid* solid, const char* side_1, const char* 
                              double fracture_energy, abut_error* error);
 
 /* What a body is made of and how it moves, by the names that scenes have (docs/scenes.md, [bodies.NAME]); of several calls the last counts.
-   A body that is not there is told by `abut_solid_begin`, a name or a value that cannot be at once.
+   A name or a value that cannot be is refused at once, a body that is not there by `abut_solid_begin`: destroy the solid then.
    - Numbers of a material, SI: "yield_stress", "hardening", "kinematic_hardening", "thermal_expansion", "mass_damping", ...
    - Texts: "law" is "st_venant_kirchhoff", "j2" (metal that yields), "orthotropic", of finite bodies "neo_hookean", "mooney_rivlin";
      "kinematics" is "small", which bodies are where nothing is said, "floating", "finite" (take restart 50) or "rigid"; "material" is one
@@ -66,9 +66,10 @@ ABUT_API int abut_solid_set_number(abut_solid* solid, const char* body, const ch
 ABUT_API int abut_solid_set_text(abut_solid* solid, const char* body, const char* key, const char* text, abut_error* error);
 ABUT_API int abut_solid_set_numbers(abut_solid* solid, const char* body, const char* key, const double* numbers, int64_t n,
                                     abut_error* error);
-/* How much warmer than where it has no thermal strain [K] a small or floating body with a "thermal_expansion" is at a place at rest; not
-   beside groups that are loaded from outside. `rise` is asked once, for time 0, or where it `varies` for each step, which has the
-   temperatures of its start. `user` is handed to it; both live as long as the solid. */
+/* Temperature of a body above its stress-free one [K], as a function of time and of the position at rest. The body is small or floating,
+   its material has a "thermal_expansion", and no group of the solid is loaded from outside. `rise` is called by the thread that calls
+   `abut_solid_begin` and `_step`: once, with time 0, or if `varies` is not 0 with the time at which each step starts. `rise` and `user`
+   must stay valid until `abut_solid_destroy`. */
 ABUT_API int abut_solid_set_temperature(abut_solid* solid, const char* body,
                                         double (*rise)(double time, const double* position, void* user), int32_t varies,
                                         void* user, abut_error* error);
@@ -78,8 +79,8 @@ typedef struct abut_solid_options {
     double dt;      /* 0: cfl times the stable step */
     double cfl;     /* of the stable step, at most 1; 0: 0.9 */
     int32_t contact; /* 0: bodies pass through each other */
-    int32_t restart; /* steps from one neutral restart to the next; 0: none, with friction 10. Where tractions answer to the motion
-                        of a step: 20 */
+    int32_t restart; /* steps from one neutral restart to the next; 0: none, with friction 10. Finite bodies need 50; where
+                        tractions answer to the motion of a step: 20 */
     double friction; /* coefficient between all bodies; the neutral filter acts with it. 0: none */
 } abut_solid_options;
 #define ABUT_SOLID_OPTIONS_INIT {sizeof(abut_solid_options), 0.0, 0.9, 1, 0, 0.0}

@@ -8,15 +8,11 @@
 
 #include "abut/base/error.hpp"
 #include "abut/base/unit.hpp"
+#include "abut/solid/kinematics/properties.hpp"
 #include "abut/solid/material/material_numbers.hpp"
 
 namespace abut::c_layer {
 namespace {
-
-constexpr std::array<Word<solid::Kinematics>, 4> kinematics_words{{{"small", solid::Kinematics::small},
-                                                                   {"floating", solid::Kinematics::floating},
-                                                                   {"finite", solid::Kinematics::finite},
-                                                                   {"rigid", solid::Kinematics::rigid}}};
 
 /// "'a', 'b'"
 template <class List, class NameOf>
@@ -39,6 +35,15 @@ Choice choice_of(const std::array<Word<Choice>, N>& words, const std::string& ke
     for (const auto& [word, choice] : words)
         if (text == word) return choice;
     throw BadInput(key + " is '" + text + "'. There are " + names_of(words, [](const auto& one) { return one.word; }) + ".");
+}
+
+solid::Kinematics kinematics_called(const std::string& text) {
+    const auto& all = solid::kinematics_properties;
+    const auto found = std::ranges::find(all, text, &solid::KinematicsProperties::name);
+    if (found == all.end())
+        throw BadInput("kinematics is '" + text + "'. There are " + names_of(all, [](const auto& one) { return one.name; }) +
+                       ".");
+    return static_cast<solid::Kinematics>(found - all.begin());
 }
 
 const solid::KnownMaterial& known_by(const std::string& name) {
@@ -73,7 +78,7 @@ void set_text(BodyValues& values, const std::string& key, const std::string& tex
     if (key == "law") {
         values.material.law = choice_of(solid::material_law_words, key, text);
     } else if (key == "kinematics") {
-        values.kinematics = choice_of(kinematics_words, key, text);
+        values.kinematics = kinematics_called(text);
     } else if (key == "material") {
         values.known = &known_by(text);
         for (const auto member : {&solid::Material::young, &solid::Material::poisson, &solid::Material::density})

@@ -93,7 +93,10 @@ void SolidRun<Dim>::take_values(solid::SolidOptions<Dim>& options) const {
         try {
             solid::check(options.materials[body], static_cast<int>(body));
         } catch (const BadInput& error) {
-            throw BadInput("body '" + mesh_.body_names[body] + "': " + error.what(), error.facts());
+            std::string what = error.what();
+            if (const std::string numbered = "material of body " + std::to_string(body) + ": "; what.starts_with(numbered))
+                what.erase(0, numbered.size());
+            throw BadInput("body '" + mesh_.body_names[body] + "': " + what, error.facts());
         }
     }
     if (!temperatures_.empty()) options.temperature_rise.resize(values.size());

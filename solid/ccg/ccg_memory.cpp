@@ -2,11 +2,23 @@
 #include <algorithm>
 #include <optional>
 #include <string>
+#include <typeinfo>
 
 #include "abut/base/error.hpp"
 #include "abut/solid/ccg/ccg_impl.hpp"
 
 namespace abut::solid {
+namespace {
+
+/// Whether cells by their index among those of finite bodies that remember, -1: neither does, remember the same things.
+template <int Dim>
+bool remember_alike(const FiniteCells<Dim>& cells, std::int32_t cell, const FiniteCells<Dim>& others, std::int32_t other) {
+    if (cell < 0 || other < 0) return cell < 0 && other < 0;
+    const InelasticLaw<Dim>&law = *cells.inelastic_cell(cell).law, &other_law = *others.inelastic_cell(other).law;
+    return typeid(law) == typeid(other_law);
+}
+
+}  // namespace
 
 template <int Dim>
 bool Ccg<Dim>::any_inelastic() const {
@@ -152,7 +164,8 @@ void Ccg<Dim>::take_memory(const Ccg& before, std::span<const std::int32_t> old_
         const std::int32_t inelastic = impl_->finite.inelastic(c), old_inelastic = from.finite.inelastic(old);
         if (impl_->viscous.contains(c) != from.viscous.contains(old) ||
             impl_->plastic.contains(c) != from.plastic.contains(old) ||
-            impl_->capped.contains(c) != from.capped.contains(old) || (inelastic < 0) != (old_inelastic < 0))
+            impl_->capped.contains(c) != from.capped.contains(old) ||
+            !remember_alike(impl_->finite, inelastic, from.finite, old_inelastic))
             throw BadInput("cell " + std::to_string(c) +
                                ", counted from 0 among those of bodies that deform, is of a "
                                "material that remembers other things than before. Keep the laws of materials.",

@@ -4,7 +4,8 @@
 
 namespace abut::solid {
 
-/// The law of contact of the options, `automatic` resolved. Throws BadInput for one that does not know bodies or obstacles that turn.
+/// The law of contact of the options, `automatic` resolved. Throws BadInput where the modified reconstruction is asked for and a body or
+/// an obstacle turns, a bond has a strength, or bodies interfere.
 template <int Dim>
 [[nodiscard]] ContactLaw acting_law(const Bodies<Dim>& bodies);
 

@@ -1,6 +1,10 @@
 // What both drivers of contact save, restore, and take over from those of another mesh.
 #include <algorithm>
+#include <cstdint>
+#include <string>
+#include <vector>
 
+#include "abut/base/error.hpp"
 #include "abut/solid/contact/pair_potential_driver.hpp"
 #include "abut/solid/contact/reconstruction_driver.hpp"
 

@@ -14,8 +14,8 @@ struct KinematicsProperties {
     std::string_view name;
     bool deforms;  ///< its cells are points of the solid; else a few points stand for all of it
     bool turns;    ///< it may turn by any angle: normals and directions at rest do not hold for long
-    bool
-        has_frame;  ///< strains are linear in a frame that turns with it, and masses are where they have the inertia of their cells
+    /// strains are linear in a frame that turns with it; masses have the inertia of their cells
+    bool has_frame;
     bool finite_strains;  ///< stress is a law of F: forces are not linear in displacements, and feed the alternating mode
     int more_layers;  ///< of neighbours that a part needs, beside those of all: free faces depend on the stress behind them
     double step_margin;  ///< part of 2/omega_max that is stable without contact [-]

@@ -16,14 +16,14 @@ constexpr double two_thirds = 2.0 / 3.0;
 const double alpha_of_flow = std::sqrt(two_thirds);
 constexpr double near_stretches = 1e-4;  // of three axes: their mean stands for all in what is of second order
 
-/// p from z: its lower triangle by columns.
+/// p from z: its lower triangle by columns, without the last one, since p has no trace.
 template <int Dim>
 Matrix<3> plastic_strain_of(std::span<const double> memory) {
     Matrix<3> plastic = Matrix<3>::Zero();
     std::size_t at = 0;
     for (int j = 0; j < Dim; ++j)
-        for (int i = j; i < Dim; ++i) plastic(i, j) = plastic(j, i) = memory[at++];
-    if constexpr (Dim == 2) plastic(2, 2) = -plastic(0, 0) - plastic(1, 1);
+        for (int i = j; i < Dim && j < 2; ++i) plastic(i, j) = plastic(j, i) = memory[at++];
+    plastic(2, 2) = -plastic(0, 0) - plastic(1, 1);
     return plastic;
 }
 
@@ -31,7 +31,7 @@ template <int Dim>
 void set_plastic_strain(const Matrix<3>& plastic, std::span<double> memory) {
     std::size_t at = 0;
     for (int j = 0; j < Dim; ++j)
-        for (int i = j; i < Dim; ++i) memory[at++] = plastic(i, j);
+        for (int i = j; i < Dim && j < 2; ++i) memory[at++] = plastic(i, j);
 }
 
 /// F^T F - I.
@@ -42,13 +42,13 @@ Matrix<Dim> right_stretched(const Matrix<Dim>& g) {
 
 Matrix<3> deviator(const Matrix<3>& tensor) { return tensor - tensor.trace() / 3.0 * Matrix<3>::Identity(); }
 
-/// Of (ln c)/2 between 1 + s_1 and 1 + s_2.
+/// First divided difference of (ln c)/2 at c = 1 + s_1 and 1 + s_2.
 double divided_difference(double s_1, double s_2) {
     const double apart = (s_1 - s_2) / (1.0 + s_2);
     return 0.5 * (apart == 0.0 ? 1.0 : std::log1p(apart) / apart) / (1.0 + s_2);
 }
 
-/// Of second order.
+/// Second divided difference of the same.
 double divided_difference(double s_1, double s_2, double s_3) {
     std::array<double, 3> s{s_1, s_2, s_3};
     std::ranges::sort(s);
@@ -66,7 +66,7 @@ struct LogarithmicPlasticity<Dim>::Strain {
     Matrix<3> of = Matrix<3>::Zero();  // E; in 2D 0 out of the plane
     bool is_sound;                     // det F > 0
 
-    /// A symmetric tensor with the divided differences in the axes: by these stress in E becomes that in F^T F, and changes of F^T F those of E.
+    /// dE/d(F^T F) applied to a symmetric tensor: it maps changes of F^T F to those of E, and stress in E to that in F^T F.
     [[nodiscard]] Matrix<Dim> mapped(const Matrix<Dim>& tensor) const {
         Matrix<Dim> in_axes = axes.transpose() * tensor * axes;
         for (int j = 0; j < Dim; ++j)
@@ -85,7 +85,7 @@ struct LogarithmicPlasticity<Dim>::Strain {
     }
 };
 
-/// What a step flows by (|change of p|), and along what; 0 where it does not.
+/// Size |change of p| and direction of the flow of a step; 0 without flow.
 template <int Dim>
 struct LogarithmicPlasticity<Dim>::Flow {
     double size = 0.0, trial = 0.0, slope = 0.0;  // and |xi| before, and the slope of the radius in it
@@ -94,7 +94,7 @@ struct LogarithmicPlasticity<Dim>::Flow {
 
 template <int Dim>
 std::vector<double> LogarithmicPlasticity<Dim>::initial_memory() const {
-    return std::vector<double>(Dim * (Dim + 1) / 2 + 1, 0.0);
+    return std::vector<double>(Dim == 2 ? 4 : 6, 0.0);
 }
 
 template <int Dim>
@@ -125,7 +125,7 @@ auto LogarithmicPlasticity<Dim>::flow(const Strain& strain, const Matrix<3>& pla
     return flow;
 }
 
-/// In E: what W is the potential of.
+/// dW/dE.
 template <int Dim>
 Matrix<3> LogarithmicPlasticity<Dim>::stress_of(const Strain& strain, const Matrix<3>& plastic) const {
     return material_.lambda() * strain.of.trace() * Matrix<3>::Identity() + 2.0 * material_.mu() * (strain.of - plastic);

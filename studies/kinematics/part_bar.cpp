@@ -1,10 +1,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "abut/solid/cell_view.hpp"
 #include "studies/kinematics/rows.hpp"
 #include "studies/kinematics/shapes.hpp"
-
-#include "abut/solid/cell_view.hpp"
 
 namespace abut::studies::kinematics {
 namespace bar_part {

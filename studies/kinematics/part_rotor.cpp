@@ -3,11 +3,10 @@
 #include <numbers>
 #include <optional>
 
+#include "abut/solid/contact_view.hpp"
 #include "studies/kinematics/axles.hpp"
 #include "studies/kinematics/rows.hpp"
 #include "studies/kinematics/shapes.hpp"
-
-#include "abut/solid/contact_view.hpp"
 
 namespace abut::studies::kinematics {
 namespace rotor_part {

@@ -1,10 +1,9 @@
 #include <cmath>
 
+#include "abut/solid/contact_view.hpp"
 #include "studies/kinematics/closed_forms.hpp"
 #include "studies/kinematics/rows.hpp"
 #include "studies/kinematics/shapes.hpp"
-
-#include "abut/solid/contact_view.hpp"
 
 namespace abut::studies::kinematics {
 namespace wall_part {

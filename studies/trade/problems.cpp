@@ -2,12 +2,11 @@
 
 #include <cmath>
 
+#include "abut/solid/contact_view.hpp"
 #include "studies/scenes/bars.hpp"
 #include "studies/scenes/hertz.hpp"
 #include "studies/trade/round_bodies.hpp"
 #include "studies/trade/runs.hpp"
-
-#include "abut/solid/contact_view.hpp"
 
 namespace abut::studies::trade {
 namespace {

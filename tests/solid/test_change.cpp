@@ -2,11 +2,10 @@
 #include <catch2/catch.hpp>
 #include <random>
 
-#include "solid/changing_run.hpp"
-
 #include "abut/solid/bond_view.hpp"
 #include "abut/solid/cell_view.hpp"
 #include "abut/solid/contact_view.hpp"
+#include "solid/changing_run.hpp"
 
 namespace abut::test {
 namespace {

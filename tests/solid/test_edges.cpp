@@ -1,8 +1,7 @@
 #include <catch2/catch.hpp>
 
-#include "solid/scenes.hpp"
-
 #include "abut/solid/contact_view.hpp"
+#include "solid/scenes.hpp"
 
 using namespace abut;
 using namespace abut::test;

@@ -2,10 +2,9 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "solid/turning_scenes.hpp"
-
 #include "abut/solid/cell_view.hpp"
 #include "abut/solid/contact_view.hpp"
+#include "solid/turning_scenes.hpp"
 
 using namespace abut;
 using namespace abut::test;

@@ -3,9 +3,8 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "solid/scenes.hpp"
-
 #include "abut/solid/cell_view.hpp"
+#include "solid/scenes.hpp"
 
 using namespace abut;
 using namespace abut::test;

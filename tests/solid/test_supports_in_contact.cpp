@@ -2,9 +2,8 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 
-#include "solid/scenes.hpp"
-
 #include "abut/solid/contact_view.hpp"
+#include "solid/scenes.hpp"
 
 using namespace abut;
 using namespace abut::test;
