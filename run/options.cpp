@@ -11,6 +11,7 @@
 #include "abut/base/error.hpp"
 #include "abut/run/option_table.hpp"
 #include "abut/run/user_words.hpp"
+#include "abut/solid/kinematics/properties.hpp"
 
 namespace abut::run {
 namespace {
@@ -25,11 +26,7 @@ void check_together(const RunOptions& options);
 
 }  // namespace
 
-std::string name_of(solid::Kinematics kinematics) {
-    for (const auto& [word, meant] : kinematics_words)
-        if (kinematics_of_all(meant) == kinematics) return word;
-    return "";
-}
+std::string name_of(solid::Kinematics kinematics) { return std::string(solid::properties_of(kinematics).name); }
 
 std::optional<solid::Kinematics> kinematics_of_all(BodyKinematics kinematics) {
     switch (kinematics) {

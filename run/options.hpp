@@ -18,7 +18,6 @@ namespace abut::run {
 
 inline constexpr double not_given = std::numeric_limits<double>::quiet_NaN();
 inline constexpr int restart_not_given = std::numeric_limits<int>::min();
-inline constexpr int restart_of_finite = 50;
 
 /// A solid with contact runs under those of integrator_words (run/option_table.hpp); `simulate` refuses others. docs/integrators.md says which to choose.
 using SolidIntegrator = dynamics::Scheme;

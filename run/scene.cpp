@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <span>
+#include <vector>
 
 #include "abut/base/error.hpp"
 #include "abut/dynamics/ranks.hpp"
 #include "abut/solid/cell_view.hpp"
 #include "abut/solid/kinematics/properties.hpp"
+#include "abut/solid/run_remedies.hpp"
 
 namespace abut::run {
 namespace {
@@ -116,16 +118,16 @@ void check_scheme(const Scene<Dim>& scene, const RunOptions& options) {
 template <int Dim>
 RunOptions with_restart(RunOptions options, const Scene<Dim>& scene) {
     if (options.restart != restart_not_given) return options;
-    const auto of_all = kinematics_of_all(options.kinematics);
-    const auto& kinematics = scene.solid.kinematics;
-    const bool any_finite = of_all ? solid::properties_of(*of_all).finite_strains
-                                   : options.kinematics == BodyKinematics::scene &&
-                                         solid::any_body(kinematics, &solid::KinematicsProperties::finite_strains);
-    options.restart = any_finite && options.integrator == SolidIntegrator::memm ? restart_of_finite : 0;
-    if (has_friction(scene, options) && options.integrator == SolidIntegrator::memm) {
-        options.filter = true;
-        options.restart = solid::restart_with_friction;
-    }
+    options.restart = 0;
+    if (options.integrator != SolidIntegrator::memm) return options;
+    std::vector<solid::Kinematics> kinematics;
+    if (const auto of_all = kinematics_of_all(options.kinematics))
+        kinematics = {*of_all};
+    else if (options.kinematics == BodyKinematics::scene)
+        kinematics = scene.solid.kinematics;
+    const auto [filter, restart] = solid::default_remedies(kinematics, has_friction(scene, options));
+    options.filter = options.filter || filter;
+    options.restart = restart;
     return options;
 }
 

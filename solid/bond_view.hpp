@@ -15,12 +15,12 @@ class BondView {
 public:
     explicit BondView(const Solid<Dim>& solid) : solid_(solid) {}
 
-    /// Where faces are bonded, whether they are still or not; empty without bonds.
+    /// Places where faces are bonded, whether they still are or not; empty without bonds.
     [[nodiscard]] std::span<const BondPlace<Dim>> places() const;
     [[nodiscard]] bool is_broken(std::size_t place) const;
-    /// What is left of the pull of a place at the same jump [-]: 1 whole, 0 broken.
+    /// Share of the pull of a place that is left at the same jump [-]: 1 whole, 0 broken.
     [[nodiscard]] double share(std::size_t place) const;
-    /// The part of the area of all bonds that is broken [-]; 0 without bonds.
+    /// Share of the area of all bonds that is broken [-]; 0 without bonds.
     [[nodiscard]] double broken_share() const;
 
 private:

@@ -38,7 +38,7 @@ public:
     /// F - I of a cell in space, in q: a point of the cell that is at X at rest is displaced by the displacement of the cell and
     /// this times X - x_c. On several ranks of an own cell, without the others.
     [[nodiscard]] Matrix<Dim> displacement_gradient(std::int32_t cell, std::span<const double> q) const;
-    /// Of all steps so far: how much cells of large strains were deformed at most. H~ does not show where they collapse: a step in
+    /// Largest deformation of cells of large strains in all steps so far. H~ does not show where they collapse: a step in
     /// which det F of one falls to 0.1 throws Diverged.
     [[nodiscard]] const FiniteExtremes& finite_extremes() const;
 

@@ -40,7 +40,7 @@ public:
     /// Mean force of the last step on an obstacle, with local steps of the common one; after `end_force` that at its end
     /// [N]. Throws Misuse where there is no such obstacle.
     [[nodiscard]] Vector<Dim> obstacle_force(std::size_t obstacle) const;
-    /// Of all pairs of bodies that have touched so far, by (body_1, body_2): the force between them, integrated in time as the
+    /// Impulses of all pairs of bodies that have touched so far, by (body_1, body_2): the force, integrated in time as the
     /// scheme does. The difference of two times over the time between is the mean force.
     [[nodiscard]] std::span<const BodyImpulse<Dim>> impulses() const;
 

@@ -19,15 +19,15 @@ public:
     OutsideView(const Solid<Dim>& solid, std::string group) : solid_(solid), group_(std::move(group)) {}
 
     [[nodiscard]] std::span<const Vector<Dim>> traction() const;  ///< as set last (n_faces) [Pa]
-    /// Of the centroids in q, under the tractions of the last step (n_faces) [m].
+    /// Positions of the centroids in q, under the tractions of the last step (n_faces) [m].
     [[nodiscard]] std::vector<Vector<Dim>> position(std::span<const double> q) const;
-    /// Of the centroids at momenta p, while tractions and supports stay (n_faces) [m/s].
+    /// Velocities of the centroids at momenta p, while tractions and supports stay (n_faces) [m/s].
     [[nodiscard]] std::vector<Vector<Dim>> velocity(std::span<const double> p) const;
-    /// By how far the centroids move in a step from q_0 at `time` to q_1 at time + dt (n_faces) [m]: sum of |f| t . this is the
+    /// Motion of the centroids in a step from q_0 at `time` to q_1 at time + dt (n_faces) [m]: sum of |f| t . this is the
     /// work of the tractions. It does not depend on them, and with Memm::next_q it is known before the step.
     [[nodiscard]] std::vector<Vector<Dim>> motion(std::span<const double> q_0, std::span<const double> q_1, double time,
                                                   double dt) const;
-    /// Out of the body in q, which was stepped to or evaluated last; at rest where it has no frame (n_faces).
+    /// Unit normals out of the body in q, which was stepped to or evaluated last; at rest where it has no frame (n_faces).
     [[nodiscard]] std::vector<Vector<Dim>> normal(std::span<const double> q) const;
 
 private:

@@ -174,7 +174,7 @@ std::span<const Vector<Dim>> Solid<Dim>::of_cells(std::span<const Vector<Dim>> q
 /// Displacements in the frames as they are, of some cells at least.
 template <int Dim>
 std::span<const Vector<Dim>> Solid<Dim>::in_frames(std::span<const Vector<Dim>> q, std::span<const std::int32_t> cells) {
-    if (!frames_->any_turns()) return of_cells(q);
+    if (!frames_->any()) return of_cells(q);
     in_frames_.resize(q.size());
     frames_->displacement(cells, q, frames_->end(), in_frames_);
     return in_frames_;
@@ -186,7 +186,7 @@ void Solid<Dim>::to_force(std::span<const Vector<Dim>> q_0, std::span<const Vect
                           std::span<Vector<Dim>> gradient) {
     if (bodies_->any_rigid()) rigid_to_force(gradient);
     const auto cells = gradient.first(static_cast<std::size_t>(bodies_->n_cells()));
-    if (!frames_->any_turns()) return loads_->to_force(cells);
+    if (!frames_->any()) return loads_->to_force(cells);
     const auto pushes =
         frame_loads_->pushes(bonds_->pushes(contact_ ? contact_->pushes() : std::span<const BodyPush<Dim>>{}));
     frames_->to_force(of_cells(q_0), of_cells(q_1), pushes, loads_->body_force(), cells);

@@ -73,7 +73,7 @@ void Solid<Dim>::mean_force(std::span<const double> q_0, std::span<const double>
     const StepEnds<Dim> ends = step_ends({u_0, u_1}, start_load, dt);
     const auto take_gradient = [&](const BoundaryLoad<Dim>& load) {
         const ProcessorStopwatch of_cells(times_.own_cells);
-        if (frames_->any_turns())
+        if (frames_->any())
             ccg_.gradient_of_packed(midpoint_, load, corrections(), gradient, ends);
         else
             ccg_.mean_gradient(ends, load, corrections(), gradient);
@@ -226,7 +226,7 @@ void Solid<Dim>::follow_loads(std::span<const Vector<Dim>> q_0, double time, dou
 template <int Dim>
 double Solid<Dim>::follow_frames(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1) {
     const Stopwatch watch(times_.bulk);
-    if (!frames_->any_turns()) {
+    if (!frames_->any()) {
         if (!contact_) return 0.0;
         return ranks().largest(largest_motion<Dim>(q_0, q_1));
     }
@@ -272,8 +272,7 @@ void Solid<Dim>::refuse_memory(const char* why) const {
 /// Bodies of Kinematics::finite are where they are, and what is linear is asked for in its frame.
 template <int Dim>
 StepEnds<Dim> Solid<Dim>::step_ends(const Ends& ends, const BoundaryLoad<Dim>& start_load, double dt) {
-    if (!any_memory() || !frames_->any_turns())
-        return {of_cells(ends.start), of_cells(ends.end), &start_load, &loads_->end(), dt};
+    if (!any_memory() || !frames_->any()) return {of_cells(ends.start), of_cells(ends.end), &start_load, &loads_->end(), dt};
     for (std::vector<Vector<Dim>>& in_frame : ends_in_frames_) in_frame.resize(of_cells(ends.start).size());
     frames_->displacement(all_cells_, of_cells(ends.start), frames_->start(), ends_in_frames_[0]);
     frames_->displacement(all_cells_, of_cells(ends.end), frames_->end(), ends_in_frames_[1]);

@@ -10,15 +10,10 @@
 #include "abut/dynamics/memm.hpp"
 #include "abut/dynamics/remedies.hpp"
 #include "abut/solid/change.hpp"
+#include "abut/solid/run_remedies.hpp"
 #include "abut/solid/solid.hpp"
 
 namespace abut::solid {
-
-/// Remedies of a run against the alternating mode (dynamics::Remedies).
-struct RunRemedies {
-    bool filter = false;
-    int restart = 0;  ///< steps between neutral restarts; 0: none
-};
 
 /// A solid under MEMM whose steps a program asks for one by one, as Python and C do. On one rank. run::simulate makes runs
 /// from their first step to the last.

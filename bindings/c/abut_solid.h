@@ -58,7 +58,7 @@ ABUT_API int abut_solid_bond(abut_solid* solid, const char* side_1, const char* 
    A name or a value that cannot be is refused at once, a body that is not there by `abut_solid_begin`: destroy the solid then.
    - Numbers of a material, SI: "yield_stress", "hardening", "kinematic_hardening", "thermal_expansion", "mass_damping", ...
    - Texts: "law" is "st_venant_kirchhoff", "j2" (metal that yields), "orthotropic", of finite bodies "neo_hookean", "mooney_rivlin";
-     "kinematics" is "small", which bodies are where nothing is said, "floating", "finite" (take restart 50) or "rigid"; "material" is one
+     "kinematics" is "small", which bodies are where nothing is said, "floating", "finite" or "rigid"; "material" is one
      that is known by its name, "steel S235" (docs/scenes.md, Materials by name), in the place of the values that the body was added
      with, and with "law" "j2" of its flow as well; and all numbers with units, "young" "210 GPa".
    - Lists: "axis_1" and "axis_2" (3) of orthotropic in 3D; "hardening_table", rows of plastic strain and stress. */
@@ -79,8 +79,8 @@ typedef struct abut_solid_options {
     double dt;      /* 0: cfl times the stable step */
     double cfl;     /* of the stable step, at most 1; 0: 0.9 */
     int32_t contact; /* 0: bodies pass through each other */
-    int32_t restart; /* steps from one neutral restart to the next; 0: none, with friction 10. Finite bodies need 50; where
-                        tractions answer to the motion of a step: 20 */
+    int32_t restart; /* steps from one neutral restart to the next; 0: with friction 10, else with finite bodies 50,
+                        else none. Where tractions answer to the motion of a step: 20 */
     double friction; /* coefficient between all bodies; the neutral filter acts with it. 0: none */
 } abut_solid_options;
 #define ABUT_SOLID_OPTIONS_INIT {sizeof(abut_solid_options), 0.0, 0.9, 1, 0, 0.0}

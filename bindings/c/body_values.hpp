@@ -8,7 +8,7 @@
 
 namespace abut::c_layer {
 
-/// What a body is made of and how it moves, as a host says it by names.
+/// Material and kinematics of a body, as a host names them.
 struct BodyValues {
     solid::Material material;
     solid::Kinematics kinematics = solid::Kinematics::small;

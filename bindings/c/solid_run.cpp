@@ -1,4 +1,5 @@
 #include "solid_run.hpp"
+#include "abut/solid/run_remedies.hpp"
 
 #include <algorithm>
 #include <memory>
@@ -132,7 +133,8 @@ void SolidRun<Dim>::begin(const abut_solid_options& given) {
     stable_dt_ = dynamics::stable_step(*solid).dt;
     const double dt = given.dt > 0.0 ? given.dt : (given.cfl > 0.0 ? given.cfl : dynamics::StepOptions{}.cfl) * stable_dt_;
     const bool rubs = given.contact != 0 && given.friction > 0.0;
-    const int restart = given.restart == 0 && rubs ? solid::restart_with_friction : given.restart;
+    const int restart =
+        given.restart == 0 ? solid::default_remedies(solid->options().kinematics, rubs).restart : given.restart;
     const std::vector<double> at_rest(solid->size(), 0.0), p = solid::uniform_momentum<Dim>(*solid, velocity_);
     run_.emplace(std::move(solid), at_rest, p, dt, solid::RunRemedies{.filter = rubs, .restart = restart});
 }

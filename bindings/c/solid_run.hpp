@@ -17,7 +17,7 @@
 
 namespace abut::c_layer {
 
-/// What has been added to an abut_solid so far, and then its run.
+/// The parts that were added to an abut_solid so far, and then its run.
 template <int Dim>
 class SolidRun {
 public:

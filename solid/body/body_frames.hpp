@@ -41,7 +41,7 @@ public:
                std::vector<bool> turns, std::span<const std::string> names, const RankPart<Dim>& part);
 
     [[nodiscard]] std::size_t n_bodies() const { return turns_.size(); }
-    [[nodiscard]] bool any_turns() const { return any_turns_; }
+    [[nodiscard]] bool any() const { return any_turns_; }  ///< whether a body has a frame that turns
     /// Mass mean of X [m].
     [[nodiscard]] const Vector<Dim>& rest_centre(std::size_t body) const { return rest_[body].centre; }
 

@@ -9,7 +9,7 @@
 
 namespace abut::solid {
 
-/// What a kinematics is. Code asks for one of these, not for a name: docs/kinematics.md shows the table.
+/// Properties of a kinematics. Code asks for one of these, not for a name: docs/kinematics.md shows the table.
 struct KinematicsProperties {
     std::string_view name;
     bool deforms;  ///< its cells are points of the solid; else a few points stand for all of it
