@@ -109,6 +109,7 @@ struct RunResult {
     std::optional<PilotReport> pilot;              ///< under BodyKinematics::automatic
     std::optional<SettlingReport> settling;        ///< under RunOptions::settle
     bool all_may_turn = false;                     ///< no body is of Kinematics::small
+    bool finite_kinematic_hardening = false;       ///< a body of finite strains hardens kinematically
     std::vector<solid::BodyInertia<Dim>> inertia;  ///< of the bodies; empty except on the first rank
     solid::StencilReport stencils;                 ///< of the faces between cells
     solid::StencilReport boundary_stencils;        ///< of the boundary faces that local equilibrium leaves undetermined

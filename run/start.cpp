@@ -100,6 +100,10 @@ Start<Dim>::Start(const Scene<Dim>& of, const RunOptions& given, std::optional<P
     const solid::Solid<Dim>& seen = whole ? *whole : *solid;
     result.stencils = seen.ccg().stencil_report();
     result.boundary_stencils = seen.ccg().boundary().report;
+    for (std::size_t body = 0; body < solid->options().materials.size(); ++body)
+        if (solid::properties_of(solid->options().kinematics, body).finite_strains &&
+            solid->options().materials[body].kinematic_hardening > 0.0)
+            result.finite_kinematic_hardening = true;
     result.all_may_turn = solid::all_bodies(solid->options().kinematics, &solid::KinematicsProperties::turns);
     if (share.ranks.rank() == 0) result.inertia = solid::inertia_of_bodies(seen);
     result.blind_corners = solid->contact().blind_corners();

@@ -22,6 +22,10 @@ inline constexpr double enough_inertia = 0.98;
 /// |E| above which the strain of a finite body is worth a word [-]: its material is one of small strains. docs/limits.md.
 inline constexpr double large_strain = 0.2;
 
+/// Plastic strain above which kinematic hardening of finite bodies may be another rule than of metal without it [-]: in simple shear of 1,
+/// which is 0.58 of it, its stress is 3 % lower. docs/limits.md.
+inline constexpr double large_kinematic_flow = 0.6;
+
 /// The size of Losses::on_faces over `in_cells` above which free faces that flow along take more than they should [-]: a bar eight cells
 /// across has 0.02, boxes three cells across that collide 0.16. docs/limits.md.
 inline constexpr double large_face_loss = 0.1;
@@ -79,6 +83,7 @@ enum class WarningKind {
     rotation,        ///< Ledger::rotation [rad] where a body is small; threshold: far_rotation
     local_rotation,  ///< the largest of RunResult::local_rotations [rad] where none is; threshold: far_rotation
     finite_strain,   ///< FiniteExtremes::strain [-] of bodies of Kinematics::finite; threshold: large_strain
+    kinematic_flow,  ///< FiniteExtremes::plastic_strain [-] where a finite body hardens kinematically; threshold: large_kinematic_flow
     alternating_slip,  ///< force of sliding faces over its limit [-]; threshold: least_sliding_share
     face_loss,      ///< size of what RunResult::dissipated has `on_faces` over that in cells [-]; threshold: large_face_loss
     jump_loss,      ///< part of the plastic dissipation that jumps between cells have [-]; threshold: large_jump_loss

@@ -1,3 +1,4 @@
+#include "abut/mesh/shapes/shapes.hpp"
 #include "abut/run/summary.hpp"
 #include "abut/run/warnings.hpp"
 
@@ -72,6 +73,32 @@ TEST_CASE("a finite body that is strained too far is told of, with how near a ce
     CHECK(warnings.front().threshold == run::large_strain);
     CHECK(warnings.front().text.find("0.43") != std::string::npos);
     CHECK(warnings.front().text.find("quadratic_viscosity") != std::string::npos);  // what a shock needs
+}
+
+TEST_CASE("finite metal with kinematic hardening that flows far is told of, and no other", "[run][warnings]") {
+    run::RunResult<2> result;
+    result.dt = result.finest_dt = 1.0;
+    result.finite.plastic_strain = 0.7;
+    CHECK(run::warnings_after(result).empty());
+    result.finite_kinematic_hardening = true;
+    const auto warnings = run::warnings_after(result);
+    REQUIRE(kinds(warnings) == std::vector{WarningKind::kinematic_flow});
+    CHECK(warnings.front().value == 0.7);
+    CHECK(warnings.front().threshold == run::large_kinematic_flow);
+    result.finite.plastic_strain = run::large_kinematic_flow;
+    CHECK(run::warnings_after(result).empty());
+
+    for (const auto kinematics : {abut::solid::Kinematics::small, abut::solid::Kinematics::finite}) {
+        run::Scene<2> scene = test::block_on_plane(1e-3);
+        scene.mesh =
+            abut::mesh::structured_box<2>({0.0, 1e-3}, {1.0, 1.0}, {3, 3}, abut::mesh::CellShape::quadrangle, "block");
+        scene.solid.materials[0].law = abut::solid::MaterialLaw::j2;
+        scene.solid.materials[0].yield_stress = 1.0;
+        scene.solid.materials[0].kinematic_hardening = 0.1;
+        scene.solid.kinematics = {kinematics};
+        CHECK(run::simulate<2>(scene, {.steps = 1}).finite_kinematic_hardening ==
+              (kinematics == abut::solid::Kinematics::finite));
+    }
 }
 
 TEST_CASE("free faces that take much of what plastic flow dissipates are told of, whatever the sign", "[run][warnings]") {
