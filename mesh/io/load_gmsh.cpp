@@ -5,7 +5,7 @@
 
 #include <filesystem>
 
-#include "abut/mesh/mesh.hpp"
+#include "abut/mesh/quality.hpp"
 
 namespace abut::mesh {
 namespace {

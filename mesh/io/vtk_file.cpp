@@ -10,6 +10,7 @@
 #include "abut/mesh/io/binary_values.hpp"
 #include "abut/mesh/io/text_words.hpp"
 #include "abut/mesh/io/vtk_data.hpp"
+#include "abut/mesh/quality.hpp"
 
 namespace abut::mesh {
 namespace {

@@ -1,0 +1,80 @@
+"""check_includes.py SOURCE: every source includes, by itself or through what it includes, the header of each type of ours that it names.
+Sources that are compiled together (ABUT_JOIN_SOURCES) see the includes of each other, so that one which lacks its own fails
+only where it is compiled alone. A name that two headers give to something, in a class or outside, is not looked at."""
+import functools
+import pathlib
+import re
+import sys
+from collections import defaultdict
+
+LAYERS = ("base", "geometry", "mesh", "contact", "dynamics", "solid", "ranks", "run", "input")
+INCLUDE = re.compile(r'^\s*#\s*include\s*"abut/([\w/]+\.\w+)"', re.MULTILINE)
+KIND = r"(?:struct|class|enum class)\s+(?:\[\[[^\]]*\]\]\s*)?"
+DEFINED = re.compile(rf"^{KIND}(\w+)(?:\s+final)?\s*(?::[^;{{]*)?\{{", re.MULTILINE)
+DECLARED = re.compile(rf"^{KIND}(\w+);", re.MULTILINE)
+NAMED = re.compile(rf"\b(?:typename|{KIND}|using)\s*(\w+)\b(?!;)")
+NOT_CODE = re.compile(r'R"(\w*)\(.*?\)\1"|"(?:[^"\\\n]|\\.)*"|//[^\n]*', re.DOTALL)
+TYPE = re.compile(rf"(?:(\w+)(?:<[^<>]*>)?::)?(?<![\w.>:])([A-Z]\w*)\b|\b(\w+)::([A-Z]\w*)\b")
+
+
+class Sources:
+    def __init__(self, root):
+        self.paths = {path.relative_to(root).as_posix(): path
+                      for layer in LAYERS for path in sorted((root / layer).rglob("*.[ch]pp"))}
+
+    @functools.cache
+    def code(self, name):
+        return NOT_CODE.sub("", self.paths[name].read_text())
+
+    @functools.cache
+    def included(self, name):
+        return [other for other in INCLUDE.findall(self.paths[name].read_text()) if other in self.paths]
+
+    def reached(self, name):
+        seen, left = {name}, [name]
+        while left:
+            for other in set(self.included(left.pop())) - seen:
+                seen.add(other)
+                left.append(other)
+        return seen
+
+    def defining_headers(self):
+        """{type: header} of what one header defines in a namespace, and no other header gives its name to anything."""
+        headers = [name for name in self.paths if name.endswith(".hpp")]
+        named = defaultdict(set)
+        for name in headers:
+            for found in NAMED.findall(self.code(name)):
+                named[found].add(name)
+        return {found: name for name in headers for found in DEFINED.findall(self.code(name)) if named[found] == {name}}
+
+
+def types_named(code):
+    """Types that stand alone or behind a namespace: what belongs to another type comes with that."""
+    for found in TYPE.finditer(code):
+        scope, name = (found[1], found[2]) if found[2] else (found[3], found[4])
+        if scope is None or scope in LAYERS + ("abut",):
+            yield name
+
+
+def missing_in(sources, headers):
+    for name in sources.paths:
+        if not name.endswith(".cpp"):
+            continue
+        reached = sources.reached(name)
+        known = set(NAMED.findall(sources.code(name)))
+        known.update(found for other in reached for found in DECLARED.findall(sources.code(other)))
+        for found in sorted(set(types_named(sources.code(name))) - known):
+            if found in headers and headers[found] not in reached:
+                yield f"{name} names {found} and does not include abut/{headers[found]}"
+
+
+def main():
+    sources = Sources(pathlib.Path(sys.argv[1]))
+    headers = sources.defining_headers()
+    assert headers, f"no header below {sys.argv[1]} defines a type: nothing was looked at"
+    if wrong := list(missing_in(sources, headers)):
+        sys.exit("\n".join(wrong))
+    print(f"{len(sources.paths)} sources include the headers of the {len(headers)} types that they name")
+
+
+main()
