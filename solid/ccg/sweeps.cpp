@@ -108,7 +108,6 @@ void CcgSweeps<Dim, Real>::gradient_of_packed(LargeArray<double>& u, const Bound
     std::swap(u_, u);
     element_.tables.u = Table<double>(u_);
     if constexpr (takes_finite) take_ends(ends);
-    follows_ = false;  // frames of bodies that turn lie between
     run_sweeps([](std::ptrdiff_t) {}, load, corrections, result);
 }
 

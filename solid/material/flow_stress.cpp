@@ -3,17 +3,19 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <tuple>
 
 namespace abut::solid {
-namespace {
 
-/// One way to harden: what it adds to the yield stress, as a function of the equivalent plastic strain alpha.
-struct HardeningLaw {
+/// By how much a rate of plastic strain r [1/s] raises the stress of a material, over that stress.
+struct RateLaw {
     bool (*is_given)(const Material&);
-    double (*rise)(const Material&, double alpha);   ///< [Pa], 0 at alpha = 0
-    double (*slope)(const Material&, double alpha);  ///< [Pa]
-    double (*work)(const Material&, double alpha);   ///< integral of `rise` from 0 [J/m^3]
+    double (*rise)(const Material&, double rate);      ///< factor - 1 [-], 0 at rate 0
+    double (*slope)(const Material&, double rate);     ///< [s]
+    double (*integral)(const Material&, double rate);  ///< of `rise` from 0 [1/s]
 };
+
+namespace {
 
 /// The part of a table that begins at or before alpha, and the integral of the rise up to it.
 struct Segment {
@@ -40,61 +42,65 @@ Segment segment_at(const std::vector<HardeningPoint>& table, double alpha) {
     return segment;
 }
 
-/// All of them; they add up. docs/method.md, Metal that yields.
-constexpr std::array hardening_laws{
-    // Linear
-    HardeningLaw{[](const Material& of) { return of.hardening > 0.0; },
-                 [](const Material& of, double alpha) { return of.hardening * alpha; },
-                 [](const Material& of, double) { return of.hardening; },
-                 [](const Material& of, double alpha) { return 0.5 * of.hardening * alpha * alpha; }},
-    // Voce
-    HardeningLaw{[](const Material& of) { return of.saturation > 0.0; },
-                 [](const Material& of, double alpha) { return -of.saturation * std::expm1(-of.saturation_rate * alpha); },
-                 [](const Material& of, double alpha) {
-                     return of.saturation * of.saturation_rate * std::exp(-of.saturation_rate * alpha);
-                 },
-                 [](const Material& of, double alpha) {
-                     return of.saturation * (alpha + std::expm1(-of.saturation_rate * alpha) / of.saturation_rate);
-                 }},
-    // Ludwik, and Johnson and Cook
-    HardeningLaw{[](const Material& of) { return of.power_hardening > 0.0; },
-                 [](const Material& of, double alpha) { return of.power_hardening * std::pow(alpha, of.power_exponent); },
-                 [](const Material& of, double alpha) {
-                     return of.power_hardening * of.power_exponent * std::pow(alpha, of.power_exponent - 1.0);
-                 },
-                 [](const Material& of, double alpha) {
-                     return of.power_hardening * std::pow(alpha, of.power_exponent + 1.0) / (of.power_exponent + 1.0);
-                 }},
-    // A table
-    HardeningLaw{[](const Material& of) { return !of.hardening_table.empty(); },
-                 [](const Material& of, double alpha) {
-                     const Segment segment = segment_at(of.hardening_table, alpha);
-                     return segment.point->stress - of.hardening_table.front().stress +
-                            segment.slope() * (alpha - segment.point->plastic_strain);
-                 },
-                 [](const Material& of, double alpha) { return segment_at(of.hardening_table, alpha).slope(); },
-                 [](const Material& of, double alpha) {
-                     const Segment segment = segment_at(of.hardening_table, alpha);
-                     const double beyond = alpha - segment.point->plastic_strain;
-                     return segment.work +
-                            (segment.point->stress - of.hardening_table.front().stress + 0.5 * segment.slope() * beyond) *
-                                beyond;
-                 }}};
+// Ways to harden: what they add to the yield stress as a function of the equivalent plastic strain alpha. `rise` [Pa] is 0 at alpha = 0,
+// `slope` [Pa] its derivative, `work` [J/m^3] its integral from 0.
 
-double sum(const Material& material, double alpha, double (*HardeningLaw::*part)(const Material&, double)) {
-    double sum = 0.0;
-    for (const HardeningLaw& law : hardening_laws)
-        if (law.is_given(material)) sum += (law.*part)(material, alpha);
-    return sum;
-}
-
-/// By how much a rate of plastic strain r [1/s] raises the stress of a material, over that stress.
-struct RateLaw {
-    bool (*is_given)(const Material&);
-    double (*rise)(const Material&, double rate);      ///< factor - 1 [-], 0 at rate 0
-    double (*slope)(const Material&, double rate);     ///< [s]
-    double (*integral)(const Material&, double rate);  ///< of `rise` from 0 [1/s]
+struct LinearHardening {
+    static bool is_given(const Material& of) { return of.hardening > 0.0; }
+    static double rise(const Material& of, double alpha) { return of.hardening * alpha; }
+    static double slope(const Material& of, double) { return of.hardening; }
+    static double work(const Material& of, double alpha) { return 0.5 * of.hardening * alpha * alpha; }
 };
+
+struct VoceHardening {
+    static bool is_given(const Material& of) { return of.saturation > 0.0; }
+    static double rise(const Material& of, double alpha) { return -of.saturation * std::expm1(-of.saturation_rate * alpha); }
+    static double slope(const Material& of, double alpha) {
+        return of.saturation * of.saturation_rate * std::exp(-of.saturation_rate * alpha);
+    }
+    static double work(const Material& of, double alpha) {
+        return of.saturation * (alpha + std::expm1(-of.saturation_rate * alpha) / of.saturation_rate);
+    }
+};
+
+/// Of Ludwik, and of Johnson and Cook.
+struct PowerHardening {
+    static bool is_given(const Material& of) { return of.power_hardening > 0.0; }
+    static double rise(const Material& of, double alpha) { return of.power_hardening * std::pow(alpha, of.power_exponent); }
+    static double slope(const Material& of, double alpha) {
+        return of.power_hardening * of.power_exponent * std::pow(alpha, of.power_exponent - 1.0);
+    }
+    static double work(const Material& of, double alpha) {
+        return of.power_hardening * std::pow(alpha, of.power_exponent + 1.0) / (of.power_exponent + 1.0);
+    }
+};
+
+struct TableHardening {
+    static bool is_given(const Material& of) { return !of.hardening_table.empty(); }
+    static double rise(const Material& of, double alpha) {
+        const Segment segment = segment_at(of.hardening_table, alpha);
+        return segment.point->stress - of.hardening_table.front().stress +
+               segment.slope() * (alpha - segment.point->plastic_strain);
+    }
+    static double slope(const Material& of, double alpha) { return segment_at(of.hardening_table, alpha).slope(); }
+    static double work(const Material& of, double alpha) {
+        const Segment segment = segment_at(of.hardening_table, alpha);
+        const double beyond = alpha - segment.point->plastic_strain;
+        return segment.work +
+               (segment.point->stress - of.hardening_table.front().stress + 0.5 * segment.slope() * beyond) * beyond;
+    }
+};
+
+/// All of them; they add up. A list of types, which the compiler sees through: each cell that flows asks several times in a step.
+/// docs/method.md, Metal that yields.
+using HardeningLaws = std::tuple<LinearHardening, VoceHardening, PowerHardening, TableHardening>;
+
+/// part(law) of each that is given.
+template <class Part>
+double sum(const Material& material, const Part& part) {
+    return std::apply([&](auto... law) { return (0.0 + ... + (law.is_given(material) ? part(law) : 0.0)); },
+                      HardeningLaws{});
+}
 
 double over_reference(const Material& of, double rate) { return rate / of.johnson_cook_rate; }
 
@@ -134,13 +140,15 @@ const RateLaw* rate_law(const Material& material) {
 }  // namespace
 
 double Material::flow_stress(double plastic_strain) const {
-    return yield_stress + sum(*this, plastic_strain, &HardeningLaw::rise);
+    return yield_stress + sum(*this, [&](auto law) { return law.rise(*this, plastic_strain); });
 }
 
-double Material::hardening_modulus(double plastic_strain) const { return sum(*this, plastic_strain, &HardeningLaw::slope); }
+double Material::hardening_modulus(double plastic_strain) const {
+    return sum(*this, [&](auto law) { return law.slope(*this, plastic_strain); });
+}
 
 double Material::flow_work(double plastic_strain) const {
-    return yield_stress * plastic_strain + sum(*this, plastic_strain, &HardeningLaw::work);
+    return yield_stress * plastic_strain + sum(*this, [&](auto law) { return law.work(*this, plastic_strain); });
 }
 
 double Material::rate_factor(double rate) const {
@@ -148,19 +156,26 @@ double Material::rate_factor(double rate) const {
     return law ? 1.0 + law->rise(*this, rate) : 1.0;
 }
 
+FlowStress::FlowStress(const Material& material, double plastic_strain, double dt)
+    : material_(material),
+      rate_law_(rate_law(material)),
+      plastic_strain_(plastic_strain),
+      dt_(dt),
+      at_start_(material.flow_stress(plastic_strain)) {}
+
 auto FlowStress::at(double flowed) const -> Value {
     const double reached = plastic_strain_ + flowed;
     Value value{material_.flow_stress(reached), material_.hardening_modulus(reached)};
-    if (const RateLaw* law = rate_law(material_)) {
-        value.stress += at_start_ * law->rise(material_, flowed / dt_);
-        value.slope += at_start_ * law->slope(material_, flowed / dt_) / dt_;
+    if (rate_law_) {
+        value.stress += at_start_ * rate_law_->rise(material_, flowed / dt_);
+        value.slope += at_start_ * rate_law_->slope(material_, flowed / dt_) / dt_;
     }
     return value;
 }
 
 double FlowStress::work(double flowed) const {
     double work = material_.flow_work(plastic_strain_ + flowed) - material_.flow_work(plastic_strain_);
-    if (const RateLaw* law = rate_law(material_)) work += at_start_ * dt_ * law->integral(material_, flowed / dt_);
+    if (rate_law_) work += at_start_ * dt_ * rate_law_->integral(material_, flowed / dt_);
     return work;
 }
 

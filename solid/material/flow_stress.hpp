@@ -4,6 +4,8 @@
 
 namespace abut::solid {
 
+struct RateLaw;
+
 /// The stress at which a material of MaterialLaw::j2 flows in one step, as a function of the plastic strain d that the step adds:
 ///
 ///     sigma(d) = sigma(alpha + d) + sigma(alpha) (factor(d/dt) - 1)
@@ -13,8 +15,7 @@ namespace abut::solid {
 class FlowStress {
 public:
     /// `dt` > 0 [s]: of the step. The material must outlive it.
-    FlowStress(const Material& material, double plastic_strain, double dt)
-        : material_(material), plastic_strain_(plastic_strain), dt_(dt), at_start_(material.flow_stress(plastic_strain)) {}
+    FlowStress(const Material& material, double plastic_strain, double dt);
 
     /// At d = 0 [Pa]: below it nothing flows.
     [[nodiscard]] double at_start() const { return at_start_; }
@@ -28,6 +29,7 @@ public:
 
 private:
     const Material& material_;
+    const RateLaw* rate_law_;  // null where the material knows no rates
     double plastic_strain_, dt_, at_start_;
 };
 
