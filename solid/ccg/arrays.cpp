@@ -1,7 +1,9 @@
 #include "abut/solid/ccg/arrays.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "abut/base/sort_unique.hpp"
 
@@ -41,6 +43,7 @@ CcgArrays<Dim>::CcgArrays(const mesh::Mesh<Dim>& mesh, std::span<const Material>
     set_faces(mesh, materials);
     set_cells(mesh, materials);
     if (form == CellForm::automatic) simplices = Simplices<Dim>(mesh, materials, conditions, rule, kinematics);
+    set_shares();
     directed = DirectedCells<Dim>(mesh, materials);
     set_boundary(mesh, materials, conditions, rule, corner_rule, kinematics);
 }
@@ -100,6 +103,36 @@ void CcgArrays<Dim>::set_cells(const mesh::Mesh<Dim>& mesh, std::span<const Mate
             if (boundary_index[f] == no_face)
                 for (int j = 0; j <= Dim; ++j) visit(stencils[f].cells[j], f, stencils[f].weights[j]);
     });
+}
+
+/// The affine function with the mean of u_f at its faces is at x_c, off the centroid by o, the sum of (1/(d + 1) - o . n |f|/|c|) u_f.
+template <int Dim>
+void CcgArrays<Dim>::set_shares() {
+    constexpr double rounding = 1e-12;  // of the arms
+    constexpr double at_centroid = 1.0 / (Dim + 1);
+    LargeArray<std::array<double, 2>> found(faces.size(), {at_centroid, at_centroid});
+    bool any = false;
+    for (std::int32_t c = 0; c < n_cells(); ++c) {
+        if (!simplices.contains(c)) continue;
+        Vector<Dim> to_centroid = Vector<Dim>::Zero();
+        double largest = 0.0;
+        for (std::int32_t i = half_face_offsets[c]; i < half_face_offsets[c + 1]; ++i) {
+            const Eigen::Map<const Vector<Dim>> arm(lever_arms[i].data());
+            to_centroid += at_centroid * arm;
+            largest = std::max(largest, arm.norm());
+        }
+        if (to_centroid.norm() <= rounding * largest) continue;
+        any = true;
+        for (const HalfFace& half_face : half_faces_of(c)) {
+            const Eigen::Map<const Vector<Dim>> area(faces[half_face.face].area_vector.data());
+            const double along = cells[c].inverse_measure * to_centroid.dot(area);
+            if (half_face.first == c)
+                found[half_face.face][0] -= along;
+            else
+                found[half_face.face][1] += along;
+        }
+    }
+    if (any) shares = std::move(found);
 }
 
 template <int Dim>

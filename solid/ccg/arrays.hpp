@@ -34,6 +34,7 @@ struct CcgArrays : CcgCoefficients<Dim, double> {
     using CcgCoefficients<Dim, double>::cells;
     using CcgCoefficients<Dim, double>::stencils;
     using CcgCoefficients<Dim, double>::lever_arms;
+    using CcgCoefficients<Dim, double>::shares;
     using CcgCoefficients<Dim, double>::of_cell_weights;
     using CcgCoefficients<Dim, double>::boundary_weights;
     using CcgCoefficients<Dim, double>::boundary_cell_weights;
@@ -80,6 +81,7 @@ struct CcgArrays : CcgCoefficients<Dim, double> {
 private:
     void set_faces(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials);
     void set_cells(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials);
+    void set_shares();
     void set_boundary(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials,
                       const FaceConditions<Dim>& conditions, FreeFaceRule rule, CornerRule corner_rule,
                       std::span<const Kinematics> kinematics);

@@ -94,9 +94,10 @@ struct CcgCoefficients {
     LargeArray<FaceStencil<Dim, Real>> stencils;
     LargeArray<FaceGeometry<Dim, Real>> faces;
     LargeArray<CellGeometry<Dim, Real>> cells;
-    std::vector<std::array<Real, Dim>> lever_arms;            // x_f - x_c, by half-face
-    LargeArray<Real> of_cell_weights;                         // by entry of CcgArrays::of_cell
-    std::vector<LaneTensor<Dim, Real>> boundary_weights;      // as CcgArrays::boundary.weights
+    std::vector<std::array<Real, Dim>> lever_arms;        // x_f - x_c, by half-face
+    LargeArray<std::array<Real, 2>> shares;               // of u_f in u at x_c as simplices at both sides take it, by face
+    LargeArray<Real> of_cell_weights;                     // by entry of CcgArrays::of_cell
+    std::vector<LaneTensor<Dim, Real>> boundary_weights;  // as CcgArrays::boundary.weights
     LargeArray<LaneTensor<Dim, Real>> boundary_cell_weights;  // by entry of CcgArrays::of_boundary_cell
 };
 

@@ -24,7 +24,7 @@ template <class V>
     return 1 / (cell.mu * square) * (t - contracted * area);
 }
 
-/// sigma_c and the sum of u_f - u_c; relative(f): u_f less that of its first side.
+/// sigma_c and the mean of u_f - u_c; relative(f): u_f less that of its first side.
 template <class V>
 template <class Relative>
 [[gnu::always_inline]] inline SimplexState<V> SweepElements<V>::simplex_state(const double* u, std::int32_t c,
@@ -35,25 +35,30 @@ template <class Relative>
     const auto at_face = [&](std::size_t i) {
         return relative(simplex.faces[i]) + units.displacement(load<Double>(u, std::min(c, simplex.neighbours[i])) - u_c);
     };
+    const auto is_second = [&](std::size_t i) { return simplex.neighbours[i] < c; };
     const V at_0 = at_face(0);  // the area vectors of the cell sum to zero: the others less this one
+    const bool has_shares = tables.shares.size > 0;
+    const auto weighted = [&](std::size_t i, const V& at_i) {
+        return has_shares ? tables.shares[simplex.faces[i]][is_second(i) ? 1 : 0] * at_i : at_i;
+    };
     Tensor g{};
-    V sum = at_0;
+    V sum = weighted(0, at_0);
     for (std::size_t i = 1; i <= Dim; ++i) {
         const V at_i = at_face(i);
-        sum += at_i;
-        g.add_outer(Real(simplex.neighbours[i] < c ? -1 : 1) * (at_i - at_0), tables.faces[simplex.faces[i]].area_vector);
+        sum += weighted(i, at_i);
+        g.add_outer(Real(is_second(i) ? -1 : 1) * (at_i - at_0), tables.faces[simplex.faces[i]].area_vector);
     }
     for (V& column : g.col) column = cell.inverse_measure * column;
-    return {elastic_stress(cell, g), sum};
+    return {elastic_stress(cell, g), has_shares ? sum : simplex_share<Dim, Real> * sum};
 }
 
 /// sigma_c and d_c; of a condensed cell without its free face.
 template <class V>
 [[gnu::always_inline]] inline void SweepElements<V>::set_simplex_stress(std::int32_t c) const {
-    const auto [stress, sum] =
+    const auto [stress, mean] =
         simplex_state(tables.u.data, c, [&](std::int32_t f) { return load<V>(tables.of_face.data, f); });
     store_tensor(stress, tables.s.data, c);
-    store(-simplex_share<Dim, Real> * sum, tables.deviation.data, c);
+    store(Real(-1) * mean, tables.deviation.data, c);
 }
 
 /// û_b - u_c = -A_bb^-1 sigma' |b| n_b of the free face, loads and corrections beside it.
@@ -81,7 +86,8 @@ inline void SweepElements<V>::add_condensed_face(const CondensedCell& condensed)
     for (int j = 0; j < Dim; ++j) stress.col[j] += added.col[j];
     store(at_face, tables.of_face.data, tables.face_of(b));
     store_tensor(stress, tables.s.data, c);
-    store(load<V>(tables.deviation.data, c) - simplex_share<Dim, Real> * at_face, tables.deviation.data, c);
+    const Real share = tables.shares.size == 0 ? simplex_share<Dim, Real> : tables.shares[tables.face_of(b)][0];
+    store(load<V>(tables.deviation.data, c) - share * at_face, tables.deviation.data, c);
 }
 
 /// D_c.
@@ -98,8 +104,8 @@ template <class V>
 template <class V>
 [[gnu::always_inline]] inline V SweepElements<V>::interior_gradient_of_simplices(std::ptrdiff_t f) const {
     const auto [a, b] = tables.face_cells[f];
-    return interior_gradient(f) -
-           simplex_share<Dim, Real> * (load<V>(tables.direct.data, a) + load<V>(tables.direct.data, b));
+    const auto i = static_cast<std::int32_t>(f);
+    return interior_gradient(f) - (shared_jumps(i, a, false) + shared_jumps(i, b, true));
 }
 
 /// Sets y of the free face, and lets the stress of its cell answer.

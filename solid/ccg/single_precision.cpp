@@ -85,6 +85,8 @@ CcgCoefficients<Dim, float> in_single_precision(const CcgArrays<Dim>& arrays) {
     if (!arrays.simplices.all())
         for (const std::array<double, Dim>& arm : arrays.lever_arms)
             single.lever_arms.push_back(rounded<Dim>(arm, units.per_length));
+    for (const auto [first, second] : arrays.shares)
+        single.shares.push_back({static_cast<float>(first), static_cast<float>(second)});
     for (std::int32_t c = 0; c < arrays.n_cells(); ++c)
         for (std::int32_t i = arrays.of_cell.offsets[c]; i < arrays.of_cell.offsets[c + 1]; ++i) {
             const FaceStencil<Dim, float>& stencil = single.stencils[arrays.of_cell.rows[i]];

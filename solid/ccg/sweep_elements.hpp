@@ -26,11 +26,11 @@ template <class V>
     return sigma;
 }
 
-/// sigma of a simplex, and the sum of u_f - u_c over its faces.
+/// sigma of a simplex, and the mean of u_f - u_c over its faces by their shares.
 template <class V>
 struct SimplexState {
     TensorOf<V> stress;
-    V sum;
+    V mean;
 };
 
 /// V: the vectors that are computed with.
@@ -69,6 +69,7 @@ public:
     ABUT_HOST_DEVICE void add_condensed_face(const CondensedCell& condensed) const;
     ABUT_HOST_DEVICE void set_simplex_stress(std::int32_t c) const;
     ABUT_HOST_DEVICE void set_simplex_jumps(std::int32_t c) const;
+    [[nodiscard]] ABUT_HOST_DEVICE V shared_jumps(std::int32_t f, std::int32_t c, bool second) const;
     [[nodiscard]] ABUT_HOST_DEVICE V interior_gradient_of_simplices(std::ptrdiff_t f) const;
     ABUT_HOST_DEVICE void condense(const CondensedCell& condensed) const;
 
@@ -93,9 +94,16 @@ private:
 // Displacements enter by their differences to that of a cell nearby, which are taken in double whatever Real is: a translation
 // of the body costs no accuracy.
 
-/// Of a face of a simplex in the mean of all of them.
+/// Of a face in the mean over all faces of a simplex whose point is its centroid.
 template <int Dim, class Real>
 inline constexpr Real simplex_share = Real{1} / (Dim + 1);
+
+/// D_c by the share that a face has in the mean of its first or second side.
+template <class V>
+[[gnu::always_inline]] inline V SweepElements<V>::shared_jumps(std::int32_t f, std::int32_t c, bool second) const {
+    const V direct = load<V>(tables.direct.data, c);
+    return (tables.shares.size == 0 ? simplex_share<Dim, Real> : tables.shares[f][second ? 1 : 0]) * direct;
+}
 
 template <class V>
 [[gnu::always_inline]] inline V SweepElements<V>::reconstructed(const double* u, std::ptrdiff_t f) const {
@@ -193,7 +201,7 @@ template <class V>
 inline V SweepElements<V>::boundary_gradient(BoundaryFace face) const {
     const std::int32_t f = tables.face_of(face), b = number_of(face), c = tables.face_cells[f][0];
     V gradient = load_tensor<V>(tables.s.data, c).times(tables.faces[f].area_vector) + load<V>(tables.pair_gradient.data, b);
-    if (tables.of_simplices(c)) gradient -= simplex_share<Dim, Real> * load<V>(tables.direct.data, c);
+    if (tables.of_simplices(c)) gradient -= shared_jumps(f, c, false);
     return tables.traction.size == 0 ? gradient : gradient - units.force(gathered(tables.traction, b));
 }
 

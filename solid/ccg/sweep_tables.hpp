@@ -46,6 +46,7 @@ struct SweepTables {
     Table<const std::int32_t> half_face_offsets;
     Table<const HalfFace> half_faces;
     Table<const std::array<Real, Dim>> lever_arms;
+    Table<const std::array<Real, 2>> shares;  // empty: of simplices all points are centroids
     Table<const std::int32_t> of_cell_offsets, of_cell_rows;
     Table<const Real> of_cell_weights;
     Table<const SimplexCell<Dim>> simplices;   // empty: no body is of simplices
@@ -91,7 +92,7 @@ struct SweepTables {
 template <int Dim, class Real, class Visit>
 void for_each_fixed_table(SweepTables<Dim, Real>& t, const Visit& visit) {
     const auto each = [&](auto&... tables) { (visit(tables), ...); };
-    each(t.face_cells, t.stencils, t.faces, t.cells, t.half_face_offsets, t.half_faces, t.lever_arms);
+    each(t.face_cells, t.stencils, t.faces, t.cells, t.half_face_offsets, t.half_faces, t.lever_arms, t.shares);
     each(t.of_cell_offsets, t.of_cell_rows, t.of_cell_weights, t.simplices, t.condensed_face, t.condensed);
     each(t.boundary_faces, t.boundary_index, t.row_faces, t.row_offsets, t.row_cells, t.row_weights, t.deficit);
     each(t.boundary_cells, t.boundary_cell_position, t.of_boundary_cell_offsets, t.of_boundary_cell_rows,
@@ -111,6 +112,7 @@ template <int Dim, class Real>
     set(tables.half_face_offsets, arrays.half_face_offsets);
     set(tables.half_faces, arrays.half_faces);
     set(tables.lever_arms, coefficients.lever_arms);
+    set(tables.shares, coefficients.shares);
     set(tables.of_cell_offsets, arrays.of_cell.offsets);
     set(tables.of_cell_rows, arrays.of_cell.rows);
     set(tables.of_cell_weights, coefficients.of_cell_weights);

@@ -47,6 +47,35 @@ TEMPLATE_TEST_CASE_SIG("a free block that spins for 20 turns keeps H~, momentum 
     if (noise == 0.0) CHECK(scene.stretch() <= 2.0 * spin * spin);  // the centrifugal stretch of E = rho = 1
 }
 
+TEMPLATE_TEST_CASE_SIG("a uniform strain of a body that turns has the energy of that strain alone, whatever its cells",
+                       "[solid][turning]", ((int Dim), Dim), 2, 3) {
+    const bool simplices = GENERATE(true, false);
+    const CellShape shape = Dim == 2 ? (simplices ? CellShape::triangle : CellShape::quadrangle)
+                                     : (simplices ? CellShape::tetrahedron : CellShape::hexahedron);
+    std::array<int, Dim> counts;
+    counts.fill(3);
+    const Vector<Dim> upper = Vector<Dim>::LinSpaced(0.4, 0.9);
+    const auto mesh = mesh::structured_box<Dim>(-upper, upper, counts, shape);
+    solid::SolidOptions<Dim> options;
+    options.materials = {{.young = 1.0, .poisson = 0.3, .density = 1.0}};
+    options.boundary.free_face_rule = solid::FreeFaceRule::extrapolate;
+    options.kinematics = {Kinematics::floating};
+    solid::Solid<Dim> body(mesh, options);
+    const Matrix<Dim> strain =
+        Vector<Dim>::LinSpaced(-0.01, 0.02).asDiagonal();  // along axes of inertia, which then only turn
+    const Matrix<Dim> turned = turned_by<Dim>(1.0) * (Matrix<Dim>::Identity() + strain);
+    std::vector<double> u;
+    for (const Vector<Dim>& x : body.rest_positions()) {
+        const Vector<Dim> moved = turned * x - x;
+        u.insert(u.end(), moved.data(), moved.data() + Dim);
+    }
+    const solid::Material& material = options.materials[0];
+    const double volume = (2.0 * upper).prod();
+    const double energy =
+        volume * (0.5 * material.lambda() * std::pow(strain.trace(), 2) + material.mu() * strain.squaredNorm());
+    CHECK(body.potential(u) == Approx(energy).epsilon(1e-12));
+}
+
 TEST_CASE("discs that spin and collide keep H~, momentum and J~", "[solid][turning]") {
     TurningScene<2> scene(two_discs(0.8), bodies<2>(2),
                           {{{0.05, 0.0}, some_spin<2>(0.1)}, {{-0.05, 0.0}, some_spin<2>(0.05)}}, 0.6);
