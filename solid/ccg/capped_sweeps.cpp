@@ -36,7 +36,8 @@ template <int Dim, class Real>
 void CcgSweeps<Dim, Real>::add_lasting_jumps(std::int32_t c) {
     if (steps_) capped_->begin(c);
     LaneTensor<Dim, Real> sum{};
-    Vectors direct = load_packed<Dim>(direct_, c);
+    Vectors direct{};
+    bool any = false;
     std::optional<Matrix<Dim>> change;  // of the gradient, once it is asked for
     const auto mean_of_step = [&](std::int32_t i) -> Vector<Dim> {
         const Vector<Dim> mean = unload(jump(c, i));
@@ -49,11 +50,13 @@ void CcgSweeps<Dim, Real>::add_lasting_jumps(std::int32_t c) {
         if (!capped_->has_cap(i)) continue;
         const Vector<Dim> lasting = steps_ ? mean_of_step(i) : capped_->lasting(i);
         if (lasting.isZero(0.0)) continue;
+        any = true;
         const Vectors gradient = coefficients_.faces[arrays_.half_faces[i].face].jump_stiffness * load_packed<Dim>(lasting);
-        direct -= gradient;
+        direct += gradient;
         sum.add_outer(gradient, coefficients_.lever_arms[i]);
     }
-    store(direct, direct_, c);
+    if (!any) return;
+    store(load_packed<Dim>(direct_, c) - direct, direct_, c);
     if (!arrays_.simplices.contains(c)) add_stress(c, -coefficients_.cells[c].inverse_measure * unload(sum));
 }
 

@@ -164,8 +164,8 @@ void CcgSweeps<Dim, Real>::stresses_of_chunk(std::int32_t k) {
     }
     if constexpr (takes_finite)
         if (!chunks_[k].has_finite) {
-            if (has_stress_beside()) for_runs(cells, [&](std::int32_t c) { add_stress_of_material(c); });
             if (steps_ || plastic_) for_runs(cells, [&](std::int32_t c) { add_linear_stress(c); });
+            if (has_stress_beside()) for_runs(cells, [&](std::int32_t c) { add_stress_of_material(c); });
         }
     for (const Run& run : cells) add_moments(run.begin, run.end);
     for (const CondensedCell& condensed : wanted_.condensed_stresses[k]) element_.condense(condensed);

@@ -27,22 +27,23 @@ void CcgSweeps<Dim, Real>::load_change(const StepEnds<Dim>& ends) {
             load_change_.push_back(ends.end_load->displacement[b] - ends.start_load->displacement[b]);
     if (std::ranges::all_of(load_change_, [](const Vector<Dim>& change) { return change.isZero(0.0); }))
         load_change_.clear();
+    std::atomic<bool> same = plastic_ && follows_last_load(ends) && load_change_.empty();
     parallel_each(arrays_.n_cells(), [&](std::ptrdiff_t c) {
         store(load_packed<Dim>(ends.end[c]) - load_packed<Dim>(ends.start[c]), u_change_, c);
-    });
-    follows_ = plastic_ && follows_last(ends) && load_change_.empty();
-}
-
-template <int Dim, class Real>
-bool CcgSweeps<Dim, Real>::follows_last(const StepEnds<Dim>& ends) {
-    static const BoundaryLoad<Dim> none;
-    std::atomic<bool> same = last_ended_ && load_end_ == (ends.start_load ? *ends.start_load : none).displacement;
-    last_ended_ = false;
-    load_end_ = (ends.end_load ? *ends.end_load : none).displacement;
-    parallel_each(arrays_.n_cells(), [&](std::ptrdiff_t c) {
+        if (!plastic_) return;
         if (unload(load_packed<Dim>(u_end_, c)) != ends.start[c]) same.store(false, std::memory_order_relaxed);
         store(load_packed<Dim>(ends.end[c]), u_end_, c);
     });
+    follows_ = same;
+}
+
+/// Whether prescribed displacements begin where those of the last step ended.
+template <int Dim, class Real>
+bool CcgSweeps<Dim, Real>::follows_last_load(const StepEnds<Dim>& ends) {
+    static const BoundaryLoad<Dim> none;
+    const bool same = last_ended_ && load_end_ == (ends.start_load ? *ends.start_load : none).displacement;
+    last_ended_ = false;
+    load_end_ = (ends.end_load ? *ends.end_load : none).displacement;
     return same;
 }
 
@@ -103,20 +104,16 @@ Matrix<Dim> CcgSweeps<Dim, Real>::elastic_stress_of_stage(std::int32_t c) const 
     return unload(elastic_stress(coefficients_.cells[c], load_tensor<Dim>(g_, c)));
 }
 
+/// Takes out of the stress of a cell what it lacks by flow, in a step the mean of both ends. `elastic`: C : eps.
 template <int Dim, class Real>
-Matrix<Dim> CcgSweeps<Dim, Real>::gradient_of_stage(std::int32_t c) const {
-    if (!arrays_.simplices.contains(c)) return unload(load_tensor<Dim>(g_, c));
-    return unload(element_.gradient_of(u_.data(), c, [&](std::int32_t f) { return load_packed<Dim>(of_face_, f); }));
-}
-
-/// What flow takes of the stress of a cell, in a step the mean of both ends. `elastic`: C : eps.
-template <int Dim, class Real>
-Matrix<Dim> CcgSweeps<Dim, Real>::stress_of_flow(std::int32_t c, const Matrix<Dim>& elastic) {
+void CcgSweeps<Dim, Real>::take_stress_of_flow(std::int32_t c, const Matrix<Dim>& elastic) {
     if (steps_ && plastic_->moves_faces(c)) set_push_of_contact(c);
-    if (!steps_ || (follows_ && plastic_->stays_elastic(c, elastic))) return plastic_->stress(c);
+    if (!steps_ || (follows_ && plastic_->stays_elastic(c, elastic))) {
+        if (plastic_->has_flowed(c)) add_stress(c, -plastic_->stress(c));
+        return;
+    }
     wants_change_[static_cast<std::size_t>(c)] = 1;
-    const Matrix<Dim> mean = gradient_of_stage(c), half = 0.5 * change_of_stage(c);
-    return plastic_->advance(c, mean - half, mean + half, dt_);
+    add_stress(c, -plastic_->advance(c, elastic, change_of_stage(c), dt_));
 }
 
 template <int Dim, class Real>
@@ -136,8 +133,7 @@ void CcgSweeps<Dim, Real>::add_linear_stress(std::int32_t c) {
     if (steps_ && viscous_ && viscous_->contains(c))
         add_stress(c, viscous_->stress(c, Matrix<Dim>::Zero(), linear_change(c), dt_));
     if (!flows) return;
-    const Matrix<Dim> taken = stress_of_flow(c, elastic);
-    if (!taken.isZero(0.0)) add_stress(c, -taken);
+    take_stress_of_flow(c, elastic);
     if (capped_ && capped_->contains(c)) add_lasting_jumps(c);
 }
 

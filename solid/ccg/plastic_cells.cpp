@@ -19,7 +19,8 @@ constexpr double no_answer = 1e-12;       // the same of dev C_e dev, over 2 mu
 constexpr int most_doublings = 60;
 constexpr double return_rounding =
     1e-9;  // more than what sums of very many steps make of a driving force, over the yield radius
-constexpr double two_thirds = 2.0 / 3.0;
+constexpr double two_thirds = 2.0 / 3.0, third = 1.0 / 3.0;
+constexpr double per_sqrt2 = 1.0 / std::numbers::sqrt2;
 const double slope_of_alpha = std::sqrt(two_thirds);  // in |p|
 
 /// The sides of the shear components, in their order.
@@ -34,7 +35,7 @@ constexpr std::array<std::pair<int, int>, Dim == 2 ? 1 : 3> shears = [] {
 /// Less its mean of the normal components, which are the first three.
 template <class Strain>
 [[gnu::always_inline]] inline Strain deviator_of(Strain strain) {
-    const double mean = strain.template head<3>().sum() / 3.0;
+    const double mean = strain.template head<3>().sum() * third;
     strain.template head<3>().array() -= mean;
     return strain;
 }
@@ -47,7 +48,7 @@ auto PlasticCells<Dim>::packed(const Matrix<Dim>& tensor) -> Strain {
     for (int i = 0; i < Dim; ++i) strain[i] = tensor(i, i);
     for (std::size_t k = 0; k < shears<Dim>.size(); ++k) {
         const auto [i, j] = shears<Dim>[k];
-        strain[3 + static_cast<int>(k)] = (tensor(i, j) + tensor(j, i)) / std::numbers::sqrt2;
+        strain[3 + static_cast<int>(k)] = (tensor(i, j) + tensor(j, i)) * per_sqrt2;
     }
     return strain;
 }
@@ -58,7 +59,7 @@ Matrix<Dim> PlasticCells<Dim>::unpacked(const Strain& strain) {
     for (int i = 0; i < Dim; ++i) tensor(i, i) = strain[i];
     for (std::size_t k = 0; k < shears<Dim>.size(); ++k) {
         const auto [i, j] = shears<Dim>[k];
-        tensor(i, j) = tensor(j, i) = strain[3 + static_cast<int>(k)] / std::numbers::sqrt2;
+        tensor(i, j) = tensor(j, i) = strain[3 + static_cast<int>(k)] * per_sqrt2;
     }
     return tensor;
 }
@@ -128,17 +129,22 @@ PlasticCells<Dim>::PlasticCells(const mesh::Mesh<Dim>& mesh, std::span<const Mat
         }
         index_[static_cast<std::size_t>(c)] = static_cast<std::int32_t>(cells_.size());
         cells_.push_back({.material = &materials_[body], .response = number, .measure = mesh.cell_measure[c]});
-        cells_.back().memory = memory_of(cells_.back(), Strain::Zero(), 0.0);
-        if (free_faces == FreeFaces::may_touch && rule == FreeFaceRule::local_equilibrium) set_shifts(arrays, c, conditions);
+        surfaces_.push_back({.poisson = materials_[body].poisson});
+        set_surface(surfaces_.size() - 1);
+        if (free_faces == FreeFaces::may_touch && rule == FreeFaceRule::local_equilibrium) make_push(arrays, c, conditions);
     }
+    driving_.assign(cells_.size(), unknown());
+    next_driving_ = driving_;
+    flows_.assign(cells_.size(), 0);
+    loss_.assign(cells_.size(), 0.0);
 }
 
 /// Free faces balance C : G with what they bear, of which C : p n is a part.
 template <int Dim>
-void PlasticCells<Dim>::set_shifts(const CcgArrays<Dim>& arrays, std::int32_t cell, const FaceConditions<Dim>& conditions) {
-    Cell& of = cells_.back();
-    of.first_shift = static_cast<std::int32_t>(shifts_.size());
-    Tilt tilt = Tilt::Zero();
+void PlasticCells<Dim>::make_push(const CcgArrays<Dim>& arrays, std::int32_t cell, const FaceConditions<Dim>& conditions) {
+    const Cell& of = at(cell);
+    Push push{.number = number(cell), .first_shift = static_cast<std::int32_t>(shifts_.size())};
+    push.tilt.setZero();
     for (const HalfFace& half_face : arrays.half_faces_of(cell)) {
         const BoundaryFace b = arrays.boundary_index[half_face.face];
         if (b == no_face || conditions.prescribed[b].isIdentity(0.0)) continue;
@@ -152,12 +158,13 @@ void PlasticCells<Dim>::set_shifts(const CcgArrays<Dim>& arrays, std::int32_t ce
                 moved += boundary.from_traction[i] * (stress * arrays.normal_of(boundary.load_faces[i]));
             shift.moved.col(k) = moved;
             const Matrix<Dim> of_gradient = arrays.cells[cell].inverse_measure * moved * area.transpose();
-            tilt.col(k) += Eigen::Map<const Eigen::Matrix<double, Dim * Dim, 1>>(of_gradient.data());
+            push.tilt.col(k) += Eigen::Map<const Eigen::Matrix<double, Dim * Dim, 1>>(of_gradient.data());
         }
     }
-    of.end_shift = static_cast<std::int32_t>(shifts_.size());
-    of.tilt = static_cast<std::int32_t>(tilts_.size());
-    if (of.end_shift > of.first_shift) tilts_.push_back(tilt);
+    push.end_shift = static_cast<std::int32_t>(shifts_.size());
+    if (push.end_shift == push.first_shift) return;
+    surfaces_[push.number].push = static_cast<std::int32_t>(pushes_.size());
+    pushes_.push_back(push);
 }
 
 template <int Dim>
@@ -167,39 +174,77 @@ void PlasticCells<Dim>::make_deviator(Strain& strain) {
 
 template <int Dim>
 Vector<Dim> PlasticCells<Dim>::moved(std::ptrdiff_t cell, BoundaryFace face) const {
-    const Cell& of = at(cell);
-    for (std::int32_t i = of.first_shift; i < of.end_shift; ++i)
+    const Push& push = pushes_[static_cast<std::size_t>(surfaces_[number(cell)].push)];
+    for (std::int32_t i = push.first_shift; i < push.end_shift; ++i)
         if (const Shift& shift = shifts_[static_cast<std::size_t>(i)]; shift.face == face)
-            return shift.moved * of.memory.plastic;
+            return shift.moved * at(cell).memory.plastic;
     return Vector<Dim>::Zero();
 }
 
 template <int Dim>
 Matrix<Dim> PlasticCells<Dim>::tilted(std::ptrdiff_t cell) const {
-    const Cell& of = at(cell);
-    const Eigen::Matrix<double, Dim * Dim, 1> tilt = tilts_[static_cast<std::size_t>(of.tilt)] * of.memory.plastic;
+    const Push& push = pushes_[static_cast<std::size_t>(surfaces_[number(cell)].push)];
+    const Eigen::Matrix<double, Dim * Dim, 1> tilt = push.tilt * at(cell).memory.plastic;
     return Eigen::Map<const Matrix<Dim>>(tilt.data());
 }
 
 template <int Dim>
 auto PlasticCells<Dim>::memory_of(const Cell& cell, const Strain& plastic, double equivalent) const -> Memory {
-    const Strain stress = response(cell).stiffness * plastic;
-    return {slope_of_alpha * cell.material->flow_stress(equivalent),
-            Strain(deviator_of(stress) + two_thirds * cell.material->kinematic_hardening * plastic), unpacked(stress),
-            equivalent, plastic};
+    // C is 2 mu for a deviator
+    const Strain stress =
+        is_inside(cell) ? Strain(2.0 * cell.material->mu() * plastic) : Strain(response(cell).stiffness * plastic);
+    return {plastic, equivalent, unpacked(stress)};
+}
+
+template <int Dim>
+auto PlasticCells<Dim>::shift_of(const Cell& cell, const Memory& memory) const -> Strain {
+    const double back = two_thirds * cell.material->kinematic_hardening;
+    if (is_inside(cell)) return (2.0 * cell.material->mu() + back) * memory.plastic;
+    return deviator_of(Strain(response(cell).stiffness * memory.plastic)) + back * memory.plastic;
+}
+
+template <int Dim>
+void PlasticCells<Dim>::set_surface(std::size_t number) {
+    const Cell& cell = cells_[number];
+    Surface& surface = surfaces_[number];
+    surface.shift = shift_of(cell, cell.memory);
+    surface.radius = slope_of_alpha * cell.material->flow_stress(cell.memory.equivalent);
+    surface.has_flowed = cell.memory.equivalent > 0.0;
+}
+
+/// Of contact in the step.
+template <int Dim>
+auto PlasticCells<Dim>::push_on(std::size_t number) const -> Strain {
+    const std::int32_t push = surfaces_[number].push;
+    return push < 0 ? Strain(Strain::Zero()) : pushes_[static_cast<std::size_t>(push)].stress;
+}
+
+/// Of C : eps.
+template <int Dim>
+auto PlasticCells<Dim>::elastic_deviator(const Surface& surface, const Matrix<Dim>& elastic) -> Strain {
+    Strain stress = packed(elastic);
+    if constexpr (Dim == 2) stress[2] = surface.poisson * elastic.trace();
+    return deviator_of(stress);
+}
+
+template <int Dim>
+void PlasticCells<Dim>::end_elastic(std::size_t number) {
+    flows_[number] = 0;
+    loss_[number] = 0.0;
+    if (surfaces_[number].push >= 0) pushes_[static_cast<std::size_t>(surfaces_[number].push)].work = 0.0;
 }
 
 /// The driving force at the end is twice that in the middle less that at the start.
 template <int Dim>
 bool PlasticCells<Dim>::stays_elastic(std::ptrdiff_t cell, const Matrix<Dim>& mean) {
-    Cell& of = at(cell);
-    Strain stress = packed(mean);
-    if constexpr (Dim == 2) stress[2] = of.material->poisson * mean.trace();
-    of.next_driving = 2.0 * (deviator_of(stress) - of.memory.shift) - of.driving;
-    const double largest = (1.0 - return_rounding) * of.memory.radius;
-    if (!((of.next_driving + of.push).squaredNorm() <= largest * largest)) return false;  // or not a number
-    of.flows = false;
-    of.loss = of.work_of_push = 0.0;
+    const std::size_t n = number(cell);
+    const Surface& surface = surfaces_[n];
+    const Strain end = 2.0 * (elastic_deviator(surface, mean) - surface.shift) - driving_[n];
+    const double largest = (1.0 - return_rounding) * surface.radius;
+    const double square = surface.push < 0 ? end.squaredNorm() : (end + push_on(n)).squaredNorm();
+    if (!(square <= largest * largest)) return false;  // or not a number
+    next_driving_[n] = end;
+    end_elastic(n);
     return true;
 }
 
@@ -217,13 +262,14 @@ double PlasticCells<Dim>::flow_inside(const Cell& cell, const FlowStress& stress
 /// How far a cell flows (|change of p|) from the trial state xi = dev C_e : (eps - p) - 2/3 H p, and `normal`, its direction at the end:
 /// the root of sum of y^2/(rho + g b)^2 = 1 over the axes, with y = xi along one, b its answer and rho the radius at the end.
 template <int Dim>
-double PlasticCells<Dim>::flow(const Cell& cell, const FlowStress& stress, const Strain& trial, Strain& normal) const {
+double PlasticCells<Dim>::flow(std::size_t number, const FlowStress& stress, const Strain& trial, Strain& normal) const {
+    const Cell& cell = cells_[number];
     const double size = trial.norm();
-    if (size <= cell.memory.radius) return 0.0;
+    if (size <= surfaces_[number].radius) return 0.0;
     const Response& of = response(cell);
     // Contact gives way as the face flows, and knows by how much: what it pushes with is no dead load. Flow that goes as far as where
     // faces are held never goes too far; what is left beyond the surface flows in the next steps.
-    if (&of == &response_inside(cell) || !cell.push.isZero(0.0)) {
+    if (is_inside(cell) || !push_on(number).isZero(0.0)) {
         normal = trial / size;
         return flow_inside(cell, stress, size);
     }
@@ -260,29 +306,29 @@ auto PlasticCells<Dim>::beyond_surface(const Cell& cell, const Strain& normal, d
 }
 
 template <int Dim>
-Matrix<Dim> PlasticCells<Dim>::advance(std::ptrdiff_t cell, const Matrix<Dim>& g_0, const Matrix<Dim>& g_1, double dt) {
-    Cell& of = at(cell);
-    const double mu = of.material->mu();
-    const auto elastic = [&](const Matrix<Dim>& g) { return Strain(2.0 * mu * deviator_of(packed(g))); };
-    of.flows = false;
-    of.loss = of.work_of_push = 0.0;
-    const Strain at_end = elastic(g_1);
-    of.next_driving = at_end - of.memory.shift;
+Matrix<Dim> PlasticCells<Dim>::advance(std::ptrdiff_t cell, const Matrix<Dim>& mean, const Matrix<Dim>& change, double dt) {
+    const std::size_t n = number(cell);
+    const Surface& surface = surfaces_[n];
+    Cell& of = cells_[n];
+    end_elastic(n);
+    const Strain middle = elastic_deviator(surface, mean), half = of.material->mu() * deviator_of(packed(change));
+    const Strain push = push_on(n);
+    next_driving_[n] = middle + half - surface.shift;
     Strain normal;
     const FlowStress stress(*of.material, of.memory.equivalent, dt);
-    const double g = flow(of, stress, of.next_driving + of.push, normal);
+    const double g = flow(n, stress, next_driving_[n] + push, normal);
     if (!(g > 0.0)) return of.memory.stress;
     const double radius = slope_of_alpha * stress.at(slope_of_alpha * g).stress;
-    const double beyond = of.push.isZero(0.0) ? 0.0 : normal.dot(beyond_surface(of, normal, g));
-    const double loss = 0.5 * of.measure * g * (normal.dot(elastic(g_0) - of.memory.shift + of.push) + radius + beyond);
+    const double beyond = push.isZero(0.0) ? 0.0 : normal.dot(beyond_surface(of, normal, g));
+    const double loss = 0.5 * of.measure * g * (normal.dot(middle - half - surface.shift + push) + radius + beyond);
     // Else it waits: a stress beyond the surface is one of a rate.
-    of.flows = loss >= 0.0 || !of.material->knows_rates();
-    if (!of.flows) return of.memory.stress;
+    if (loss < 0.0 && of.material->knows_rates()) return of.memory.stress;
+    flows_[n] = 1;
     any_flowed_.store(true, std::memory_order_relaxed);
-    of.loss = loss;
-    of.work_of_push = of.measure * g * normal.dot(of.push);
+    loss_[n] = loss;
+    if (surface.push >= 0) pushes_[static_cast<std::size_t>(surface.push)].work = of.measure * g * normal.dot(push);
     of.next = memory_of(of, of.memory.plastic + g * normal, of.memory.equivalent + slope_of_alpha * g);
-    of.next_driving = at_end - of.next.shift;
+    next_driving_[n] = middle + half - shift_of(of, of.next);
     return 0.5 * (of.memory.stress + of.next.stress);
 }
 
@@ -302,13 +348,15 @@ double PlasticCells<Dim>::out_of_plane_stress(std::ptrdiff_t cell, const Matrix<
 
 template <int Dim>
 void PlasticCells<Dim>::end_step() {
+    std::swap(driving_, next_driving_);
+    if (!any_flowed_.exchange(false)) return;
     parallel_each(static_cast<std::ptrdiff_t>(cells_.size()), [&](std::ptrdiff_t i) {
-        Cell& cell = cells_[static_cast<std::size_t>(i)];
-        if (cell.flows) cell.memory = cell.next;
-        cell.flows = false;
-        cell.driving = cell.next_driving;
+        const auto n = static_cast<std::size_t>(i);
+        if (flows_[n] == 0) return;
+        cells_[n].memory = cells_[n].next;
+        set_surface(n);
+        flows_[n] = 0;
     });
-    any_flowed_ = false;
 }
 
 template <int Dim>
@@ -321,10 +369,11 @@ void PlasticCells<Dim>::put_memory(std::ptrdiff_t cell, std::vector<double>& val
 
 template <int Dim>
 void PlasticCells<Dim>::set_memory(std::ptrdiff_t cell, std::span<const double> values) {
-    Cell& of = at(cell);
-    of.memory = memory_of(of, Eigen::Map<const Strain>(values.data()), values[n_strains]);
-    of.flows = false;
-    of.driving = unknown();
+    const std::size_t n = number(cell);
+    cells_[n].memory = memory_of(cells_[n], Eigen::Map<const Strain>(values.data()), values[n_strains]);
+    set_surface(n);
+    flows_[n] = 0;
+    driving_[n] = unknown();
 }
 
 template class PlasticCells<2>;

@@ -41,38 +41,38 @@ public:
     [[nodiscard]] bool contains(std::ptrdiff_t cell) const { return any() && index_[static_cast<std::size_t>(cell)] >= 0; }
     /// C_e : p, which stress is less by [Pa]; 0 before it has flowed.
     [[nodiscard]] const Matrix<Dim>& stress(std::ptrdiff_t cell) const { return at(cell).memory.stress; }
-    [[nodiscard]] bool has_flowed(std::ptrdiff_t cell) const { return at(cell).memory.equivalent > 0.0; }
+    [[nodiscard]] bool has_flowed(std::ptrdiff_t cell) const { return surfaces_[number(cell)].has_flowed; }
     /// Whether its flow moves boundary faces that contact may push. For itself, and for jumps, the cell has them where they would be
     /// without flow.
-    [[nodiscard]] bool moves_faces(std::ptrdiff_t cell) const {
-        return contains(cell) && at(cell).end_shift > at(cell).first_shift;
-    }
+    [[nodiscard]] bool moves_faces(std::ptrdiff_t cell) const { return contains(cell) && surfaces_[number(cell)].push >= 0; }
     /// How far p moves such a face [m], and by how much it changes what tilts all of them [-].
     [[nodiscard]] Vector<Dim> moved(std::ptrdiff_t cell, BoundaryFace face) const;
     [[nodiscard]] Matrix<Dim> tilted(std::ptrdiff_t cell) const;
     /// What contact does in the step to a cell that moves faces: dV/dû of a face of it by gradient(face) [N], and dV/dG over the measure [Pa].
     template <class Gradient>
     void set_push(std::ptrdiff_t cell, const Gradient& gradient, const Matrix<Dim>& moment) {
-        Cell& of = at(cell);
+        Push& push = pushes_[static_cast<std::size_t>(surfaces_[number(cell)].push)];
         Strain sum = Strain::Zero();
-        for (std::int32_t i = of.first_shift; i < of.end_shift; ++i)
+        for (std::int32_t i = push.first_shift; i < push.end_shift; ++i)
             sum -= shifts_[static_cast<std::size_t>(i)].moved.transpose() *
-                   (gradient(shifts_[static_cast<std::size_t>(i)].face) / of.measure);
-        of.push = sum - tilts_[static_cast<std::size_t>(of.tilt)].transpose() *
-                            Eigen::Map<const Eigen::Matrix<double, Dim * Dim, 1>>(moment.data());
-        make_deviator(of.push);
+                   (gradient(shifts_[static_cast<std::size_t>(i)].face) / at(cell).measure);
+        push.stress = sum - push.tilt.transpose() * Eigen::Map<const Eigen::Matrix<double, Dim * Dim, 1>>(moment.data());
+        make_deviator(push.stress);
     }
     /// What contact has done in the step by what flow has moved, had that moved along [J]: a part of `loss`.
-    [[nodiscard]] double work_of_push(std::ptrdiff_t cell) const { return contains(cell) ? at(cell).work_of_push : 0.0; }
+    [[nodiscard]] double work_of_push(std::ptrdiff_t cell) const {
+        return moves_faces(cell) ? pushes_[static_cast<std::size_t>(surfaces_[number(cell)].push)].work : 0.0;
+    }
     /// Whether a cell that moves faces flows in the step.
     [[nodiscard]] bool any_face_moves() const {
-        return std::ranges::any_of(cells_, [](const Cell& cell) { return cell.flows && cell.end_shift > cell.first_shift; });
+        return std::ranges::any_of(pushes_, [&](const Push& push) { return flows_[push.number] != 0; });
     }
     /// Whether the cell surely does not flow in a step that begins where the last one ended, and in whose middle C : eps is `mean` [Pa]:
     /// then the step is made. Else, by rounding or since nobody knows where the last one ended, `advance` must say.
     [[nodiscard]] bool stays_elastic(std::ptrdiff_t cell, const Matrix<Dim>& mean);
-    /// Flows in a step of length `dt` from the displacement gradient g_0 to g_1; returns the mean of `stress` at both ends [Pa].
-    [[nodiscard]] Matrix<Dim> advance(std::ptrdiff_t cell, const Matrix<Dim>& g_0, const Matrix<Dim>& g_1, double dt);
+    /// Flows in a step of length `dt` in whose middle C : eps is `mean` [Pa], and in which the displacement gradient changes by `change`;
+    /// returns the mean of `stress` at both ends [Pa].
+    [[nodiscard]] Matrix<Dim> advance(std::ptrdiff_t cell, const Matrix<Dim>& mean, const Matrix<Dim>& change, double dt);
     /// The terms of the energy that p is in [J/m^3].
     [[nodiscard]] double energy(std::ptrdiff_t cell, const Matrix<Dim>& g) const;
     /// In the plane: the stress out of it [Pa].
@@ -82,11 +82,13 @@ public:
         return contains(cell) ? at(cell).memory.equivalent : 0.0;
     }
     /// The same at the end of the step, which may not have ended yet.
-    [[nodiscard]] double end_plastic_strain(std::ptrdiff_t cell) const { return at(cell).end().equivalent; }
+    [[nodiscard]] double end_plastic_strain(std::ptrdiff_t cell) const {
+        return (flows_[number(cell)] != 0 ? at(cell).next : at(cell).memory).equivalent;
+    }
     /// Whether a cell has flowed in the step, or in one before that has not ended.
     [[nodiscard]] bool any_flowed() const { return any_flowed_.load(std::memory_order_relaxed); }
     /// Energy that a cell has dissipated in the step [J].
-    [[nodiscard]] double loss(std::ptrdiff_t cell) const { return contains(cell) ? at(cell).loss : 0.0; }
+    [[nodiscard]] double loss(std::ptrdiff_t cell) const { return contains(cell) ? loss_[number(cell)] : 0.0; }
     /// The next step begins where this one ends.
     void end_step();
 
@@ -111,47 +113,56 @@ private:
         Strain values;   // the eigenvalues
     };
     [[nodiscard]] static Response response_of(const Material& material, const std::vector<Strain>& free);
-    struct Memory {
-        // What follows from the two below
-        double radius = 0.0;            // sqrt(2/3) sigma(alpha)
+    /// Where a cell yields, which follows from what it remembers: all that a step which stays elastic looks at beside xi.
+    struct Surface {
         Strain shift = Strain::Zero();  // dev C_e : p + 2/3 H p
-        Matrix<Dim> stress = Matrix<Dim>::Zero();
-        double equivalent = 0.0;
-        Strain plastic = Strain::Zero();
+        double radius = 0.0;            // sqrt(2/3) sigma(alpha)
+        double poisson = 0.0;
+        std::int32_t push = -1;  // of `pushes_`; -1: it moves no faces
+        bool has_flowed = false;
     };
-    /// What a step that stays elastic looks at comes first.
+    struct Memory {
+        Strain plastic = Strain::Zero();
+        double equivalent = 0.0;
+        Matrix<Dim> stress = Matrix<Dim>::Zero();  // C_e : p
+    };
     struct Cell {
         const Material* material;
         std::int32_t response;
         double measure;
-        bool flows = false;  // in the step: it ends with `next`
-        std::int32_t first_shift = 0, end_shift = 0, tilt = 0;
-        double loss = 0.0, work_of_push = 0.0;
-        Strain driving = unknown(), next_driving = unknown();  // xi at the start and at the end of the step
-        Strain push = Strain::Zero();                          // of contact in the step, on p: a stress
-        Memory memory{}, next{};
-
-        [[nodiscard]] const Memory& end() const { return flows ? next : memory; }
+        Memory memory{}, next{};  // the latter where it flows
     };
     /// How p moves a boundary face: by moved p.
     struct Shift {
         BoundaryFace face;
         Eigen::Matrix<double, Dim, n_strains, Eigen::DontAlign> moved;
     };
-    using Tilt = Eigen::Matrix<double, Dim * Dim, n_strains, Eigen::DontAlign>;
-    void set_shifts(const CcgArrays<Dim>& arrays, std::int32_t cell, const FaceConditions<Dim>& conditions);
+    /// Of a cell that moves faces.
+    struct Push {
+        std::size_t number;                                                  // of the cell
+        std::int32_t first_shift, end_shift;                                 // of its faces
+        Eigen::Matrix<double, Dim * Dim, n_strains, Eigen::DontAlign> tilt;  // what p makes of G
+        Strain stress = Strain::Zero();                                      // of contact in the step, on p
+        double work = 0.0;                                                   // of it in the step
+    };
+    void make_push(const CcgArrays<Dim>& arrays, std::int32_t cell, const FaceConditions<Dim>& conditions);
     static void make_deviator(Strain& strain);
     [[nodiscard]] static Strain unknown() { return Strain::Constant(std::numeric_limits<double>::quiet_NaN()); }
+    [[nodiscard]] bool is_inside(const Cell& cell) const { return &response(cell) == &response_inside(cell); }
     [[nodiscard]] Memory memory_of(const Cell& cell, const Strain& plastic, double equivalent) const;
-    [[nodiscard]] double flow(const Cell& cell, const FlowStress& stress, const Strain& trial, Strain& normal) const;
+    [[nodiscard]] Strain shift_of(const Cell& cell, const Memory& memory) const;
+    void set_surface(std::size_t number);
+    [[nodiscard]] static Strain elastic_deviator(const Surface& surface, const Matrix<Dim>& elastic);
+    void end_elastic(std::size_t number);
+    [[nodiscard]] Strain push_on(std::size_t number) const;
+    [[nodiscard]] double flow(std::size_t number, const FlowStress& stress, const Strain& trial, Strain& normal) const;
     [[nodiscard]] Strain beyond_surface(const Cell& cell, const Strain& normal, double g) const;
     [[nodiscard]] double flow_inside(const Cell& cell, const FlowStress& stress, double trial) const;
-    [[nodiscard]] Cell& at(std::ptrdiff_t cell) {
-        return cells_[static_cast<std::size_t>(index_[static_cast<std::size_t>(cell)])];
+    [[nodiscard]] std::size_t number(std::ptrdiff_t cell) const {
+        return static_cast<std::size_t>(index_[static_cast<std::size_t>(cell)]);
     }
-    [[nodiscard]] const Cell& at(std::ptrdiff_t cell) const {
-        return cells_[static_cast<std::size_t>(index_[static_cast<std::size_t>(cell)])];
-    }
+    [[nodiscard]] Cell& at(std::ptrdiff_t cell) { return cells_[number(cell)]; }
+    [[nodiscard]] const Cell& at(std::ptrdiff_t cell) const { return cells_[number(cell)]; }
     [[nodiscard]] const Response& response(const Cell& cell) const {
         return responses_[static_cast<std::size_t>(cell.response)];
     }
@@ -165,10 +176,14 @@ private:
     std::vector<Response> responses_;  // of each body inside, then of cells with free faces
     std::atomic<bool> any_flowed_ = false;
     bool any_ = false;                 // known from materials alone: this rank may have no cell of them
-    std::vector<std::int32_t> index_;  // of each cell; empty where no body is of them
+    std::vector<std::int32_t> index_;  // the number of each cell in what follows; empty where no body is of them
+    std::vector<Surface> surfaces_;
+    std::vector<Strain> driving_, next_driving_;  // xi at the start and at the end of the step
+    std::vector<char> flows_;                     // in the step: it ends with Cell::next
+    std::vector<double> loss_;                    // in the step [J]
     std::vector<Cell> cells_;
-    std::vector<Shift> shifts_;  // cell by cell
-    std::vector<Tilt> tilts_;    // of cells with shifts: what they make of G
+    std::vector<Push> pushes_;
+    std::vector<Shift> shifts_;  // push by push
 };
 
 }  // namespace abut::solid

@@ -162,10 +162,9 @@ private:
     [[nodiscard]] Matrix<Dim> change_of_stage(std::int32_t c) const;
     void add_stress(std::int32_t c, const Matrix<Dim>& added);
     /// Whether a step begins where the last one ended, so that what its cells remember of that end holds.
-    [[nodiscard]] bool follows_last(const StepEnds<Dim>& ends);
+    [[nodiscard]] bool follows_last_load(const StepEnds<Dim>& ends);
     [[nodiscard]] Matrix<Dim> elastic_stress_of_stage(std::int32_t c) const;
-    [[nodiscard]] Matrix<Dim> gradient_of_stage(std::int32_t c) const;
-    [[nodiscard]] Matrix<Dim> stress_of_flow(std::int32_t c, const Matrix<Dim>& elastic);
+    void take_stress_of_flow(std::int32_t c, const Matrix<Dim>& elastic);
     void set_push_of_contact(std::int32_t c);
     void add_linear_stress(std::int32_t c);
     void take_ends(const StepEnds<Dim>& ends);
