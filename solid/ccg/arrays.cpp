@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "abut/base/sort_unique.hpp"
+#include "abut/solid/kinematics/properties.hpp"
 
 namespace abut::solid {
 namespace {
@@ -43,7 +44,7 @@ CcgArrays<Dim>::CcgArrays(const mesh::Mesh<Dim>& mesh, std::span<const Material>
     set_faces(mesh, materials);
     set_cells(mesh, materials);
     if (form == CellForm::automatic) simplices = Simplices<Dim>(mesh, materials, conditions, rule, kinematics);
-    set_shares();
+    set_shares(kinematics);
     directed = DirectedCells<Dim>(mesh, materials);
     set_boundary(mesh, materials, conditions, rule, corner_rule, kinematics);
 }
@@ -105,13 +106,14 @@ void CcgArrays<Dim>::set_cells(const mesh::Mesh<Dim>& mesh, std::span<const Mate
     });
 }
 
-/// The affine function with the mean of u_f at its faces is at x_c, off the centroid by o, the sum of (1/(d + 1) - o . n |f|/|c|) u_f.
+/// The affine function with the mean of u_f at its faces is at x_c, off the centroid by o, the sum of (1/(d + 1) - o . n |f|/|c|) u_f. Sums by
+/// shares round otherwise than those of centroids, so that whether there are any does not depend on which cells a rank has.
 template <int Dim>
-void CcgArrays<Dim>::set_shares() {
+void CcgArrays<Dim>::set_shares(std::span<const Kinematics> kinematics) {
     constexpr double rounding = 1e-12;  // of the arms
     constexpr double at_centroid = 1.0 / (Dim + 1);
     LargeArray<std::array<double, 2>> found(faces.size(), {at_centroid, at_centroid});
-    bool any = false;
+    bool any = std::ranges::any_of(kinematics, [](Kinematics of_body) { return properties_of(of_body).has_frame; });
     for (std::int32_t c = 0; c < n_cells(); ++c) {
         if (!simplices.contains(c)) continue;
         Vector<Dim> to_centroid = Vector<Dim>::Zero();

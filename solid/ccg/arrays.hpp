@@ -81,7 +81,7 @@ struct CcgArrays : CcgCoefficients<Dim, double> {
 private:
     void set_faces(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials);
     void set_cells(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials);
-    void set_shares();
+    void set_shares(std::span<const Kinematics> kinematics);
     void set_boundary(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials,
                       const FaceConditions<Dim>& conditions, FreeFaceRule rule, CornerRule corner_rule,
                       std::span<const Kinematics> kinematics);
