@@ -173,7 +173,7 @@ const Keys<Body>& body_keys() {
                        "where its own origin goes: of disc, fan_disc, gear, cylinder and sphere their centre"),
             Of::axial("turn", &Body::turn, "rad", "turn about its own origin before it is placed; in 3D axis times angle"),
             Of::formula("temperature_rise", &Body::temperature_rise, "", Variables::time_and_space,
-                        "kelvins above where it has no thermal strain, of a small or floating body whose material has a "
+                        "kelvins above where it has no thermal strain, of a body that deforms and whose material has a "
                         "thermal_expansion; x, y, z at rest in the scene"),
             Of::vector("velocity", &Body::velocity, "m/s", "0", "velocity at the start"),
             Of::axial("spin", &Body::spin, "rad/s", "angular velocity about its centroid at the start")};

@@ -10,6 +10,8 @@
 #include "abut/mesh/extract.hpp"
 #include "abut/solid/kinematics/capabilities.hpp"
 #include "abut/solid/material/law_check.hpp"
+#include "abut/solid/material/orthotropic.hpp"
+#include "abut/solid/material/warm_laws.hpp"
 #include "abut/solid/part/body_cells.hpp"
 #include "abut/solid/part/rank_part.hpp"
 
@@ -28,6 +30,36 @@ std::vector<Value> chosen(const std::vector<Value>& values, std::span<const std:
     return result;
 }
 
+/// The law of space of a material whose law in this dimension is given; null: it is St. Venant and Kirchhoff's.
+template <int Dim>
+std::shared_ptr<const StoredEnergy<3>> law_of_space(const Material& material,
+                                                    const std::shared_ptr<const StoredEnergy<Dim>>& law) {
+    if (!law) return std::make_shared<OrthotropicEnergy<3>>(material);  // of isotropic constants
+    if constexpr (Dim == 3)
+        return law;
+    else
+        return stored_energy<3>(material);
+}
+template <int Dim>
+std::shared_ptr<const InelasticLaw<3>> law_of_space(const Material& material,
+                                                    const std::shared_ptr<const InelasticLaw<Dim>>& law) {
+    if constexpr (Dim == 3)
+        return law;
+    else
+        return inelastic_law<3>(material);
+}
+
+/// Puts the law of a body of Kinematics::finite that is warm behind its thermal stretch.
+template <int Dim>
+void put_behind_stretch(const Material& material, std::shared_ptr<const StoredEnergy<Dim>>& stored,
+                        std::shared_ptr<const InelasticLaw<Dim>>& inelastic) {
+    const ThermalStretch stretch(thermal_strain(material));
+    if (inelastic)
+        inelastic = std::make_shared<WarmInelastic<Dim>>(law_of_space<Dim>(material, inelastic), stretch);
+    else
+        stored = std::make_shared<WarmEnergy<Dim>>(law_of_space<Dim>(material, stored), stretch);
+}
+
 }  // namespace
 
 template <int Dim>
@@ -44,6 +76,10 @@ Bodies<Dim>::Bodies(const mesh::Mesh<Dim>& mesh, const SolidOptions<Dim>& option
     part_options_.acceleration = chosen(options.acceleration, deformable_bodies_);
     part_options_.temperature_rise = chosen(options.temperature_rise, deformable_bodies_);
     set_laws();
+    for (std::size_t i = 0; i < part_options_.temperature_rise.size(); ++i)
+        if (part_options_.temperature_rise[i].value && is_finite(deformable_bodies_[i]))
+            put_behind_stretch<Dim>(part_options_.materials[i], part_options_.finite.stored_energy[i],
+                                    part_options_.finite.inelastic[i]);
     part_options_.boundary.traction.clear();
     for (std::size_t i = 0; i < options.boundary.traction.size(); ++i)
         if (traction_holds_[i] != TractionHold::points)

@@ -71,9 +71,10 @@ void Bodies<Dim>::check_temperature(std::int32_t body) const {
     if (!options_.temperature_rise[static_cast<std::size_t>(body)].value) return;
     const std::string who = mesh_.name + ": body '" + mesh_.body_names[static_cast<std::size_t>(body)] + "' ";
     if (!has(kinematics(body), Capability::temperature))
-        throw BadInput(who +
-                       "is given a temperature, which only bodies of Kinematics::small and ::floating can have. Take one of "
-                       "these, or leave SolidOptions::temperature_rise out.");
+        throw BadInput(
+            who +
+            "is given a temperature, and is rigid. Take other kinematics, or leave SolidOptions::temperature_rise "
+            "out.");
     if (!options_.materials[static_cast<std::size_t>(body)].expands())
         throw BadInput(who +
                        "is given a temperature, and its material has a thermal_expansion of 0. Give one, or leave "
@@ -81,6 +82,18 @@ void Bodies<Dim>::check_temperature(std::int32_t body) const {
     if (std::ranges::any_of(options_.boundary.traction, &TractionCondition<Dim>::from_outside))
         throw BadInput(who +
                        "is given a temperature, which is not made beside tractions from outside. Leave one of both out.");
+    if (!is_finite(body)) return;
+    if (options_.finite.mean_force == MeanForce::discrete_gradient)
+        throw BadInput(
+            who +
+            "is of Kinematics::finite and given a temperature, for which there is no MeanForce::discrete_gradient. "
+            "Take MeanForce::closed_trapezoid (--mean-force closed_trapezoid).");
+    const auto is_given = [&](const auto& laws) { return !laws.empty() && laws[static_cast<std::size_t>(body)]; };
+    if (Dim == 2 && (is_given(options_.finite.stored_energy) || is_given(options_.finite.inelastic)))
+        throw BadInput(
+            who +
+            "is in the plane, given a temperature, and of a law of its own (FiniteOptions). Heat stretches it out of "
+            "the plane, too, which such a law does not know. Take a law of MaterialLaw, or a body in space.");
 }
 
 template <int Dim>

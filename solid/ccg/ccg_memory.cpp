@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <optional>
 #include <string>
-#include <typeinfo>
 
 #include "abut/base/error.hpp"
 #include "abut/solid/ccg/ccg_impl.hpp"
@@ -14,8 +13,7 @@ namespace {
 template <int Dim>
 bool remember_alike(const FiniteCells<Dim>& cells, std::int32_t cell, const FiniteCells<Dim>& others, std::int32_t other) {
     if (cell < 0 || other < 0) return cell < 0 && other < 0;
-    const InelasticLaw<Dim>&law = *cells.inelastic_cell(cell).law, &other_law = *others.inelastic_cell(other).law;
-    return typeid(law) == typeid(other_law);
+    return *cells.inelastic_cell(cell).kind == *others.inelastic_cell(other).kind;
 }
 
 }  // namespace
@@ -96,6 +94,9 @@ template <int Dim>
 std::optional<double> Ccg<Dim>::out_of_plane_stress(std::int32_t cell) const {
     if (impl_->plastic.contains(cell))
         return impl_->plastic.out_of_plane_stress(cell, displacement_gradient(cell)) - impl_->sweeps.heat_out_of_plane(cell);
+    if (impl_->finite.stretch(cell) && impl_->sweeps.bears_nothing(cell)) return 0.0;
+    if (const WarmEnergy<Dim>* warm = impl_->finite.warm_energy(cell))
+        return warm->out_of_plane_stress(impl_->sweeps.law_gradient(cell));
     if (impl_->arrays.directed.contains(cell))
         return impl_->sweeps.directed_out_of_plane_stress(cell) - impl_->sweeps.heat_out_of_plane(cell);
     if (const std::int32_t inelastic = impl_->finite.inelastic(cell); inelastic >= 0)

@@ -30,11 +30,9 @@ FiniteCells<Dim>::FiniteCells(const mesh::Mesh<Dim>& mesh, const FaceConditions<
                               std::span<const Kinematics> kinematics, const FiniteOptions<Dim>& options) {
     if (!any_body(kinematics, &KinematicsProperties::finite_strains)) return;
     takes_ends_ = options.mean_force != MeanForce::discrete_gradient;
-    if (std::ranges::any_of(options.stored_energy, [](const auto& law) { return law != nullptr; })) {
-        laws_ = options.stored_energy;
-        for (const std::int32_t body : mesh.cell_body) law_.push_back(laws_[static_cast<std::size_t>(body)].get());
-    }
     position_.assign(static_cast<std::size_t>(mesh.n_cells()), linear);
+    if (std::ranges::any_of(options.stored_energy, [](const auto& law) { return law != nullptr; }))
+        set_elastic(mesh, options);
     for (std::int32_t c = 0; c < mesh.n_cells(); ++c)
         if (properties_of(kinematics[static_cast<std::size_t>(mesh.cell_body[c])]).finite_strains) position_[c] = inside;
     std::vector<std::vector<Vector<Dim>>> normals(position_.size());
@@ -55,18 +53,48 @@ FiniteCells<Dim>::FiniteCells(const mesh::Mesh<Dim>& mesh, const FaceConditions<
     if (std::ranges::any_of(options.inelastic, [](const auto& law) { return law != nullptr; })) set_inelastic(mesh, options);
 }
 
+/// That of its body; where this is warm a copy, so that each cell has its own temperature.
+template <int Dim>
+template <class WarmLaw, class Law>
+const Law* FiniteCells<Dim>::law_of_cell(std::int32_t cell, const Law* of_body,
+                                         std::vector<std::unique_ptr<WarmLaw>>& warm_laws) {
+    const auto* warm = dynamic_cast<const WarmLaw*>(of_body);
+    if (!warm) return of_body;
+    stretch_.resize(position_.size(), nullptr);
+    warm_laws.push_back(warm->copy());
+    stretch_[static_cast<std::size_t>(cell)] = &warm_laws.back()->stretch();
+    return warm_laws.back().get();
+}
+
+template <int Dim>
+void FiniteCells<Dim>::set_elastic(const mesh::Mesh<Dim>& mesh, const FiniteOptions<Dim>& options) {
+    laws_ = options.stored_energy;
+    for (const auto& law : laws_) any_warm_ = any_warm_ || dynamic_cast<const WarmEnergy<Dim>*>(law.get());
+    for (std::int32_t c = 0; c < mesh.n_cells(); ++c)
+        law_.push_back(law_of_cell(c, laws_[static_cast<std::size_t>(mesh.cell_body[c])].get(), warm_energies_));
+}
+
+template <int Dim>
+void FiniteCells<Dim>::set_temperature(std::span<const double> rise) const {
+    for (std::size_t c = 0; c < stretch_.size(); ++c)
+        if (stretch_[c]) stretch_[c]->set_rise(rise.empty() ? 0.0 : rise[c]);
+}
+
 template <int Dim>
 void FiniteCells<Dim>::set_inelastic(const mesh::Mesh<Dim>& mesh, const FiniteOptions<Dim>& options) {
     inelastic_laws_ = options.inelastic;
+    for (const auto& law : inelastic_laws_) any_warm_ = any_warm_ || dynamic_cast<const WarmInelastic<Dim>*>(law.get());
     inelastic_index_.assign(position_.size(), -1);
     std::ptrdiff_t begin = 0;
     for (std::int32_t c = 0; c < mesh.n_cells(); ++c) {
-        const InelasticLaw<Dim>* law = inelastic_laws_[static_cast<std::size_t>(mesh.cell_body[c])].get();
-        if (!law) continue;
+        const InelasticLaw<Dim>* of_body = inelastic_laws_[static_cast<std::size_t>(mesh.cell_body[c])].get();
+        if (!of_body) continue;
+        const InelasticLaw<Dim>* law = law_of_cell(c, of_body, warm_inelastic_);
+        const std::type_info* kind = stretch(c) ? &typeid(warm_inelastic_.back()->law()) : &typeid(*law);
         const auto size = static_cast<std::int32_t>(law->initial_memory().size());
         const std::ptrdiff_t end = begin + size + (free_position(c) >= 0 ? Dim * Dim : 0);
         inelastic_index_[c] = static_cast<std::int32_t>(inelastic_.size());
-        inelastic_.push_back({law, c, size, begin, end});
+        inelastic_.push_back({law, kind, c, size, begin, end});
         begin = end;
     }
 }

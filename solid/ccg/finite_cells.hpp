@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <typeinfo>
 #include <vector>
 
 #include "abut/mesh/mesh.hpp"
@@ -11,6 +12,7 @@
 #include "abut/solid/ccg/finite_options.hpp"
 #include "abut/solid/kinematics/kinematics.hpp"
 #include "abut/solid/material/stored_energy.hpp"
+#include "abut/solid/material/warm_laws.hpp"
 
 namespace abut::solid {
 
@@ -31,6 +33,11 @@ public:
     [[nodiscard]] bool any_law() const { return !laws_.empty() || any_inelastic(); }
     /// Whether a cell has one of these; false: its material is St. Venant and Kirchhoff's.
     [[nodiscard]] bool has_law(std::ptrdiff_t cell) const { return elastic_law(cell) || inelastic(cell) >= 0; }
+    /// Whether its material is St. Venant and Kirchhoff's, warm or not: for strains that are not large.
+    [[nodiscard]] bool is_linear_in_strain(std::ptrdiff_t cell) const {
+        const WarmEnergy<Dim>* warm = warm_energy(cell);
+        return warm ? warm->is_linear_in_strain() : !has_law(cell);
+    }
     /// The stored energy of a cell; null where its material is inelastic or St. Venant and Kirchhoff's.
     [[nodiscard]] const StoredEnergy<Dim>* elastic_law(std::ptrdiff_t cell) const {
         return laws_.empty() ? nullptr : law_[static_cast<std::size_t>(cell)];
@@ -46,6 +53,7 @@ public:
     /// By this index.
     struct Inelastic {
         const InelasticLaw<Dim>* law;
+        const std::type_info* kind;  // of the law, of space where the cell is warm
         std::int32_t cell;
         std::int32_t size;     // of z
         std::ptrdiff_t begin;  // of the memory of the cell: z, and where it has free faces their LeastEnergy::shape
@@ -54,6 +62,18 @@ public:
     [[nodiscard]] const Inelastic& inelastic_cell(std::int32_t index) const {
         return inelastic_[static_cast<std::size_t>(index)];
     }
+    /// Whether a body has a WarmEnergy or a WarmInelastic, on any rank.
+    [[nodiscard]] bool any_warm() const { return any_warm_; }
+    /// A of a cell of such a body; null: it is none.
+    [[nodiscard]] const ThermalStretch* stretch(std::ptrdiff_t cell) const {
+        return stretch_.empty() ? nullptr : stretch_[static_cast<std::size_t>(cell)];
+    }
+    /// The law of a cell that is warm and elastic; null: it is not.
+    [[nodiscard]] const WarmEnergy<Dim>* warm_energy(std::ptrdiff_t cell) const {
+        return stretch(cell) && inelastic(cell) < 0 ? static_cast<const WarmEnergy<Dim>*>(elastic_law(cell)) : nullptr;
+    }
+    /// From now on the laws of warm cells answer for this rise of the temperature of each cell (n_cells); empty: 0 [K].
+    void set_temperature(std::span<const double> rise) const;
     /// The memory of all cells that nothing has happened to.
     [[nodiscard]] std::vector<double> initial_memory() const;
     [[nodiscard]] bool contains(std::ptrdiff_t cell) const {
@@ -72,7 +92,11 @@ public:
     }
 
 private:
+    void set_elastic(const mesh::Mesh<Dim>& mesh, const FiniteOptions<Dim>& options);
     void set_inelastic(const mesh::Mesh<Dim>& mesh, const FiniteOptions<Dim>& options);
+    template <class WarmLaw, class Law>
+    [[nodiscard]] const Law* law_of_cell(std::int32_t cell, const Law* of_body,
+                                         std::vector<std::unique_ptr<WarmLaw>>& warm_laws);
 
     static constexpr std::int32_t linear = -2, inside = -1;
 
@@ -84,6 +108,10 @@ private:
     std::vector<std::shared_ptr<const InelasticLaw<Dim>>> inelastic_laws_;
     std::vector<std::int32_t> inelastic_index_;  // of each cell; empty without any
     std::vector<Inelastic> inelastic_;
+    bool any_warm_ = false;
+    std::vector<ThermalStretch*> stretch_;  // of each cell; empty without any
+    std::vector<std::unique_ptr<WarmEnergy<Dim>>> warm_energies_;
+    std::vector<std::unique_ptr<WarmInelastic<Dim>>> warm_inelastic_;
 };
 
 }  // namespace abut::solid

@@ -49,6 +49,8 @@ Matrix<Dim> CcgSweeps<Dim, Real>::law_gradient(std::int32_t c) const {
 template <int Dim, class Real>
 CellStretch CcgSweeps<Dim, Real>::end_stretch(std::int32_t c) const {
     const CellGeometry<Dim, Real>& cell = coefficients_.cells[c];
+    if (const ThermalStretch* stretch = finite_.stretch(c))
+        return cell_stretch<3>(stretch->elastic_gradient<Dim>(law_gradient(c)));
     if (finite_.has_law(c)) return cell_stretch<Dim>(law_gradient(c));
     LaneTensor<Dim, Real> g = load_tensor<Dim>(g_, c);
     const LaneTensor<Dim, Real> change = load_tensor<Dim>(g_change_, c);
@@ -77,7 +79,7 @@ FiniteExtremes CcgSweeps<Dim, Real>::finite_extremes(std::span<const std::int32_
             const std::int32_t inelastic = finite_.inelastic(c);
             const double plastic =
                 inelastic < 0 ? 0.0 : finite_.inelastic_cell(inelastic).law->plastic_strain(kept_.end.memory->of(inelastic));
-            take(of_part[begin / parallel_grain], {determinant, finite_.has_law(c) ? 0.0 : strain, c, plastic});
+            take(of_part[begin / parallel_grain], {determinant, finite_.is_linear_in_strain(c) ? strain : 0.0, c, plastic});
         }
     });
     FiniteExtremes extremes;
@@ -105,8 +107,7 @@ double CcgSweeps<Dim, Real>::directed_out_of_plane_stress(std::int32_t c) const 
     Matrix<Dim> strain = displacement_gradient(c);
     double volume = 1.0;
     if (finite_.contains(c)) {
-        const std::int32_t position = finite_.free_position(c);
-        if (position >= 0 && finite_.free()[static_cast<std::size_t>(position)].n_tangents == 0) return 0.0;
+        if (bears_nothing(c)) return 0.0;
         const Matrix<Dim> g = law_gradient(c);
         strain = g + 0.5 * g.transpose() * g;
         volume = (Matrix<Dim>::Identity() + g).determinant();

@@ -165,7 +165,10 @@ void CcgSweeps<Dim, Real>::set_finite_displacement_gradient(std::int32_t c) {
     if (const StoredEnergy<Dim>* law = this->law(c)) {
         state.has_law = true;
         if (inelastic < 0) {
-            const Matrix<Dim> shape = LeastEnergy<Dim>::linear_shape(free, contraction(cell.lambda, cell.mu), unload(g));
+            const double of_plane = contraction(cell.lambda, cell.mu);
+            const ThermalStretch* stretch = finite_.stretch(c);
+            const Matrix<Dim> shape = stretch ? LeastEnergy<Dim>::warm_shape(free, of_plane, unload(g), *stretch)
+                                              : LeastEnergy<Dim>::linear_shape(free, of_plane, unload(g));
             state.least = LeastEnergy<Dim>(free, *law, unload(g), shape);
         } else if (!advances_ || flows_[static_cast<std::size_t>(inelastic)] != as_it_was) {
             state.least = LeastEnergy<Dim>(free, *law, unload(g), here().memory->shape(inelastic));
@@ -268,6 +271,7 @@ void CcgSweeps<Dim, Real>::take_ends(const StepEnds<Dim>& ends) {
     end_element_ = element_;
     end_element_.tables.load_displacement = plain<double>(end_load.displacement);
     kept_.end.load_displacement = end_load.displacement;
+    if (finite_.any_warm()) kept_.end.temperature = end_load.temperature;
     kept_.end.is_set = true;
     kept_.clear_contact();
     keeps_ = &kept_.end;
@@ -307,6 +311,7 @@ template <int Dim, class Real>
 bool CcgSweeps<Dim, Real>::is_kept(const KeptEnd<Dim>& kept, std::span<const Vector<Dim>> u,
                                    const BoundaryLoad<Dim>& load) const {
     if (!kept.is_set || kept.load_displacement != load.displacement) return false;
+    if (finite_.any_warm() && kept.temperature != load.temperature) return false;
     std::atomic<bool> same = true;
     parallel_tasks(static_cast<std::int32_t>(chunks_.size()) - 1, [&](std::int32_t k) {
         if (!chunks_[k].has_finite) return;
@@ -336,6 +341,7 @@ void CcgSweeps<Dim, Real>::set_start(std::span<const Vector<Dim>> u, const Bound
     each_chunk([&](std::int32_t k) { displacement_gradients_of_chunk(k); });
     each_chunk([&](std::int32_t k) { stresses_of_chunk(k); });
     keeps_->load_displacement = load.displacement;
+    if (finite_.any_warm()) keeps_->temperature = load.temperature;
     keeps_->is_set = true;
 }
 

@@ -64,6 +64,7 @@ struct KeptEnd {
     std::vector<FreeEnd<Dim>> free;              // by position in FiniteCells::free
     LargeArray<double> energy, stress;           // by cell, with a StoredEnergy: W, P; empty without any
     std::vector<Vector<Dim>> load_displacement;  // BoundaryLoad::displacement
+    std::vector<double> temperature;             // BoundaryLoad::temperature; empty where no finite body is warm
     std::unique_ptr<CellMemory<Dim>> memory;
     bool is_set = false;
 
@@ -71,7 +72,7 @@ struct KeptEnd {
 };
 
 /// Both ends of a step. The end of one is the start of the next, as long as displacements are the same: nothing is evaluated
-/// twice. Displacements say all of it, except what inelastic materials remember.
+/// twice. Displacements and temperatures say all of it, except what inelastic materials remember.
 template <int Dim>
 class KeptEnds {
 public:

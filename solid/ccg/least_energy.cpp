@@ -45,6 +45,19 @@ Matrix<Dim> LeastEnergy<Dim>::linear_shape(const FreeCell<Dim>& free, double con
     return std::sqrt(std::max(first_square, square)) * Matrix<Dim>::Identity();
 }
 
+/// As the linear material has F A^-1, in plane strain with its stretch out of the plane.
+template <int Dim>
+Matrix<Dim> LeastEnergy<Dim>::warm_shape(const FreeCell<Dim>& free, double contraction, const Matrix<Dim>& g,
+                                         const ThermalStretch& stretch) {
+    const Matrix<3> elastic = Matrix<3>::Identity() + stretch.elastic_gradient<Dim>(g);
+    const Matrix<Dim> y = elastic.template topLeftCorner<Dim, Dim>() * free.axes;
+    double square = 1.0 + contraction * free.n_tangents;
+    for (int k = 0; k < free.n_tangents; ++k) square -= contraction * y.col(k).squaredNorm();
+    if (Dim == 2) square += contraction * (1.0 - elastic(2, 2) * elastic(2, 2));
+    const Matrix<Dim> warm = stretch.tensor().template topLeftCorner<Dim, Dim>();
+    return std::sqrt(std::max(first_square, square)) * free.axes.transpose() * warm * free.axes;
+}
+
 template <int Dim>
 LeastEnergy<Dim>::LeastEnergy(const FreeCell<Dim>& free, const StoredEnergy<Dim>& law, const Matrix<Dim>& g,
                               const Matrix<Dim>& shape)

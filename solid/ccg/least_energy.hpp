@@ -4,6 +4,7 @@
 
 #include "abut/solid/ccg/finite_cell.hpp"
 #include "abut/solid/material/stored_energy.hpp"
+#include "abut/solid/material/thermal_stretch.hpp"
 
 namespace abut::solid {
 
@@ -17,6 +18,9 @@ public:
     LeastEnergy(const FreeCell<Dim>& free, const StoredEnergy<Dim>& law, const Matrix<Dim>& g, const Matrix<Dim>& shape);
     /// `shape` as the linear material has it.
     [[nodiscard]] static Matrix<Dim> linear_shape(const FreeCell<Dim>& free, double contraction, const Matrix<Dim>& g);
+    /// The same of a cell that is warm.
+    [[nodiscard]] static Matrix<Dim> warm_shape(const FreeCell<Dim>& free, double contraction, const Matrix<Dim>& g,
+                                                const ThermalStretch& stretch);
 
     /// F - I at the minimum.
     [[nodiscard]] const Matrix<Dim>& gradient() const { return gradient_; }

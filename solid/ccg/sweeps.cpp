@@ -83,6 +83,7 @@ void CcgSweeps<Dim, Real>::set_load(const BoundaryLoad<Dim>& load) {
     element_.tables.load_displacement = plain<double>(load.displacement);
     element_.tables.traction = plain<double>(load.traction);
     temperature_ = load.temperature;
+    if (finite_.any_warm()) finite_.set_temperature(temperature_);
 }
 
 template <int Dim, class Real>

@@ -105,6 +105,11 @@ public:
     }
     [[nodiscard]] Matrix<Dim> displacement_gradient(std::int32_t c) const { return unload(present_gradient(c)); }
     [[nodiscard]] Matrix<Dim> stress(std::int32_t c) const;
+    /// Whether a cell of a finite body has free faces in all directions, and with them no energy.
+    [[nodiscard]] bool bears_nothing(std::int32_t c) const {
+        const std::int32_t position = finite_.free_position(c);
+        return position >= 0 && finite_.free()[static_cast<std::size_t>(position)].n_tangents == 0;
+    }
     /// Of a cell of DirectedCells in the plane: Cauchy's stress out of it.
     [[nodiscard]] double directed_out_of_plane_stress(std::int32_t c) const;
     /// Of any cell in the plane: what heat takes of the stress out of it.

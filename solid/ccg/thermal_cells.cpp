@@ -12,21 +12,30 @@ namespace abut::solid {
 namespace {
 
 /// Beyond it strains are not small; a coefficient that lacks its power of ten is far beyond.
-constexpr double largest_thermal_strain = 0.1;
+constexpr double largest_linear_strain = 0.1;
+/// Less than what would turn a cell inside out.
+constexpr double largest_finite_strain = 0.5;
 
 }  // namespace
 
 template <int Dim>
 ThermalCells<Dim>::ThermalCells(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials,
-                                std::span<const TemperatureRise<Dim>> temperature)
+                                std::span<const TemperatureRise<Dim>> temperature, const FiniteCells<Dim>& finite)
     : mesh_name_(mesh.name),
       body_(mesh.cell_body.begin(), mesh.cell_body.end()),
       label_(mesh.cell_label.begin(), mesh.cell_label.end()),
       centroid_(mesh.cell_centroid.begin(), mesh.cell_centroid.end()) {
+    of_body_.resize(materials.size());
+    for (std::size_t c = 0; c < body_.size(); ++c)
+        if (finite.contains(static_cast<std::ptrdiff_t>(c))) of_body_[static_cast<std::size_t>(body_[c])].is_finite = true;
     for (std::size_t body = 0; body < materials.size(); ++body) {
-        OfBody& of = of_body_.emplace_back();
+        OfBody& of = of_body_[body];
         of.rise = temperature[body];
         if (!of.rise.value) continue;
+        const Material& material = materials[body];
+        of.strain = std::max({std::abs(material.thermal_expansion), std::abs(material.thermal_expansion_2),
+                              std::abs(material.thermal_expansion_3)});
+        if (of.is_finite) continue;
         const Matrix<3> strain = thermal_strain(materials[body]);
         const Matrix<3> stress = 2.0 * materials[body].mu() * strain +
                                  materials[body].lambda() * strain.trace() * Matrix<3>::Identity() +
@@ -34,9 +43,6 @@ ThermalCells<Dim>::ThermalCells(const mesh::Mesh<Dim>& mesh, std::span<const Mat
         of.stress = stress.template topLeftCorner<Dim, Dim>();
         of.out_of_plane = stress(2, 2);
         of.twice_energy = stress.cwiseProduct(strain).sum();
-        const Material& material = materials[body];
-        of.strain = std::max({std::abs(material.thermal_expansion), std::abs(material.thermal_expansion_2),
-                              std::abs(material.thermal_expansion_3)});
     }
 }
 
@@ -55,13 +61,14 @@ std::vector<double> ThermalCells<Dim>::rise_at(double time) const {
             throw BadInput(mesh_name_ + ": the rise of the temperature of cell " + std::to_string(label_[c]) +
                                " is not finite. Correct SolidOptions::temperature_rise.",
                            {.cell = static_cast<std::int32_t>(c)});
-        if (const double strain = of.strain * std::abs(rise.back()); strain > largest_thermal_strain)
+        const double allowed = of.is_finite ? largest_finite_strain : largest_linear_strain;
+        if (const double strain = of.strain * std::abs(rise.back()); strain > allowed)
             throw BadInput(mesh_name_ + ": cell " + std::to_string(label_[c]) + " is " + number(rise.back()) +
                                " K warmer at t = " + number(time) + " s, a thermal strain of " + number(strain) + "; " +
-                               number(largest_thermal_strain) +
-                               " is allowed, as strains are linear here. Correct SolidOptions::temperature_rise or the "
+                               number(allowed) + " is allowed" + (of.is_finite ? "" : ", as strains are linear here") +
+                               ". Correct SolidOptions::temperature_rise or the "
                                "thermal_expansion of its material, which is in 1/K.",
-                           {.cell = static_cast<std::int32_t>(c), .value = strain, .allowed = largest_thermal_strain});
+                           {.cell = static_cast<std::int32_t>(c), .value = strain, .allowed = allowed});
     }
     return rise;
 }

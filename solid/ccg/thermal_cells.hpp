@@ -6,16 +6,18 @@
 #include <vector>
 
 #include "abut/mesh/mesh.hpp"
+#include "abut/solid/ccg/finite_cells.hpp"
 #include "abut/solid/ccg/temperature.hpp"
 #include "abut/solid/material/material.hpp"
 
 namespace abut::solid {
 
-/// What heat does in the cells of bodies whose strains are linear: with the thermal strain a T per volume a cell stores
+/// How warm cells are, and what that does where strains are linear: with the thermal strain a T per volume a cell stores
 ///
 ///     1/2 (eps - a T) : C : (eps - a T)
 ///
-/// T being the rise of its temperature, constant in it, and a the tensor of Material::thermal_expansion. docs/method.md, Temperature.
+/// T being the rise of its temperature, constant in it, and a the tensor of Material::thermal_expansion. Cells of bodies of
+/// Kinematics::finite have a ThermalStretch. docs/method.md, Temperature.
 template <int Dim>
 class ThermalCells {
 public:
@@ -23,11 +25,11 @@ public:
     ThermalCells() = default;
     /// One material and one field per body.
     ThermalCells(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials,
-                 std::span<const TemperatureRise<Dim>> temperature);
+                 std::span<const TemperatureRise<Dim>> temperature, const FiniteCells<Dim>& finite);
 
     [[nodiscard]] bool any() const { return !of_body_.empty(); }
     [[nodiscard]] bool varies() const;
-    /// T of all cells at a time [K]. Throws BadInput where it is not finite, or strains by more than 0.1.
+    /// T of all cells at a time [K]. Throws BadInput where it is not finite, or strains by more than 0.1, of finite bodies 0.5.
     [[nodiscard]] std::vector<double> rise_at(double time) const;
     /// C : a of a cell, which stress is less by per kelvin [Pa/K].
     [[nodiscard]] const Matrix<Dim>& stress(std::ptrdiff_t cell) const { return of_cell(cell).stress; }
@@ -44,6 +46,7 @@ private:
         Matrix<Dim> stress = Matrix<Dim>::Zero();
         double out_of_plane = 0.0, twice_energy = 0.0;
         double strain = 0.0;  // largest along an axis
+        bool is_finite = false;
         TemperatureRise<Dim> rise;
     };
     [[nodiscard]] const OfBody& of_cell(std::ptrdiff_t cell) const {

@@ -46,7 +46,7 @@ inline constexpr std::array<CapabilityRow, 14> capabilities{{
     {Capability::bond, "bond",                                                      {true, true, true, false}, "bonds pull at faces through the cells behind them"},
     {Capability::large_strains, "law of large strains",                             {false, false, true, true}, "strains are linear; a rigid body has none, whatever its law"},
     {Capability::flow, "metal that yields",                                         {true, true, true, false}, "nothing deforms"},
-    {Capability::temperature, "temperature",                                        {true, true, false, false}, "thermal strain is added to linear ones; rigid bodies have none"},
+    {Capability::temperature, "temperature",                                        {true, true, true, false}, "nothing deforms"},
     {Capability::damping, "damping and viscosity of the material",                  {true, true, true, false}, "nothing deforms"},
     {Capability::rest, "state at rest that is sought",                              {true, false, true, false}, "the search knows no turns of frames and of rigid bodies"},
     {Capability::loaded_rest, "the same under tractions or moments",                {true, false, false, false}, "forces that turn with faces have no potential"},

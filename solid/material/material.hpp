@@ -70,7 +70,7 @@ struct Material {
     /// simplices and 0.3 elsewhere, none in finite bodies that contact may push.
     double jump_cap = 0.0;
 
-    // Of small and floating bodies whose temperature is given (SolidOptions::temperature_rise).
+    // Of bodies that deform whose temperature is given (SolidOptions::temperature_rise).
     double thermal_expansion = 0.0;    ///< alpha [1/K]; of MaterialLaw::orthotropic along axis 1
     double thermal_expansion_2 = 0.0;  ///< of MaterialLaw::orthotropic along axis 2 [1/K]
     double thermal_expansion_3 = 0.0;  ///< the same along axis 3, in 2D out of the plane

@@ -46,7 +46,7 @@ struct SolidOptions {
     std::vector<Vector<Dim>> acceleration;  ///< of gravity, one per body [m/s^2]; empty: none
     std::function<Vector<Dim>(const Vector<Dim>& position)>
         body_load;  ///< force density [N/m^3], constant in time; empty: none
-    /// One per body, of those that are small or floating; empty: none
+    /// One per body, of those that deform; empty: none
     std::vector<TemperatureRise<Dim>> temperature_rise = {};
     std::vector<Spring<Dim>> springs;
     std::vector<BodyMoment<Dim>> moments;

@@ -407,6 +407,13 @@ class Runs(unittest.TestCase):
         bar = solid.structured_box((0, 0), (1, 0.5), (4, 2), name="bar")
         free = solid.simulate(bar, [material], [(0, 0)], temperature_rise={"bar": 80}, rollers=["xmin", "ymin"], time=30.0)
         np.testing.assert_allclose(free.displacement, 1.25 * 80e-5 * bar.centroids, rtol=0, atol=1e-12)
+        # rubber of finite strains in space, held by nothing: 1 + alpha T in all directions
+        rubber = solid.Material(young=2.0, poisson=0.25, density=1.0, law="neo_hookean", thermal_expansion=1e-3, mass_damping=1.0)
+        block = solid.structured_box((0, 0, 0), (1, 0.8, 0.8), (5, 4, 4), name="block")
+        hot = solid.simulate(block, [rubber], [(0, 0, 0)], kinematics="finite", time=60.0,
+                             temperature_rise={"block": lambda t, x: 150.0 * (1.0 - np.cos(np.pi * min(t / 20.0, 1.0)))})
+        arms = block.centroids - block.centroids.mean(axis=0)
+        np.testing.assert_allclose(hot.displacement, 0.3 * arms, rtol=0, atol=1e-6)
         rises = []
 
         def rise(t, x):

@@ -110,6 +110,13 @@ std::vector<Given> all_given() {
          {},
          {{"thermal_expansion", 1e-5}},
          {},
+         100.0},
+        {"hot rubber",
+         with(of(MaterialLaw::neo_hookean), {{"thermal_expansion", 1e-3}}),
+         Kinematics::finite,
+         {{"law", "neo_hookean"}, {"kinematics", "finite"}},
+         {{"thermal_expansion", 1e-3}},
+         {},
          100.0}};
 }
 

@@ -115,7 +115,7 @@ TEST_CASE("a body takes the constants and axes of an orthotropic material, and a
         return input::text_of(checked.faults);
     };
     CHECK(fault_of("bodies.block.axis_2=[0, 1, 0]").find("cosine between axis_1 and axis_2") != std::string::npos);
-    CHECK(fault_of("bodies.block.kinematics=finite").find("temperature") != std::string::npos);
+    CHECK(fault_of("bodies.block.kinematics=rigid").find("temperature") != std::string::npos);
 }
 
 TEST_CASE("a material of the scene goes before the known one of its name", "[input][materials]") {

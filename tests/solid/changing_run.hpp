@@ -125,8 +125,9 @@ struct NamedOptions {
 
 /// Bodies whose temperature varies in place and time.
 template <int Dim>
-SolidOptions<Dim> warming() {
-    SolidOptions<Dim> options = falling<Dim>({Kinematics::floating, Kinematics::floating});
+SolidOptions<Dim> warming(Kinematics kinematics) {
+    SolidOptions<Dim> options =
+        kinematics == Kinematics::finite ? of_metal<Dim>(kinematics) : falling<Dim>({kinematics, kinematics});
     for (solid::Material& material : options.materials) material.thermal_expansion = 0.01;
     const auto swing = [](double t, const Vector<Dim>& x) { return (1.0 + 0.3 * x[0]) * std::sin(2.0 * t); };
     options.temperature_rise.assign(2, {.value = swing, .varies = true});
@@ -151,7 +152,8 @@ std::vector<NamedOptions<Dim>> all_that_remembers() {
             {"friction on nodes", rubbing<Dim>(solid::ContactLaw::pair_potential)},
             {"friction on faces", rubbing<Dim>(solid::ContactLaw::reconstruction)},
             {"bodies that touch themselves", touching_itself<Dim>()},
-            {"temperatures", warming<Dim>()}};
+            {"temperatures", warming<Dim>(floating)},
+            {"temperatures of finite metal", warming<Dim>(finite)}};
 }
 
 /// Two blocks that are bonded, and pull.

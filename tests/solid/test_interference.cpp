@@ -90,6 +90,33 @@ TEST_CASE("a ring that is pressed on a shaft has Lame's pressure within 2 %", "[
     CHECK(largest == Approx(expected).epsilon(0.02));
 }
 
+TEST_CASE("a shaft that is warmed in a ring has Lame's pressure of the overlap (1 + nu) alpha T within 2 %",
+          "[solid][interference][thermal]") {
+    // In plane strain. Both fit at the start; strains of finite bodies are small.
+    const auto kinematics = GENERATE(Kinematics::small, Kinematics::floating, Kinematics::finite);
+    Material shaft{.young = 0.5, .poisson = 0.2, .density = 1.0, .mass_damping = 1.0},
+        ring{.young = 1.0, .poisson = 0.3, .density = 1.0, .mass_damping = 1.0};
+    shaft.thermal_expansion = overlap / seat / (1.0 + shaft.poisson) / 100.0;
+    const auto mesh = together(annulus(bore, seat, 48, 8, "shaft"), annulus(seat, outside, 48, 12, "ring"));
+    auto options = resolving({shaft, ring}, 1.0, kinematics);
+    options.interference.clear();
+    options.temperature_rise = {{.value =
+                                     [](double t, const Vector<2>&) {
+                                         const double share = std::min(1.0, t / 20.0);
+                                         return 100.0 * share * share * (3.0 - 2.0 * share);
+                                     },
+                                 .varies = true},
+                                {}};
+    TurningScene<2> scene(mesh, options, std::vector<Motion<2>>(2), 0.6, std::vector(2, kinematics));
+    scene.run_until(45.0);
+    CHECK(scene.solid.contact().report().missed_contacts == 0);
+    CHECK(scene.ledger.pseudo_energy_drift() <= 1e-12 * scene.ledger.largest_energy());
+    const double expected = pressure_of(shaft, ring);
+    CAPTURE(static_cast<int>(kinematics), expected);
+    for (const double p : scene.solid.contact_at(scene.memm.q()).field().pressure)
+        if (p > 0.0) CHECK(p == Approx(expected).epsilon(0.02));
+}
+
 TEST_CASE("interference is work from outside: H~ less that work, momentum and J~ are kept", "[solid][interference]") {
     const auto kinematics = GENERATE(Kinematics::small, Kinematics::floating, Kinematics::finite);
     CAPTURE(static_cast<int>(kinematics));
