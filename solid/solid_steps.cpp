@@ -207,17 +207,25 @@ void Solid<Dim>::require_start(double time, double dt) const {
 template <int Dim>
 void Solid<Dim>::follow_loads(std::span<const Vector<Dim>> q_0, double time, double dt) {
     if (!loads_->vary()) return;
-    double change = 0.0, held_change = 0.0;  // of V, and of what it has less for loads from outside
-    const auto follow_jump = [&] {
+    using Jump = typename Loads<Dim>::Jump;
+    double held_change = 0.0;  // of what V has less for loads from outside
+    const auto follow_jump = [&](Jump jump) {
         if (contact_) contact_->follow_jump(q_0, time);
-        held_change = outside_->held_change(q_0);
+        if (!outside_->any()) return;
+        held_change = jump == Jump::tractions ? outside_->held_change(q_0) : outside_->held_change_of_heat(q_0);
     };
-    const bool tractions_jump = loads_->begin_step(
-        time, dt, [&] { return potential_here(q_0); }, follow_jump, change);
-    if (!tractions_jump) return;
+    const auto book = [&](Jump jump, double change) {
+        work_ += change;
+        if (!outside_->any()) return;
+        if (jump == Jump::tractions)
+            outside_->add_change(change + held_change);
+        else
+            outside_->add_heat(change, held_change);
+    };
+    const bool any_jumps = loads_->begin_step(
+        time, dt, outside_->any(), [&] { return potential_here(q_0); }, follow_jump, book);
+    if (!any_jumps) return;
     if (frame_loads_->any()) frame_loads_->take(loads_->end());
-    work_ += change;
-    if (outside_->any()) outside_->add_change(change + held_change);
     if (contact_) contact_->jumped(q_0, time);
 }
 

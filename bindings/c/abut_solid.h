@@ -66,9 +66,9 @@ ABUT_API int abut_solid_set_number(abut_solid* solid, const char* body, const ch
 ABUT_API int abut_solid_set_text(abut_solid* solid, const char* body, const char* key, const char* text, abut_error* error);
 ABUT_API int abut_solid_set_numbers(abut_solid* solid, const char* body, const char* key, const double* numbers, int64_t n,
                                     abut_error* error);
-/* Temperature of a body above its stress-free one [K], as a function of time and of the position at rest. The body is small or floating,
-   its material has a "thermal_expansion", and no group of the solid is loaded from outside. `rise` is called by the thread that calls
-   `abut_solid_begin` and `_step`: once, with time 0, or if `varies` is not 0 with the time at which each step starts. `rise` and `user`
+/* Temperature of a body above its stress-free one [K], as a function of time and of the position at rest. The body deforms,
+   and its material has a "thermal_expansion". `rise` is called by the thread that calls `abut_solid_begin` and `_step`, and by
+   `abut_solid_faces` for `motion`: once, with time 0, or if `varies` is not 0 with the time at which each step starts. `rise` and `user`
    must stay valid until `abut_solid_destroy`. */
 ABUT_API int abut_solid_set_temperature(abut_solid* solid, const char* body,
                                         double (*rise)(double time, const double* position, void* user), int32_t varies,
@@ -128,8 +128,8 @@ ABUT_API int abut_solid_set_step(abut_solid* solid, double dt, int32_t change, a
 /* After ABUT_TOO_DEEP or ABUT_DIVERGED the run is over. */
 ABUT_API int abut_solid_step(abut_solid* solid, abut_error* error);
 
-/* H~ + work_held + dissipated = its start + work_steps + work_changes + restart_jumps, to round-off; where temperatures vary, and nothing
-   is loaded from outside, H~ + dissipated = its start + "work" (abut_solid_get_number) + restart_jumps. */
+/* H~ + work_held + dissipated = its start + work_steps + work_changes + work_heat + restart_jumps, to round-off; and also
+   H~ + dissipated = its start + "work" (abut_solid_get_number) + restart_jumps, whatever acts. */
 typedef struct abut_solid_state {
     size_t struct_size;
     int64_t steps;
@@ -139,7 +139,7 @@ typedef struct abut_solid_state {
     double pseudo_energy; /* H~, less the work of the loads that act */
     double energy;        /* H, the same */
     double kinetic;
-    double work_steps;   /* of the tractions: area traction . motion, over all faces and steps */
+    double work_steps;   /* of the tractions: area traction . motion, over all faces and steps, and where heat moves faces */
     double work_changes; /* what half-cells behind the faces take in where tractions change */
     double work_held;    /* what H~ has less for the tractions that act */
     double restart_jumps;
@@ -151,9 +151,10 @@ typedef struct abut_solid_state {
     int64_t sticking_faces;  /* in the last step */
     int64_t sliding_faces;
     double broken_bonds; /* the part of the area of all bonds that is broken; 0 without bonds */
+    double work_heat;    /* of temperatures that vary, less what they make the tractions do */
 } abut_solid_state;
 #define ABUT_SOLID_STATE_INIT \
-    {sizeof(abut_solid_state), 0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0, 0, 0.0, 0.0, 0, 0, 0.0}
+    {sizeof(abut_solid_state), 0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0, 0, 0.0, 0.0, 0, 0, 0.0, 0.0}
 /* Costs about two forces. */
 ABUT_API int abut_solid_get_state(abut_solid* solid, abut_solid_state* state, abut_error* error);
 /* A number of the ledger by the name of its column in energy.csv (docs/results.md): "work", "dissipated_in_cells", "linear_momentum_x",

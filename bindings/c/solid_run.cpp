@@ -231,7 +231,8 @@ void SolidRun<Dim>::write_state(abut_solid_state& state) {
              .friction_energy = entry.friction_energy,
              .sticking_faces = entry.sticking_faces,
              .sliding_faces = entry.sliding_faces,
-             .broken_bonds = solid.bonds().broken_share()};
+             .broken_bonds = solid.bonds().broken_share(),
+             .work_heat = work.heat};
 }
 
 template <int Dim>

@@ -177,7 +177,7 @@ public:
     [[nodiscard]] py::dict outside_work() const {
         const bindings::Use use(in_use_, run_in_use);
         const solid::OutsideWork work = run_->solid().outside_work(run_->memm().q());
-        return py::dict("steps"_a = work.steps, "changes"_a = work.changes, "held"_a = work.held);
+        return py::dict("steps"_a = work.steps, "changes"_a = work.changes, "held"_a = work.held, "heat"_a = work.heat);
     }
     void record() {
         const bindings::Use use(in_use_, run_in_use);
@@ -333,7 +333,7 @@ void add_dimension(py::module_& module, const std::string& suffix) {
              "traction [Pa] as set last, motion [m]: how far the centroids go in the next step, whatever the traction.")
         .def_property_readonly("outside_work", &Memm<Dim>::outside_work,
                                "[J]: steps, sum of area traction . motion; changes, what the bodies take in where tractions "
-                               "change; held, what H~ has less for the tractions that act.")
+                               "change; held, what H~ has less for the tractions that act; heat, of temperatures that vary.")
         .def("remove_cells", &Memm<Dim>::remove_cells, "cells"_a,
              "Goes on without these cells, by their numbers in `mesh`: the others keep their order. Returns what has left: "
              "cells, mass [kg], momentum [kg m/s], kinetic and potential (V before less V after) [J]. dt stays: look at "

@@ -79,9 +79,6 @@ void Bodies<Dim>::check_temperature(std::int32_t body) const {
         throw BadInput(who +
                        "is given a temperature, and its material has a thermal_expansion of 0. Give one, or leave "
                        "SolidOptions::temperature_rise out.");
-    if (std::ranges::any_of(options_.boundary.traction, &TractionCondition<Dim>::from_outside))
-        throw BadInput(who +
-                       "is given a temperature, which is not made beside tractions from outside. Leave one of both out.");
     if (!is_finite(body)) return;
     if (options_.finite.mean_force == MeanForce::discrete_gradient)
         throw BadInput(

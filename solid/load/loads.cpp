@@ -52,23 +52,47 @@ BoundaryLoad<Dim> Loads<Dim>::mean() const {
 }
 
 template <int Dim>
-bool Loads<Dim>::begin_step(double time, double dt, const std::function<double()>& potential,
-                            const std::function<void()>& follow_jump, double& work) {
+bool Loads<Dim>::begin_step(double time, double dt, bool apart, const std::function<double()>& potential,
+                            const std::function<void(Jump)>& follow_jump, const std::function<void(Jump, double)>& book) {
     auto [changed, next] =
         dynamics::agreed(part_.ranks(), [&] { return std::pair(ccg_.load_at(time, time), ccg_.load_at(time + dt, time)); });
     is_half_done_ = true;
     start_ = end_;
     traction_time_ = time;
-    const bool jumps = part_.any(changed.traction != end_.traction || changed.temperature != end_.temperature);
-    if (jumps) {
-        const double before = potential();
-        end_ = std::move(changed);
-        follow_jump();
-        work += potential() - before;
-        start_ = end_;
+    const bool pulls = part_.any(changed.traction != end_.traction),
+               heats = part_.any(changed.temperature != end_.temperature);
+    if (pulls || heats) {
+        double before = potential();
+        const auto jump = [&](BoundaryLoad<Dim> to, Jump what) {
+            end_ = std::move(to);
+            follow_jump(what);
+            const double after = potential();
+            book(what, after - before);
+            before = after;
+            start_ = end_;
+        };
+        if (pulls && heats && apart) jump(with_old_tractions(changed), Jump::temperatures);
+        jump(std::move(changed), pulls ? Jump::tractions : Jump::temperatures);
     }
     end_ = std::move(next);
-    return jumps;
+    return pulls || heats;
+}
+
+/// What faces give way by is linear in the tractions, and heat moves them beside that.
+template <int Dim>
+BoundaryLoad<Dim> Loads<Dim>::with_old_tractions(const BoundaryLoad<Dim>& changed) const {
+    const BoundaryReconstruction<Dim>& boundary = ccg_.boundary();
+    BoundaryLoad<Dim> load = changed;
+    load.traction = end_.traction;
+    for (const BoundaryFace b : ccg_.boundary_faces())
+        for (std::int32_t i = boundary.load_offsets[number_of(b)]; i < boundary.load_offsets[number_of(b) + 1]; ++i) {
+            const BoundaryFace face = boundary.load_faces[i];
+            const auto f = static_cast<std::size_t>(number_of(face));
+            load.displacement[static_cast<std::size_t>(number_of(b))] += boundary.from_traction[i] *
+                                                                         (end_.traction[f] - changed.traction[f]) /
+                                                                         mesh_.face_measure[mesh_face(mesh_, face)];
+        }
+    return load;
 }
 
 template <int Dim>

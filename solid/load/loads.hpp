@@ -33,11 +33,14 @@ public:
     /// With the mean of the displacements of both.
     [[nodiscard]] BoundaryLoad<Dim> mean() const;
 
-    /// For loads that vary: a step begins, and both ends are set. Where tractions or temperatures jump at its start, the jump of `potential`,
-    /// evaluated with the loads `end()`, is added to `work` [J]; in between `follow_jump` is called, with the loads from
-    /// before the jump in `start()` and those after it in `end()`. Returns whether they jumped.
-    bool begin_step(double time, double dt, const std::function<double()>& potential,
-                    const std::function<void()>& follow_jump, double& work);
+    /// What jumps where a step begins.
+    enum class Jump { temperatures, tractions };
+    /// For loads that vary: a step begins, and both ends are set. Where temperatures or tractions jump at its start, `follow_jump` is called with
+    /// the loads from before the jump in `start()` and those after it in `end()`, and then `book` with the jump of `potential`, which is
+    /// evaluated with the loads `end()` [J]. Where both jump it is one jump, of tractions; `apart`: two, first of temperatures.
+    /// Returns whether they jumped.
+    bool begin_step(double time, double dt, bool apart, const std::function<double()>& potential,
+                    const std::function<void(Jump)>& follow_jump, const std::function<void(Jump, double)>& book);
     void end_step() { is_half_done_ = false; }
     /// Whether a step with loads that vary has begun and not ended.
     [[nodiscard]] bool is_half_done() const { return is_half_done_; }
@@ -66,6 +69,8 @@ public:
     void take_over(const Loads& before, std::span<const std::int32_t> old_boundary, double time);
 
 private:
+    [[nodiscard]] BoundaryLoad<Dim> with_old_tractions(const BoundaryLoad<Dim>& changed) const;
+
     const mesh::Mesh<Dim>& mesh_;
     const Ccg<Dim>& ccg_;
     const RankPart<Dim>& part_;

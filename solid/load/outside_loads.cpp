@@ -128,6 +128,14 @@ double OutsideLoads<Dim>::held_change(std::span<const Vector<Dim>> q) const {
 }
 
 template <int Dim>
+double OutsideLoads<Dim>::held_change_of_heat(std::span<const Vector<Dim>> q) const {
+    double change = 0.0;
+    for (const Group& group : groups_)
+        change += held(group, group.acting, q, loads_.end()) - held(group, group.acting, q, loads_.start());
+    return change;
+}
+
+template <int Dim>
 void OutsideLoads<Dim>::add_step(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1,
                                  const TurnOf<Dim>& turn_of) {
     for (Group& group : groups_) {
@@ -154,6 +162,7 @@ template <int Dim>
 void OutsideLoads<Dim>::save(StateWriter& state) const {
     state.put(work_.steps);
     state.put(work_.changes);
+    if (ccg_.is_warm()) state.put(work_.heat);
     for (const Group& group : groups_) {
         put_all<Dim>(state, group.traction);
         put_all<Dim>(state, group.acting);
@@ -164,6 +173,7 @@ template <int Dim>
 void OutsideLoads<Dim>::restore(StateReader& state) {
     work_.steps = state.get<double>();
     work_.changes = state.get<double>();
+    if (ccg_.is_warm()) work_.heat = state.get<double>();
     for (Group& group : groups_) {
         std::vector<Vector<Dim>> traction = group.traction;
         take_all<Dim>(state, traction);

@@ -47,8 +47,15 @@ public:
 
     /// By how much `held` changes in q, from the loads at the start of the step to those at its end [J].
     [[nodiscard]] double held_change(std::span<const Vector<Dim>> q) const;
+    /// The same where temperatures change, and tractions not.
+    [[nodiscard]] double held_change_of_heat(std::span<const Vector<Dim>> q) const;
     /// A change of the tractions between two steps has given the bodies this energy [J].
     void add_change(double energy) { work_.changes += energy; }
+    /// A change of the temperatures has changed V by so much, and what V has less for these tractions, as faces move [J].
+    void add_heat(double change, double held_change) {
+        work_.heat += change;
+        work_.steps += held_change;
+    }
     /// A step from q_0 to q_1; `turn_of(body)`: the mean of its rotations at both ends.
     void add_step(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1, const TurnOf<Dim>& turn_of);
     [[nodiscard]] OutsideWork work(std::span<const Vector<Dim>> q) const;

@@ -146,6 +146,52 @@ static void bodies_that_get_warm_expand_or_press(void) {
     }
 }
 
+/* Loaded at its end by a program outside, from which heat is told apart: along p/E + alpha T, across alpha T - nu p/E. */
+static void a_bar_that_gets_warm_under_a_load_from_outside_keeps_both_accounts(void) {
+    enum { n_cells = 16, n_faces = 4 };
+    abut_error error = ABUT_ERROR_INIT;
+    abut_solid* solid = bar_on_planes();
+    double rise = 80.0, traction[n_faces][3] = {{0.0}};
+    const double expansion = 1e-5, thermal = expansion * rise, p = -3e-4;
+    CHECK(abut_solid_set_number(solid, "bar", "mass_damping", 1.5, &error) == ABUT_OK);
+    CHECK(abut_solid_set_number(solid, "bar", "thermal_expansion", expansion, &error) == ABUT_OK);
+    CHECK(abut_solid_set_temperature(solid, "bar", smooth_rise, 1, &rise, &error) == ABUT_OK);
+    CHECK(abut_solid_load(solid, "xmax", NULL, &error) == ABUT_OK);
+    CHECK(abut_solid_begin(solid, NULL, &error) == ABUT_OK);
+    if (error.status != ABUT_OK) printf("%s\n", error.message);
+    double position[n_cells][3], cold[n_cells][3], stress[n_cells][9];
+    abut_solid_cell_arrays cells = ABUT_SOLID_CELL_ARRAYS_INIT;
+    cells.n_cells = n_cells, cells.position = array_of(&cold[0][0], n_cells, 3);
+    CHECK(abut_solid_cells(solid, "bar", &cells, &error) == ABUT_OK);
+    abut_solid_state start = ABUT_SOLID_STATE_INIT, state = ABUT_SOLID_STATE_INIT;
+    CHECK(abut_solid_get_state(solid, &start, &error) == ABUT_OK);
+    double off = 0.0, off_all = 0.0, work = 0.0;
+    for (state = start; state.time < 60.0;) {
+        for (int i = 0; i < n_faces; ++i) traction[i][0] = p * fmin(1.0, 0.05 * state.time);
+        CHECK(abut_solid_set_traction(solid, "xmax", array_of(&traction[0][0], n_faces, 3), &error) == ABUT_OK);
+        CHECK(abut_solid_step(solid, &error) == ABUT_OK);
+        CHECK(abut_solid_get_state(solid, &state, &error) == ABUT_OK);
+        CHECK(abut_solid_get_number(solid, "work", &work, &error) == ABUT_OK);
+        off = fmax(off, fabs(state.pseudo_energy + state.work_held + state.dissipated - start.pseudo_energy - state.work_steps -
+                             state.work_changes - state.work_heat));
+        off_all = fmax(off_all, fabs(state.pseudo_energy + state.dissipated - start.pseudo_energy - work));
+    }
+    const double scale = 0.25 * thermal * thermal;
+    CHECK(off < 1e-12 * scale && off_all < 1e-12 * scale);
+    CHECK(fabs(state.work_heat) > 1e-2 * scale && fabs(state.work_steps) > 1e-2 * scale);
+    cells.position = array_of(&position[0][0], n_cells, 3), cells.stress = array_of(&stress[0][0], n_cells, 9);
+    CHECK(abut_solid_cells(solid, "bar", &cells, &error) == ABUT_OK);
+    const double along = p + thermal, across = thermal - material.poisson * p;
+    double in_position = 0.0, in_stress = 0.0;
+    for (int c = 0; c < n_cells; ++c) {
+        for (int i = 0; i < 3; ++i)
+            in_position = worst(in_position, position[c][i], cold[c][i] * (1.0 + (i == 0 ? along : across)));
+        for (int i = 0; i < 9; ++i) in_stress = worst(in_stress, stress[c][i], i == 0 ? p : 0.0);
+    }
+    CHECK(in_position < 1e-4 * thermal && in_stress < 1e-4 * thermal);
+    abut_solid_destroy(solid);
+}
+
 static double no_number(double time, const double* position, void* user) {
     (void)time, (void)position, (void)user;
     return NAN;
@@ -211,6 +257,7 @@ static void what_a_material_cannot_be_is_refused_by_name(void) {
 int main(void) {
     a_bar_of_metal_that_is_pulled_has_the_two_fronts_of_its_bilinear_curve();
     bodies_that_get_warm_expand_or_press();
+    a_bar_that_gets_warm_under_a_load_from_outside_keeps_both_accounts();
     what_a_material_cannot_be_is_refused_by_name();
     return failures == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
 }

@@ -123,6 +123,49 @@ TEMPLATE_TEST_CASE_SIG(
     CHECK(scene.solid.contact().report().missed_contacts == 0);
 }
 
+TEMPLATE_TEST_CASE_SIG("heat beside tractions from outside has an account of its own, of bodies of each kinematics",
+                       "[solid][outside][thermal]", ((int Dim), Dim), 2, 3) {
+    const Kinematics kinematics = GENERATE(Kinematics::small, Kinematics::floating, Kinematics::finite);
+    const bool sets = GENERATE(true, false);  // tractions at most steps, or none after the start
+    CAPTURE(static_cast<int>(kinematics), sets);
+    auto options = blocks_loaded_from_outside<Dim>();
+    options.law = solid::ContactLaw::pair_potential;
+    options.kinematics.assign(2, kinematics);
+    for (solid::Material& material : options.materials) material.thermal_expansion = 1e-3;
+    for (const double amplitude : {30.0, -20.0})
+        options.temperature_rise.push_back(
+            {.value = [amplitude](double t, const Vector<Dim>& x) { return amplitude * (std::sin(3.0 * t) + 0.4 * x[0]); },
+             .varies = true});
+    Scene<Dim> scene(blocks<Dim>(), options, falling<Dim>());
+    const double start = scene.memm.pseudo_energy();
+    double steps = 0.0, first = 0.0, energy = start, apart = 0.0, all = 0.0;
+    auto faces = solid::outside_faces<Dim>(scene.memm, scene.solid, loaded);
+    for (unsigned i = 0; i < 100; ++i) {
+        if ((sets && i % 3 != 2) || i == 0) scene.solid.set_traction(loaded, random_tractions<Dim>(faces.area.size(), i));
+        scene.memm.step();
+        const auto before = std::move(faces);
+        faces = solid::outside_faces<Dim>(scene.memm, scene.solid, loaded);
+        std::vector<Vector<Dim>> motion;  // with what heat does to faces where the step begins
+        for (std::size_t k = 0; k < faces.position.size(); ++k) motion.push_back(faces.position[k] - before.position[k]);
+        const solid::OutsideWork work = scene.solid.outside_work(scene.memm.q());
+        if (i == 0)
+            first = work.steps;  // the half-cells have given way to the load
+        else
+            steps += work_of(faces, motion);
+        const double now = scene.memm.pseudo_energy();
+        raise(energy, std::abs(now + work.held));
+        raise(apart, std::abs(now + work.held - start - work.steps - work.changes - work.heat));
+        raise(all, std::abs(now - start - scene.solid.work()));
+    }
+    const solid::OutsideWork work = scene.solid.outside_work(scene.memm.q());
+    CHECK(apart <= 1e-12 * energy);
+    CHECK(all <= 1e-12 * energy);
+    CHECK(std::abs(work.heat) > 1e-3 * energy);
+    // What the program outside sees of its faces is what it is told that it has done.
+    if (!sets) CHECK(work.steps - first == Approx(steps).epsilon(1e-10).margin(1e-14));
+    CHECK(scene.solid.contact().report().missed_contacts == 0);
+}
+
 TEMPLATE_TEST_CASE_SIG("a step dictated from outside with restarts books the same work, and restarts what they change",
                        "[solid][outside]", ((int Dim), Dim), 2, 3) {
     Scene<Dim> scene(blocks<Dim>(), blocks_loaded_from_outside<Dim>(), falling<Dim>());

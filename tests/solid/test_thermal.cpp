@@ -292,7 +292,4 @@ TEST_CASE("a temperature that a body cannot have is refused by name", "[solid][m
     options = warm<2>(steel());
     options.temperature_rise.push_back(constant<2>(1.0));
     refused(options, "2 temperatures");
-    options = warm<2>(steel());
-    options.boundary.traction = {{.group = "xmax", .from_outside = true}};
-    refused(options, "from outside");
 }
