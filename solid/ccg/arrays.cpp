@@ -134,7 +134,7 @@ void CcgArrays<Dim>::set_shares(std::span<const Kinematics> kinematics) {
                 found[half_face.face][1] += along;
         }
     }
-    if (any) shares = std::move(found);
+    if (any && !simplices.cells().empty()) shares = std::move(found);
 }
 
 template <int Dim>
