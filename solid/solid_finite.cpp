@@ -17,7 +17,8 @@ namespace abut::solid {
 namespace {
 
 constexpr double collapsed_determinant = 0.1;  // det F of a cell
-constexpr double tiny_displacement = 1e-8;     // of the size of a cell
+constexpr double flat_cells = 0.5;  // a plastic strain by which cells are as flat as their steps may have to be short
+constexpr double tiny_displacement = 1e-8;  // of the size of a cell
 
 /// Where bodies of Kinematics::finite are deformed most, and how to name the cell.
 struct Extremes {
@@ -99,12 +100,17 @@ void Solid<Dim>::require_no_collapse() {
         finite_extremes_.cell = cell;
     }
     if (determinant > collapsed_determinant) return;
+    const std::string flat = plastic_strain > flat_cells
+                                 ? " Metal that has flowed so far, by a plastic strain of " + number(plastic_strain) +
+                                       ", has flat cells, and these need shorter steps: take a lower cfl first."
+                                 : "";
     throw Diverged(mesh_.name + ": cell " + std::to_string(now.label) + " of body '" + mesh_.body_names[now.body] +
                        "', of Kinematics::finite, has collapsed: det F is " + number(determinant) + ", more than " +
                        number(collapsed_determinant) +
                        " is needed (0: a free face is stretched too far). Load it less, refine its mesh, or take a shorter "
                        "time step if it is noise that grows, and linear_viscosity = 0.25 with quadratic_viscosity = 2 if it "
-                       "is a shock.",
+                       "is a shock." +
+                       flat,
                    {.cell = cell, .value = determinant, .allowed = collapsed_determinant});
 }
 

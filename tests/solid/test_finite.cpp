@@ -222,8 +222,11 @@ TEST_CASE("a finite body that collapses is refused by the name of the cell, and 
           "[solid][finite]") {
     // The ends of a bar run into each other, with a speed that is linear along it.
     const auto mesh = mesh::structured_box<2>({-1.0, -0.25}, {1.0, 0.25}, {16, 4}, CellShape::triangle);
-    const auto run = [&](double speed) {
-        solid::Solid<2> solid(mesh, apart<2>({Kinematics::finite}));
+    const auto run = [&](double speed, double yield_stress = 0.0) {
+        auto options = apart<2>({Kinematics::finite});
+        if (yield_stress > 0.0) options.materials[0].law = solid::MaterialLaw::j2;
+        options.materials[0].yield_stress = yield_stress;
+        solid::Solid<2> solid(mesh, options);
         std::vector<double> p;
         for (std::size_t c = 0; c < mesh.cell_centroid.size(); ++c) {
             p.push_back(-speed * mesh.cell_centroid[c][0] * solid.masses()[c]);
@@ -242,6 +245,8 @@ TEST_CASE("a finite body that collapses is refused by the name of the cell, and 
     CHECK_THROWS_WITH(run(2.0),
                       Catch::Contains("Kinematics::finite") && Catch::Contains("collapsed") && Catch::Contains("cell "));
     CHECK_THROWS_AS(run(2.0), Diverged);
+    CHECK_THROWS_WITH(run(2.0), !Catch::Contains("cfl"));
+    CHECK_THROWS_WITH(run(2.0, 0.01), Catch::Contains("plastic strain of") && Catch::Contains("take a lower cfl first"));
 }
 
 TEST_CASE("what a finite body does not know is refused by name", "[solid][finite]") {
