@@ -24,29 +24,37 @@ bool is_finite(std::span<const Kinematics> kinematics, std::size_t body) {
     return properties_of(kinematics, body).finite_strains;
 }
 
-/// Cells whose jumps stay elastic, as nothing else holds them:
+/// What jumps alone do for a cell: hold it along the normals of its faces, or along all directions.
+enum class Held : char { no, along_normals, all };
+
+/// How the jumps around each cell hold it where it has
 ///
-///  - with free faces of more than one normal, which leave no more stress than a bar has, or none;
-///  - with a free face that contact may push, as what it pushes with is not in the stress of the cell;
-///  - of finite bodies and no simplices, behind a load: their faces go where the cells around point.
+///  - a free face that contact may push: what it pushes with is not in the stress of the cell, but in the jumps behind it;
+///  - free faces of more than one normal, which leave no more stress than a bar has, or none;
+///  - a load, in finite bodies and no simplices: these faces go where the cells around point.
 template <int Dim>
-std::vector<char> held_by_jumps(const mesh::Mesh<Dim>& mesh, std::span<const Kinematics> kinematics,
+std::vector<Held> held_by_jumps(const mesh::Mesh<Dim>& mesh, std::span<const Kinematics> kinematics,
                                 const FaceConditions<Dim>& conditions, FreeFaces free_faces) {
     const auto is_loaded = conditions.are_loaded();
     const auto bends = [&](std::int32_t cell) {
-        return is_finite(kinematics, static_cast<std::size_t>(mesh.cell_body[cell])) && !is_simplex(mesh, cell);
+        return is_finite(kinematics, static_cast<std::size_t>(mesh.cell_body[cell]));
     };
-    std::vector<char> held(static_cast<std::size_t>(mesh.n_cells()), 0);
+    const bool may_touch = free_faces == FreeFaces::may_touch;
+    std::vector<Held> held(static_cast<std::size_t>(mesh.n_cells()), Held::no);
     std::vector<const Vector<Dim>*> first(held.size(), nullptr);
     for (const BoundaryFace b : boundary_faces(mesh)) {
         const std::int32_t cell = cell_of(mesh, b);
         const auto i = static_cast<std::size_t>(cell);
-        if (is_loaded[b] && bends(cell)) held[i] = 1;
+        const auto hold = [&](Held by) { held[i] = std::max(held[i], by); };
+        if (is_loaded[b] && bends(cell) && !is_simplex(mesh, cell)) hold(Held::all);
         if (!conditions.prescribed[b].isZero(0.0)) continue;
         const Vector<Dim>& normal = mesh.face_normal[mesh_face(mesh, b)];
         if (!first[i]) first[i] = &normal;
         const bool has_other = std::abs(first[i]->dot(normal)) < 1.0 - same_normal;
-        if (has_other || free_faces == FreeFaces::may_touch) held[i] = 1;
+        if (may_touch)
+            hold(bends(cell) ? Held::along_normals : Held::all);
+        else if (has_other)
+            hold(Held::all);
     }
     return held;
 }
@@ -58,7 +66,7 @@ CappedJumps<Dim>::CappedJumps(const mesh::Mesh<Dim>& mesh, std::span<const Mater
                               std::span<const Kinematics> kinematics, const FaceConditions<Dim>& conditions,
                               FreeFaces free_faces, const CcgArrays<Dim>& arrays)
     : arrays_(arrays) {
-    // By default not where contact squeezes finite bodies: cells fold up without their jumps.
+    // By default not where contact squeezes finite bodies: what flows further needs a shorter step than at rest.
     const auto yields = [&](std::size_t body) {
         const bool may_fold = free_faces == FreeFaces::may_touch && is_finite(kinematics, body);
         return materials[body].law == MaterialLaw::j2 && (materials[body].jump_cap > 0.0 || !may_fold);
@@ -67,15 +75,18 @@ CappedJumps<Dim>::CappedJumps(const mesh::Mesh<Dim>& mesh, std::span<const Mater
     if (!any_) return;
     const auto body_of = [&](std::int32_t cell) { return static_cast<std::size_t>(mesh.cell_body[cell]); };
     for (std::int32_t c = 0; c < mesh.n_cells(); ++c) capped_.push_back(yields(body_of(c)) ? 1 : 0);
-    const std::vector<char> held = held_by_jumps(mesh, kinematics, conditions, free_faces);
-    const auto is_held = [&](std::int32_t cell) { return held[static_cast<std::size_t>(cell)] != 0; };
+    const std::vector<Held> held = held_by_jumps(mesh, kinematics, conditions, free_faces);
     largest_.assign(arrays.half_faces.size(), std::numeric_limits<double>::infinity());
+    only_slides_.assign(largest_.size(), 0);
     for (std::size_t i = 0; i < largest_.size(); ++i) {
         const auto f = static_cast<std::size_t>(arrays.half_faces[i].face);
         if (arrays.boundary_index[f] != no_face) continue;
         const auto [a, b] = arrays.face_cells[f];
         const double stiffness = arrays.faces[f].jump_stiffness;
-        if (!contains(a) || stiffness == 0.0 || is_held(a) || is_held(b)) continue;
+        if (!contains(a) || stiffness == 0.0) continue;
+        const Held by = std::max(held[static_cast<std::size_t>(a)], held[static_cast<std::size_t>(b)]);
+        if (by == Held::all) continue;
+        only_slides_[i] = by == Held::along_normals ? 1 : 0;
         const Material& material = materials[body_of(a)];
         const double by_default = is_simplex(mesh, a) && is_simplex(mesh, b) ? cap_of_simplices : cap_of_others;
         const double traction = (material.jump_cap > 0.0 ? material.jump_cap : by_default) * material.yield_stress;
@@ -88,6 +99,12 @@ CappedJumps<Dim>::CappedJumps(const mesh::Mesh<Dim>& mesh, std::span<const Mater
     start_.resize(memory_.size());
     end_.resize(memory_.size());
     loss_.assign(capped_.size(), 0.0);
+}
+
+template <int Dim>
+Vector<Dim> CappedJumps<Dim>::limited(std::ptrdiff_t half_face, const Vector<Dim>& jump, const Vector<Dim>& normal) const {
+    if (only_slides_[static_cast<std::size_t>(half_face)] == 0) return jump;
+    return jump - (normal.dot(jump) / normal.squaredNorm()) * normal;
 }
 
 template <int Dim>
@@ -141,10 +158,12 @@ auto CappedJumps<Dim>::advance(std::ptrdiff_t cell, std::ptrdiff_t half_face, co
     const Elastic& start = start_[i];
     Elastic& end = end_[i] = at(half_face, jump, gradient);
     next_[i] = memory_[i];
-    const Vector<Dim> yielded = excess(half_face, end.jump);
+    if (end.jump.norm() <= largest_[i]) return end;
+    const Matrix<Dim> deformed = Matrix<Dim>::Identity() + gradient, back = deformed.inverse();
+    const Vector<Dim> normal = back.transpose() * Eigen::Map<const Vector<Dim>>(arrays_.faces[face].area_vector.data());
+    const Vector<Dim> yielded = excess(half_face, limited(half_face, end.jump, normal));
     if (yielded.isZero(0.0)) return end;
-    const Matrix<Dim> deformed = Matrix<Dim>::Identity() + gradient;
-    next_[i] = memory_[i] + deformed.inverse() * yielded;
+    next_[i] = memory_[i] + back * yielded;
     end = of(next_[i], jump, gradient);
     const Vector<Dim> change = next_[i] - memory_[i];
     const Matrix<Dim> turned = gradient - start.gradient;

@@ -17,7 +17,7 @@ namespace abut::solid {
 
 /// Faces between cells of MaterialLaw::j2, whose stabilisation yields: its traction k ([u] - J)/|f| stays below Material::jump_cap
 /// times the yield stress, and J, the part of the jump that lasts, follows where it would not. Where nothing else holds a cell it
-/// stays elastic: at edges, and under contact. docs/method.md, Metal that yields.
+/// stays elastic: at edges, and under contact, of finite bodies along the normals of faces alone. docs/method.md, Metal that yields.
 ///
 /// Each half-face remembers J as its cell sees it: of a finite body as a vector of the material, which F turns. That of the twin
 /// is its negative, bit by bit, since both come from the same sums. Only a step that has ended is remembered. Functions of different
@@ -97,6 +97,9 @@ public:
 private:
     static constexpr double rounding = 1e-9;  // more than what sums of very many steps make of a jump, over the cap
     [[nodiscard]] static Elastic of(const Vector<Dim>& lasting, const Vector<Dim>& jump, const Matrix<Dim>& gradient);
+    /// The part of a jump in space whose traction the cap limits: all of it, or that along the face, whose normal is `normal`, of any
+    /// length.
+    [[nodiscard]] Vector<Dim> limited(std::ptrdiff_t half_face, const Vector<Dim>& jump, const Vector<Dim>& normal) const;
     /// What J changes by, in space, so that `trial` comes back to the cap [m].
     [[nodiscard]] Vector<Dim> excess(std::ptrdiff_t half_face, const Vector<Dim>& trial) const;
 
@@ -104,6 +107,7 @@ private:
     bool any_ = false;                        // known from materials alone: this rank may have no cell of them
     std::vector<char> capped_;                // of each cell; empty, as all below, where no body has them
     std::vector<double> largest_;             // |[u] - J| at the cap, by half-face [m]
+    std::vector<char> only_slides_;           // whether J stays in the face, by half-face; of finite bodies
     std::vector<Vector<Dim>> memory_, next_;  // J by half-face
     // [u] - J at the start and at the end of the step, by half-face; of bodies whose strains are linear
     std::vector<Vector<Dim>> elastic_, next_elastic_;
