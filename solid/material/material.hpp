@@ -31,8 +31,8 @@ struct Material {
     double density = 1.0;  ///< rho [kg/m^3], > 0
     double eta = 0.0;      ///< stabilisation of the jumps between cells [Pa]; 0 means E, or its mean
     MaterialLaw law = MaterialLaw::st_venant_kirchhoff;  ///< of a body of Kinematics::finite; others have the first
-    double second_share =
-        0.0;  ///< of MaterialLaw::mooney_rivlin: mu of the second invariant over mu [-], 0 to min(1, lambda/(2 mu))
+    /// Of MaterialLaw::mooney_rivlin: mu of the second invariant over mu [-], 0 to min(1, lambda/(2 mu)).
+    double second_share = 0.0;
 
     // Of MaterialLaw::orthotropic, along axes 1, 2 and 3 of the material. Under tension along i a stretch along i comes with a
     // contraction nu_ij times as large along j; nu_ji = nu_ij E_j/E_i.
@@ -64,8 +64,8 @@ struct Material {
     double cowper_symonds_exponent = 0.0;  ///< q [-], >= 1 with `cowper_symonds_rate`
     double johnson_cook_rate = 0.0;        ///< r at which the stress is sigma(alpha) [1/s], >= 0; 0: the rate does not count
     double johnson_cook_factor = 0.0;      ///< C [-], > 0 with `johnson_cook_rate`
-    double kinematic_hardening =
-        0.0;  ///< Prager's: by how much yielding shifts the stresses at which it does, per plastic strain [Pa], >= 0
+    /// Prager's: by how much yielding shifts the stresses at which it does, per plastic strain [Pa], >= 0.
+    double kinematic_hardening = 0.0;
     /// Largest traction of the stabilisation of jumps between cells over `yield_stress` [-], >= 0; 0: 0.1 where both cells are
     /// simplices and 0.3 elsewhere, none in finite bodies that contact may push.
     double jump_cap = 0.0;

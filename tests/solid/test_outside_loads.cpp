@@ -166,6 +166,31 @@ TEMPLATE_TEST_CASE_SIG("heat beside tractions from outside has an account of its
     CHECK(scene.solid.contact().report().missed_contacts == 0);
 }
 
+TEST_CASE("heat has the same account whether tractions from outside are set with it or stay", "[solid][outside][thermal]") {
+    const Kinematics kinematics = GENERATE(Kinematics::small, Kinematics::finite);
+    CAPTURE(static_cast<int>(kinematics));
+    const auto work = [&](double change) {  // of the load, relative, at each step
+        auto options = blocks_loaded_from_outside<2>();
+        options.contact.reset();
+        options.kinematics.assign(2, kinematics);
+        for (solid::Material& material : options.materials) material.thermal_expansion = 1e-3;
+        options.temperature_rise.assign(
+            2, {.value = [](double t, const Vector<2>&) { return 30.0 * std::sin(3.0 * t); }, .varies = true});
+        Scene<2> scene(blocks<2>(), options, falling<2>());
+        const std::size_t n = scene.mesh.group(loaded).faces.size();
+        for (int i = 0; i < 50; ++i) {
+            scene.solid.set_traction(loaded, std::vector<Vector<2>>(n, (1.0 + i * change) * Vector<2>(0.01, 0.02)));
+            scene.memm.step();
+        }
+        return scene.solid.outside_work(scene.memm.q());
+    };
+    const solid::OutsideWork stays = work(0.0), set = work(1e-12);
+    CHECK(std::abs(stays.heat) > 1e-5);
+    CHECK(set.heat == Approx(stays.heat).epsilon(1e-8));
+    CHECK(set.steps == Approx(stays.steps).epsilon(1e-8));
+    CHECK(set.changes == Approx(stays.changes).epsilon(1e-8).margin(1e-14));
+}
+
 TEMPLATE_TEST_CASE_SIG("a step dictated from outside with restarts books the same work, and restarts what they change",
                        "[solid][outside]", ((int Dim), Dim), 2, 3) {
     Scene<Dim> scene(blocks<Dim>(), blocks_loaded_from_outside<Dim>(), falling<Dim>());
