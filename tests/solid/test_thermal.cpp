@@ -256,20 +256,7 @@ TEST_CASE("a run with a temperature goes on from its state with the same bits", 
     auto options = warm<2>(steel());
     options.temperature_rise[0] = {.value = [](double t, const Vector<2>& x) { return 100.0 * t + 30.0 * x[0]; },
                                    .varies = true};
-    const std::vector<Vector<2>> velocity{{0.1, 0.0}};
-    const auto momenta = [&](solid::Solid<2>& solid) { return solid::uniform_momentum<2>(solid, velocity); };
-    solid::Solid<2> whole(mesh, options), part(mesh, options);
-    dynamics::Memm<solid::Solid<2>> all(whole, std::vector<double>(whole.size(), 0.0), momenta(whole), 0.05);
-    for (int i = 0; i < 20; ++i) all.step();
-    const auto of_solid = whole.state();
-    const auto of_scheme = all.state();
-    for (int i = 0; i < 20; ++i) all.step();
-    dynamics::Memm<solid::Solid<2>> rest(part, std::vector<double>(part.size(), 0.0), momenta(part), 0.05);
-    rest.restore(of_scheme);
-    part.restore(of_solid, rest.q());
-    for (int i = 0; i < 20; ++i) rest.step();
-    CHECK(std::ranges::equal(all.q(), rest.q()));
-    CHECK(whole.work() == part.work());
+    check_that_it_goes_on(mesh, options, 20);
 }
 
 TEST_CASE("a temperature that a body cannot have is refused by name", "[solid][material][errors]") {
