@@ -124,6 +124,42 @@ class Meshes(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, "cells of the set 'crossed' are in 'stone' and 'wood' as well"):
             solid.mesh(meshio.Mesh(given.points, given.cells, cell_sets={**given.cell_sets, "crossed": crossed}))
 
+    def test_of_equal_sets_the_first_names_the_body(self):
+        given = two_boxes()
+        sets = {**given.cell_sets, "Volume1": given.cell_sets["stone"], "Volume2": given.cell_sets["wood"]}
+        self.check_two_boxes(solid.mesh(meshio.Mesh(given.points, given.cells, cell_sets=sets)), groups=("foot",))
+
+    def test_a_set_of_sets_in_an_inp_file_is_refused_by_its_name(self):
+        text = "*NODE\n1,0,0,0\n2,1,0,0\n3,0,1,0\n4,0,0,1\n5,1,1,1\n*ELEMENT,TYPE=C3D4,ELSET=a\n1,1,2,3,4\n" \
+               "*ELEMENT,TYPE=C3D4,ELSET=b\n2,2,3,4,5\n*ELSET,ELSET=both\n"
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "a.inp"
+            path.write_text(text + "a\n")
+            with self.assertRaisesRegex(ValueError, "the set of cells 'both' has 1 lists of cells, the mesh has 2 blocks.*write its elements"):
+                solid.mesh(meshio.read(path))
+            path.write_text(text + "1,2\n")
+            self.assertEqual(solid.mesh(meshio.read(path)).measures.shape, (2,))
+
+    def test_numbers_of_points_and_cells_that_are_not_there_are_refused_with_their_place(self):
+        points = np.array([[0, 0], [1, 0], [0, 1]], float)
+        for corners, what in (([0, 1, -1], -1), ([0, 1, 3], 3)):
+            with self.assertRaisesRegex(ValueError, rf"block 0 of cells \('triangle'\) names the point {what}, there are 0 to 2"):
+                solid.mesh(meshio.Mesh(points, [("triangle", [corners])]))
+        for nodes in ([-1, 0], [0, 3]):
+            with self.assertRaisesRegex(ValueError, "the set of points 'top' names the point"):
+                solid.mesh(meshio.Mesh(points, [("triangle", [[0, 1, 2]])], point_sets={"top": nodes}))
+        for rows in ([-1], [1]):
+            with self.assertRaisesRegex(ValueError, "the set of cells 'stone' of block 0 .* names the cell .*, there are 0 to 0"):
+                solid.mesh(meshio.Mesh(points, [("triangle", [[0, 1, 2]])], cell_sets={"stone": [np.array(rows)]}))
+
+    def test_numbers_of_su2_and_of_vtk_files_of_gmsh_are_sets(self):
+        points = np.array([[0, 0], [1, 0], [1, 1], [0, 1], [2, 0]], float)
+        cells = [("triangle", [[0, 1, 2], [0, 2, 3], [1, 4, 2]]), ("line", [[0, 1], [4, 2]])]
+        for key in ("su2:tag", "CellEntityIds"):
+            mesh = solid.mesh(meshio.Mesh(points, cells, cell_data={key: [np.array([7, 7, 8]), np.array([1, 2])]}))
+            self.assertEqual((mesh.body_names, sorted(mesh.groups)), (["set_7", "set_8"], ["set_1", "set_2"]))
+            self.assertEqual([mesh.measures[mesh.body == b].sum() for b in (0, 1)], [1.0, 0.5])
+
     def test_curved_cells_are_straightened_with_a_word_and_loose_points_go(self):
         points = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0.5, -0.1, 0], [0.5, 0.5, 0], [0, 0.5, 0], [9, 9, 0]], float)
         with self.assertWarnsRegex(RuntimeWarning, "straight sides"):

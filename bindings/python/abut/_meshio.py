@@ -8,7 +8,7 @@ from ._contact import surface_of
 
 CORNERS = {"vertex": 1, "line": 2, "triangle": 3, "quad": 4, "tetra": 4, "hexahedron": 8, "wedge": 6, "pyramid": 5}
 DIMENSIONS = {"vertex": 0, "line": 1, "triangle": 2, "quad": 2, "tetra": 3, "hexahedron": 3, "wedge": 3, "pyramid": 3}
-TAGS = ("gmsh:physical", "cell_tags", "medit:ref", "nastran:ref", "avsucd:material")  # numbers of sets, by format
+TAGS = ("gmsh:physical", "cell_tags", "medit:ref", "nastran:ref", "avsucd:material", "su2:tag", "CellEntityIds")  # by format: numbers of sets
 
 
 def arguments(given):
@@ -17,6 +17,8 @@ def arguments(given):
     dim = max((DIMENSIONS[type] for type in types), default=0)
     if dim < 2:
         raise ValueError(f"the mesh has no cells that fill a body; it has {', '.join(sorted(set(types))) or 'none'}")
+    for k, block in enumerate(given.cells):
+        _check_numbers(np.asarray(block.data), len(given.points), f"block {k} of cells ('{block.type}')", "point")
     tables = [np.asarray(block.data)[:, :CORNERS[type]] for block, type in zip(given.cells, types)]
     if any(block.data.shape[1] > CORNERS[type] for block, type in zip(given.cells, types) if DIMENSIONS[type] == dim):
         warnings.warn("abut: cells with nodes between their corners become cells with straight sides", RuntimeWarning, stacklevel=3)
@@ -35,12 +37,20 @@ def arguments(given):
             groups[name] = faces
     surface = surface_of(points, cells, body) if given.point_sets else None
     for name, nodes in given.point_sets.items():
+        _check_numbers(np.asarray(nodes), len(given.points), f"the set of points '{name}'", "point")
         is_in = np.zeros(len(given.points), bool)
         is_in[np.asarray(nodes, int)] = True
         faces = _faces_between(surface, is_in[used])
         if faces and name not in groups:
             groups[name] = faces
     return dict(points=points, cells=cells, body=body, body_names=names, groups=groups)
+
+
+def _check_numbers(numbers, n, where, what):
+    """Of points or cells: numpy counts negative ones from the end."""
+    wrong = numbers[(numbers < 0) | (numbers >= n)]
+    if wrong.size:
+        raise ValueError(f"{where} names the {what} {wrong.ravel()[0]}, there are 0 to {n - 1}. Correct the numbers.")
 
 
 def _base(type):
@@ -64,8 +74,10 @@ def _points(points, dim):
 
 def _sets(given):
     """{name: [rows of each block]}"""
-    sets = {name: [np.asarray([] if rows is None else rows, int) for rows in chosen] for name, chosen in given.cell_sets.items()
+    sets = {name: [_whole_numbers(rows) for rows in chosen] for name, chosen in given.cell_sets.items()
             if not name.startswith("gmsh:")}
+    for name, rows in sets.items():
+        _check_set(name, rows, given.cells)
     sets.update(_sets_of_abut(given))
     if sets:
         return sets
@@ -73,6 +85,26 @@ def _sets(given):
         if key in given.cell_data:
             return _sets_of_numbers(given, key)
     return {}
+
+
+def _whole_numbers(rows):
+    """As an array; lists of different lengths within each other as they are, which _check_set refuses."""
+    try:
+        return np.asarray([] if rows is None else rows, int)
+    except ValueError:
+        return np.zeros((len(rows), 0), int)
+
+
+def _check_set(name, rows, blocks):
+    """Rows of each block. Of a set that an .inp file makes of other sets, meshio has a list by those sets instead."""
+    remedy = "If the file makes that set of other sets, write its elements instead."
+    if len(rows) != len(blocks):
+        raise ValueError(f"the set of cells '{name}' has {len(rows)} lists of cells, the mesh has {len(blocks)} blocks of cells, and "
+                         f"each needs one. {remedy}")
+    for k, (chosen, block) in enumerate(zip(rows, blocks)):
+        if chosen.ndim != 1:
+            raise ValueError(f"the set of cells '{name}' has a list of lists for block {k}, a list of cells is needed. {remedy}")
+        _check_numbers(chosen, len(block.data), f"the set of cells '{name}' of block {k} ('{block.type}')", "cell")
 
 
 def _sets_of_abut(given):
@@ -109,11 +141,14 @@ def _rows(chosen, inside, tables):
 
 
 def _bodies(sets, cells, n_points):
-    """Numbers of bodies and their names: of sets within others the smaller one counts, and parts in no set are bodies each."""
+    """Numbers of bodies and their names: of sets within others the smaller one counts, of equal ones the first, and parts in no set
+    are bodies each."""
     owner = np.full(sum(len(data) for _, data in cells), -1)
     names = list(sets)
     for k in sorted(range(len(names)), key=lambda k: -len(sets[names[k]])):
         before = np.unique(owner[sets[names[k]]])
+        if len(before) == 1 and before[0] >= 0 and len(sets[names[before[0]]]) == len(sets[names[k]]):
+            continue
         if len(before) > 1:
             others = " and ".join("no set" if i < 0 else f"'{names[i]}'" for i in before)
             raise ValueError(f"cells of the set '{names[k]}' are in {others} as well; a cell is of one body. Give sets apart, or one "

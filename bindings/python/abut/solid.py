@@ -19,9 +19,9 @@ def mesh(points, cells=None, body=None, body_names=(), groups=None, **options):
     their size.
 
     A meshio.Mesh alone brings all of it along, so that .inp, .bdf, .med, Exodus, .vtk and other files come in: sets of cells are
-    bodies, of sets within others the smaller ones, and what is in no set is a body for each part that hangs together; sets of boundary cells
-    are groups, and so are sets of points, with the boundary faces that lie between them. Where the file has numbers in place of sets, a
-    set is called as the file calls it, or set_7. Points of no cell are left out.
+    bodies, of sets within others the smaller ones, of equal ones the first, and what is in no set is a body for each part that hangs
+    together; sets of boundary cells are groups, and so are sets of points, with the boundary faces that lie between them. Where the
+    file has numbers in place of sets, a set is called as the file calls it, or set_7. Points of no cell are left out.
 
     >>> from abut import solid
     >>> square = solid.mesh([[0, 0], [2, 0], [2, 1], [0, 1]], {"quad": [[0, 1, 2, 3]]}, groups={"foot": [[0, 1]]})
