@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "abut/base/error.hpp"
+#include "abut/base/text.hpp"
 #include "abut/input/nearest_word.hpp"
 
 namespace abut::input {
@@ -105,7 +106,7 @@ Formula::Formula(const std::string& text, Variables variables, std::vector<Named
             continue;
         }
         for (const NamedNumber& other : numbers) known.push_back(other.name);
-        throw BadInput(fmt::format("a formula knows no name '{}' here.{}", name, hint(name, known)));
+        throw BadInput(fmt::format("a formula knows no name '{}' here.{}", shortened(name, 80), hint(name, known)));
     }
     value_ = expression->evaluate(0.0, Vector<3>::Zero());
     if (varies)

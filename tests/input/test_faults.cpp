@@ -92,27 +92,35 @@ TEST_CASE("a scene with a fault is not run: reading throws all of them", "[input
     CHECK_THROWS_AS(overlapping.scene<3>(), Misuse);
 }
 
-TEST_CASE("texts and keys of any length and depth are refused with their place, in a short message", "[input][faults]") {
-    const std::string formula(20000, '1'), brackets = std::string(9000, '(') + "1" + std::string(9000, ')');
-    std::string dots = "a", tables = "[a", lists = "a = ";
-    for (int i = 0; i < 20000; ++i) {
-        dots += ".a";
-        tables += ".a";
-        lists += "[";
-    }
+TEST_CASE("long texts, and keys and lists nested 65 deep, are refused with their place, in a short message",
+          "[input][faults]") {
     const auto text_of_faults = [](const std::string& more, const std::vector<std::string>& set) {
         const WrittenScene file(two_blocks(more));
-        const std::string text = input::text_of(input::check_scene(file.path(), {.set = set}).faults);
-        CHECK(text.size() < 2000);
+        return input::text_of(input::check_scene(file.path(), {.set = set}).faults);
+    };
+    const auto is_short_with = [](const std::string& text, const char* part) {
+        return text.size() < 2000 && text.find(part) != std::string::npos;
+    };
+    const std::string formula(2000, '1'), brackets = std::string(65, '(') + "1" + std::string(64, ')');
+    CHECK(is_short_with(text_of_faults("cfl = \"" + formula + "\"", {}), ".toml:19:"));
+    CHECK(is_short_with(text_of_faults("", {"run.cfl=" + formula}), "run.cfl"));
+    CHECK(is_short_with(text_of_faults("cfl = \"" + brackets + "\"", {}), ".toml:19:"));
+
+    const auto repeated = [](const char* part, int n) {
+        std::string text;
+        for (int i = 0; i < n; ++i) text += part;
         return text;
     };
-    CHECK(text_of_faults("cfl = \"" + formula + "\"", {}).find(".toml:19:") != std::string::npos);
-    CHECK(text_of_faults("", {"run.cfl=" + formula}).find("run.cfl") != std::string::npos);
-    static_cast<void>(text_of_faults("cfl = \"" + brackets + "\"", {}));
-    for (const std::string& more : {dots + " = 1", tables + "]", lists})
-        CHECK(text_of_faults(more, {}).find(".toml:19:") != std::string::npos);
-    CHECK(text_of_faults(dots + " = 1", {}).find("nested more than 64 deep") != std::string::npos);
-    CHECK(text_of_faults("", {dots + "=1"}).find("nested more than 64 deep") != std::string::npos);
+    for (const int n : {64, 65}) {
+        const std::string key = repeated("a.", n) + "a", list = "a = " + repeated("[", n) + repeated("]", n);
+        for (const std::string& more : {key + " = 1", "[" + repeated("a.", n - 1) + "a]", list}) {
+            CAPTURE(n, more);
+            const std::string text = text_of_faults(more, {});
+            CHECK(text.find(".toml:19:") != std::string::npos);
+            CHECK(is_short_with(text, "nested more than 64 deep") == (n > 64));
+        }
+        CHECK(is_short_with(text_of_faults("", {key + "=1"}), "nested more than 64 deep") == (n > 64));
+    }
 }
 
 TEST_CASE("dots and brackets in texts and comments are no depth", "[input][faults]") {

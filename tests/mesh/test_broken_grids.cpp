@@ -104,28 +104,26 @@ const std::string text_msh =
 TEST_CASE("a VTU file whose attributes promise more than its size can hold is refused by name and line",
           "[mesh][files][broken]") {
     CHECK(said_of("a.vtu", tetrahedron_vtu) == "nothing");
-    CHECK_THAT(said_of("a.vtu", replaced(tetrahedron_vtu, "NumberOfPoints=\"4\"", "NumberOfPoints=\"1000000000000\"")),
-               Contains("a.vtu: line 5: the file is damaged: it promises 1000000000000 as NumberOfPoints in ") &&
+    CHECK_THAT(said_of("a.vtu", replaced(tetrahedron_vtu, "NumberOfPoints=\"4\"", "NumberOfPoints=\"100000\"")),
+               Contains("a.vtu: line 5: the file is damaged: it promises 100000 as NumberOfPoints in ") &&
                    Contains(" bytes. Write the mesh again."));
-    CHECK_THAT(said_of("a.vtu", replaced(tetrahedron_vtu, "NumberOfCells='1'", "NumberOfCells='9999999999'")),
-               Contains("a.vtu: line 5: the file is damaged: it promises 9999999999 as NumberOfCells in "));
-    CHECK_THAT(
-        said_of("a.vtu", replaced(tetrahedron_vtu, "NumberOfComponents=\"3\"", "NumberOfComponents=\"1000000000\"")),
-        Contains("a.vtu: line 7: the file is damaged: the array '' of 1000000000 components promises 4000000000 values"));
-    CHECK_THAT(
-        said_of("a.vtu", replaced(tetrahedron_vtu, "Name=\"types\"", "Name=\"types\" NumberOfComponents=\"1000000000\"")),
-        Contains("a.vtu: line 10: the file is damaged: the array 'types' of 1000000000 components"));
+    CHECK_THAT(said_of("a.vtu", replaced(tetrahedron_vtu, "NumberOfCells='1'", "NumberOfCells='100000'")),
+               Contains("a.vtu: line 5: the file is damaged: it promises 100000 as NumberOfCells in "));
+    CHECK_THAT(said_of("a.vtu", replaced(tetrahedron_vtu, "NumberOfComponents=\"3\"", "NumberOfComponents=\"100000\"")),
+               Contains("a.vtu: line 7: the file is damaged: the array '' of 100000 components promises 400000 values"));
+    CHECK_THAT(said_of("a.vtu", replaced(tetrahedron_vtu, "Name=\"types\"", "Name=\"types\" NumberOfComponents=\"100000\"")),
+               Contains("a.vtu: line 10: the file is damaged: the array 'types' of 100000 components"));
     CHECK_THAT(said_of("a.vtu", replaced(tetrahedron_vtu, "<Piece NumberOfPoints=\"4\"",
-                                         "<FieldData><DataArray type=\"Int8\" Name=\"t\" NumberOfTuples=\"1000000000\" "
+                                         "<FieldData><DataArray type=\"Int8\" Name=\"t\" NumberOfTuples=\"100000\" "
                                          "format=\"binary\"></DataArray></FieldData>\n<Piece NumberOfPoints=\"4\"")),
-               Contains("a.vtu: line 5: the file is damaged: the array 't' of 1 components promises 1000000000 values"));
-    CHECK_THAT(said_of("a.vtu", replaced(tetrahedron_vtu, ">4</DataArray>", ">4000000000</DataArray>")),
-               Contains("a.vtu: line 9: the file is damaged: the offset 4000000000 is none of vertices of cells"));
+               Contains("a.vtu: line 5: the file is damaged: the array 't' of 1 components promises 100000 values"));
+    CHECK_THAT(said_of("a.vtu", replaced(tetrahedron_vtu, ">4</DataArray>", ">100000</DataArray>")),
+               Contains("a.vtu: line 9: the file is damaged: the offset 100000 is none of vertices of cells"));
     CHECK_THAT(said_of("a.vtu", replaced(tetrahedron_vtu, ">0 1 2 3<", ">0 1 2 -<")),
                Contains("a.vtu: line 8: the array 'connectivity' holds '-', a number of the type 'Int64' is needed."));
     CHECK_THAT(said_of("a.vtu", replaced(tetrahedron_vtu, ">10<", "><")),
                Contains("line 10: the array 'types' has 0 values, 1 are needed."));
-    for (const std::string type : {"300", "-1", "10.0", "99999999999999999999", "nan"})
+    for (const std::string type : {"300", "-1", "10.0", "100000100000", "nan"})
         CHECK_THAT(said_of("a.vtu", replaced(tetrahedron_vtu, ">10<", ">" + type + "<")),
                    Contains("line 10: the array 'types' holds '" + type + "', a number of the type 'UInt8' is needed."));
     CHECK_THAT(said_of("a.vtu", replaced(tetrahedron_vtu, "Name=\"types\"", "Name=\"offsets\"")),
@@ -192,21 +190,20 @@ TEST_CASE("a VTP file whose arrays share their data is refused where all togethe
     CHECK_THAT(said_of("a.vtp", with_arrays(100)), Contains("a.vtp: line 5: the file is damaged: its arrays, up to 'd"));
 }
 
-TEST_CASE("elements nested without end and entities that double each other take neither stack nor memory",
-          "[mesh][files][broken]") {
-    std::string begins, ends, entities = "<!DOCTYPE VTKFile [<!ENTITY e0 \"x\">";
-    for (int i = 0; i < 200'000; ++i) {
+TEST_CASE("foreign elements within each other are skipped, and entities stay what is written", "[mesh][files][broken]") {
+    std::string begins, ends;
+    for (int i = 0; i < 65; ++i) {
         begins += "<a>";
         ends += "</a>";
     }
-    for (int i = 0; i < 30; ++i)
-        entities += "<!ENTITY e" + std::to_string(i + 1) + " \"&e" + std::to_string(i) + ";&e" + std::to_string(i) + ";\">";
     CHECK(said_of("a.vtp", replaced(triangle_vtp, "<PolyData>", begins + ends + "<PolyData>")) == "nothing");
-    CHECK(said_of("a.vtp", entities + "]>" +
-                               replaced(triangle_vtp, "<Points>",
-                                        "<PointData><DataArray type=\"Int8\" "
-                                        "Name=\"&e30;\" format=\"ascii\">1 2 3</DataArray></PointData><Points>")) ==
-          "nothing");
+    const ScratchFolder folder;
+    save(folder / "a.vtu", "<!DOCTYPE VTKFile [<!ENTITY e \"twice\">]>\n" +
+                               replaced(tetrahedron_vtu, "</Piece>",
+                                        "<CellData><DataArray type=\"Int8\" Name=\"body\" format=\"ascii\">5</DataArray>"
+                                        "</CellData></Piece><FieldData><DataArray type=\"Int8\" Name=\"body: &e;&e;\" "
+                                        "NumberOfTuples=\"1\" format=\"ascii\">5</DataArray></FieldData>"));
+    CHECK(read_vtu<3>(folder / "a.vtu").body_names == std::vector<std::string>{"&e;&e;"});
 }
 
 TEST_CASE("a grid of equal values, which compress best, is read", "[mesh][files][broken]") {
@@ -222,14 +219,12 @@ TEST_CASE("a grid of equal values, which compress best, is read", "[mesh][files]
 TEST_CASE("a VTP file whose attributes promise more than its size can hold is refused by name and line",
           "[mesh][files][broken]") {
     CHECK(said_of("a.vtp", triangle_vtp) == "nothing");
-    CHECK_THAT(said_of("a.vtp", replaced(triangle_vtp, "NumberOfPoints=\"3\"", "NumberOfPoints=\"1000000000000\"")),
-               Contains("a.vtp: line 3: the file is damaged: it promises 1000000000000 as NumberOfPoints"));
+    CHECK_THAT(said_of("a.vtp", replaced(triangle_vtp, "NumberOfPoints=\"3\"", "NumberOfPoints=\"100000\"")),
+               Contains("a.vtp: line 3: the file is damaged: it promises 100000 as NumberOfPoints"));
     for (const std::string cells : {"Verts", "Lines", "Strips"})
         CHECK_THAT(
-            said_of("a.vtp", replaced(triangle_vtp, "NumberOfPolys", "NumberOf" + cells + "=\"5000000000\" NumberOfPolys")),
-            Contains("a.vtp: line 3: the file is damaged: it promises 5000000000 as NumberOf" + cells));
-    CHECK_THAT(said_of("a.vtp", replaced(triangle_vtp, ">3</DataArray>", ">-3</DataArray>")),
-               Contains("a.vtp: line 6: the file is damaged: the offset -3 is none of vertices of cells"));
+            said_of("a.vtp", replaced(triangle_vtp, "NumberOfPolys", "NumberOf" + cells + "=\"100000\" NumberOfPolys")),
+            Contains("a.vtp: line 3: the file is damaged: it promises 100000 as NumberOf" + cells));
 }
 
 TEST_CASE("a binary Gmsh file of either order of bytes is read, and of none is refused", "[mesh][files][broken]") {
@@ -246,11 +241,10 @@ TEST_CASE("a binary Gmsh file of either order of bytes is read, and of none is r
 
 TEST_CASE("a binary Gmsh file whose sections are not whole is refused by byte, block by block", "[mesh][files][broken]") {
     for (const auto& [promises, part] :
-         {std::pair{Promises{.nodes = "1000000000"}, "it promises 1000000000 as the number of nodes"},
+         {std::pair{Promises{.nodes = "100000"}, "it promises 100000 as the number of nodes"},
           {Promises{.nodes = "3"}, "stands where '$EndNodes' must follow what the section promises"},
           {Promises{.nodes = "many"}, "'many' is no whole number of 64 bits, the number of nodes is needed"},
-          {Promises{.elements = "1000000000", .n_in_block = 1'000'000'000},
-           "it promises 1000000000 as the number of elements"},
+          {Promises{.elements = "100000", .n_in_block = 100'000}, "it promises 100000 as the number of elements"},
           {Promises{.elements = "2"}, "an element has the type "},
           {Promises{.n_in_block = 0}, "a block has 0 elements"},
           {Promises{.n_in_block = 3}, "its blocks hold at least 0 and 3 elements, the head of the section promises 1"},
@@ -263,12 +257,12 @@ TEST_CASE("a binary Gmsh file whose sections are not whole is refused by byte, b
 
 TEST_CASE("a text Gmsh file whose heads promise more than it can hold is refused by line", "[mesh][files][broken]") {
     CHECK(said_of("a.msh", text_msh) == "nothing");
-    CHECK_THAT(said_of("a.msh", replaced(text_msh, "1 4 1 4\n", "1 1000000000 1 4\n")),
-               Contains("a.msh: line 5: the file is damaged: it promises 1000000000 as the number of nodes, "));
-    CHECK_THAT(said_of("a.msh", replaced(text_msh, "3 1 0 4\n", "3 1 0 1000000000\n")),
-               Contains("a.msh: line 6: the file is damaged: it promises 1000000000 as the number of nodes of a block"));
-    CHECK_THAT(said_of("a.msh", replaced(text_msh, "1 1 1 1\n", "1 1000000000 1 1\n")),
-               Contains("a.msh: line 17: the file is damaged: it promises 1000000000 as the number of elements, "));
+    CHECK_THAT(said_of("a.msh", replaced(text_msh, "1 4 1 4\n", "1 100000 1 4\n")),
+               Contains("a.msh: line 5: the file is damaged: it promises 100000 as the number of nodes, "));
+    CHECK_THAT(said_of("a.msh", replaced(text_msh, "3 1 0 4\n", "3 1 0 100000\n")),
+               Contains("a.msh: line 6: the file is damaged: it promises 100000 as the number of nodes of a block"));
+    CHECK_THAT(said_of("a.msh", replaced(text_msh, "1 1 1 1\n", "1 100000 1 1\n")),
+               Contains("a.msh: line 17: the file is damaged: it promises 100000 as the number of elements, "));
 }
 
 TEST_CASE("all of Gmsh's version 2 is read", "[mesh][files][broken]") {

@@ -203,12 +203,10 @@ def a_file_needs_no_end_of_its_last_line(programs):
 
 
 @claim
-def broken_msh_files_are_refused_with_the_line(programs):
-    for name in ("gmsh_segv_22_text.msh", "gmsh_segv_41_text.msh"):
+def msh_files_that_lack_a_word_are_refused_with_the_line(programs):
+    for name, line in (("word_missing_22.msh", 10), ("word_missing_41.msh", 19)):
         done = subprocess.run([str(programs / "abut"), "info", str(INPUTS / name)], capture_output=True, text=True)
-        require(done.returncode in (0, 1), f"{name}: exit code {done.returncode}")
-        if done.returncode == 1:
-            require(name in done.stderr, done.stderr)
+        require(done.returncode == 1 and f"{name}: line {line}: " in done.stderr, f"{done.returncode}: {done.stderr}")
 
 
 @claim
