@@ -155,7 +155,7 @@ std::string info(const fs::path& path) {
         return mesh_info<3>(path);  // says what is wrong with the extension, and what converts the file
     } catch (const Error& error) {
         throw BadInput(
-            fmt::format("{} A scene (.toml), a mesh (.msh, .vtu), a surface (.stl, .obj, .off, .ply, .vtp) or a folder of "
+            fmt::format("{}\nA scene (.toml), a mesh (.msh, .vtu), a surface (.stl, .obj, .off, .ply, .vtp) or a folder of "
                         "results can be "
                         "looked at.",
                         error.what()));

@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <string>
+#include <string_view>
 
 #include "abut/mesh/io/binary_values.hpp"
 #include "abut/mesh/io/file.hpp"
@@ -13,13 +15,21 @@ namespace {
 
 constexpr std::size_t stl_head = 84, stl_triangle = 50;  ///< bytes of a binary STL file
 
+/// A keyword in small letters: files in capitals are about as old as the format.
+std::string keyword(std::string_view word) {
+    std::string small(word);
+    std::ranges::transform(small, small.begin(),
+                           [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
+    return small;
+}
+
 /// Some binary files begin with "solid" too, but then their length gives them away.
 bool is_ascii_stl(const std::string& contents) {
     if (contents.size() >= stl_head && contents.size() == stl_head + stl_triangle * std::size_t{binary_value<std::uint32_t>(
                                                                                         contents, 80, ByteOrder::little)})
         return false;
     const std::size_t start = std::min(contents.find_first_not_of("\xEF\xBB\xBF \t\r\n"), contents.size());
-    return contents.compare(start, 5, "solid") == 0;
+    return keyword(std::string_view(contents).substr(start, 5)) == "solid";
 }
 
 void read_binary_stl(const std::string& contents, SurfaceMesh& mesh) {
@@ -58,7 +68,8 @@ public:
 
     void read() {
         bool inside = false, ended = false;
-        for (auto word = words_.next(); !word.empty(); word = words_.next()) {
+        for (auto text = words_.next(); !text.empty(); text = words_.next()) {
+            const std::string word = keyword(text);
             if (word == "solid" || word == "endsolid") {
                 inside = word == "solid";
                 ended = ended || !inside;
@@ -66,7 +77,7 @@ public:
             } else if (word == "facet") {
                 read_facet();
             } else if (word == "vertex" || word == "endfacet" || word == "endloop") {
-                words_.refuse(in_quotes(word) + " stands outside a facet");
+                words_.refuse(in_quotes(text) + " stands outside a facet");
             }
         }
         if (inside || !ended)
@@ -80,18 +91,19 @@ private:
     void read_facet() {
         std::array<std::int32_t, 3> corners{};
         std::size_t n_corners = 0;
-        auto word = words_.next();
-        for (; !word.empty() && word != "endfacet"; word = words_.next()) {
+        auto text = words_.next();
+        for (; !text.empty() && keyword(text) != "endfacet"; text = words_.next()) {
+            const std::string word = keyword(text);
             if (word == "normal") {
                 for (int i = 0; i < 3; ++i) (void)words_.next();  // not read, whatever it says
             } else if (word == "vertex") {
                 if (n_corners == 3) words_.refuse(facet() + "it has more than 3 vertices");
                 corners[n_corners++] = read_vertex();
             } else if (word != "outer" && word != "loop" && word != "endloop") {
-                words_.refuse(facet() + in_quotes(word) + " is no word of a facet");
+                words_.refuse(facet() + in_quotes(text) + " is no word of a facet");
             }
         }
-        if (word.empty()) words_.refuse(facet() + "the file is truncated, 'endfacet' is missing");
+        if (text.empty()) words_.refuse(facet() + "the file is truncated, 'endfacet' is missing");
         if (n_corners != 3) words_.refuse(facet() + "it has " + std::to_string(n_corners) + " vertices, 3 are needed");
         mesh_.faces.append(corners);
     }

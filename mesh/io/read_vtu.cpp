@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -12,6 +13,7 @@
 
 #include <Eigen/Geometry>
 
+#include "abut/base/sort_unique.hpp"
 #include "abut/geometry/box.hpp"
 #include "abut/mesh/connected_bodies.hpp"
 #include "abut/mesh/io/other_formats.hpp"
@@ -147,17 +149,83 @@ bool read_group_face(CellSoup<Dim>& soup, const VtkGrid& grid, const std::vector
     return is_face;
 }
 
+/// Numbers of sets, as meshio and Gmsh call them after the format that a mesh came from; abut._meshio has the same list.
+constexpr std::array<const char*, 7> number_arrays = {"gmsh:physical",   "cell_tags", "medit:ref",    "nastran:ref",
+                                                      "avsucd:material", "su2:tag",   "CellEntityIds"};
+
+/// The first of these arrays that has a whole number for each cell; null without one.
+const VtkArray* set_numbers(const VtkGrid& grid) {
+    const auto is_whole = [](double value) { return value == std::floor(value) && std::abs(value) <= 1e9; };
+    for (const char* name : number_arrays)
+        for (const VtkArray& array : grid.cell_data)
+            if (array.name == name && array.n_components == 1 && std::ranges::all_of(array.values, is_whole)) return &array;
+    return nullptr;
+}
+
+std::string name_of_set(std::int64_t number) { return std::string("set_") + std::to_string(number); }
+
+/// As names_of_bodies, of numbers of sets: 0 is no set, and becomes -1.
+std::vector<std::string> names_of_sets(std::vector<std::int64_t>& numbers) {
+    std::vector<std::int64_t> distinct = numbers;
+    sort_unique(distinct);
+    std::erase(distinct, 0);
+    for (std::int64_t& number : numbers)
+        number = number == 0 ? -1 : std::lower_bound(distinct.begin(), distinct.end(), number) - distinct.begin();
+    std::vector<std::string> names;
+    for (const std::int64_t number : distinct) names.push_back(name_of_set(number));
+    return names;
+}
+
+/// Corners of a face of cells of that dimension; 0: the type is none.
+std::size_t n_face_corners(std::int64_t type, int dimension) {
+    switch (type) {
+        case vtk_line:
+        case vtk_quadratic_edge:
+            return dimension == 2 ? 2 : 0;
+        case vtk_triangle:
+        case vtk_quadratic_triangle:
+        case vtk_biquadratic_triangle:
+            return dimension == 3 ? 3 : 0;
+        case vtk_quad:
+        case vtk_quadratic_quad:
+        case vtk_biquadratic_quad:
+            return dimension == 3 ? 4 : 0;
+        default:
+            return 0;
+    }
+}
+
+/// Whether a cell of lower dimension is a face of a set with a number, which becomes a group.
+template <int Dim>
+bool read_numbered_face(CellSoup<Dim>& soup, const VtkGrid& grid, const VtkArray& numbers, std::size_t cell) {
+    const std::size_t n_corners = n_face_corners(grid.cell_types[cell], Dim);
+    const auto ids = grid.corners_of(cell);
+    if (n_corners == 0 || ids.size() < n_corners || numbers.values[cell] == 0.0) return false;
+    check_points(soup.name, grid, cell);
+    const std::string name = name_of_set(static_cast<std::int64_t>(numbers.values[cell]));
+    const auto found = std::ranges::find(soup.group_names, name);
+    const auto group = static_cast<std::int32_t>(found - soup.group_names.begin());
+    if (found == soup.group_names.end()) soup.group_names.push_back(name);
+    typename CellSoup<Dim>::NamedFace face{{}, group};
+    for (const std::int64_t id : ids.first(n_corners)) face.vertices.push_back(static_cast<std::int32_t>(id));
+    soup.named_faces.push_back(std::move(face));
+    return true;
+}
+
 template <int Dim>
 void read_cells(CellSoup<Dim>& soup, const VtkGrid& grid) {
     const auto values = body_values(soup.name, grid);
     const auto groups = group_arrays(soup, grid);
+    const VtkArray* const numbers = values.empty() && groups.empty() ? set_numbers(grid) : nullptr;
     std::vector<std::int64_t> bodies;
     std::size_t n_curved = 0;
     for (std::size_t cell = 0; cell < grid.n_cells(); ++cell) {
         const std::int64_t type = grid.cell_types[cell];
         const auto shape = shape_of_vtk(type);
         if (has_lower_dimension(type, Dim)) {
-            if (!read_group_face(soup, grid, groups, cell)) ++soup.n_ignored_elements;
+            const bool is_face = numbers != nullptr ? read_numbered_face(soup, grid, *numbers, cell)
+                                                    : read_group_face(soup, grid, groups, cell);
+            if (!is_face) ++soup.n_ignored_elements;
             continue;
         }
         if (!shape || dimension(shape->shape) != Dim)
@@ -175,9 +243,10 @@ void read_cells(CellSoup<Dim>& soup, const VtkGrid& grid) {
         append_cell(soup, *shape, ids, cell);
         n_curved += shape->is_curved;
         if (!values.empty()) bodies.push_back(values[cell]);
+        if (numbers != nullptr) bodies.push_back(static_cast<std::int64_t>(numbers->values[cell]));
     }
     if (n_curved > 0) soup.warnings.push_back(about_order_2(n_curved));
-    soup.body_names = names_of_bodies(bodies, grid);
+    soup.body_names = numbers != nullptr ? names_of_sets(bodies) : names_of_bodies(bodies, grid);
     for (std::size_t cell = 0; cell < bodies.size(); ++cell) soup.cell_body[cell] = static_cast<std::int32_t>(bodies[cell]);
     name_connected_bodies(soup);
 }

@@ -2,7 +2,9 @@
 
 #include <gmsh.h>
 
+#include <algorithm>
 #include <fstream>
+#include <tuple>
 
 #include "abut/mesh/io/read_gmsh.hpp"
 #include "abut/mesh/io/read_mesh.hpp"
@@ -238,6 +240,52 @@ TEST_CASE("voxels, both orders of wedges and lower cells are read from VTU", "[m
                Contains("range.vtu: cell 0 has the point -1, the file has 8. Write the mesh again."));
     CHECK_THAT(complaint_of("0 1 2 4", "7"), Contains("range.vtu: ") && Contains(". Write the mesh again."));
     CHECK_THAT(complaint_of("0 1 2 4", "3"), Contains("range.vtu: ") && Contains(". Write the mesh again."));
+}
+
+TEST_CASE("numbers of sets that other programs write to VTU are bodies and groups", "[mesh][files]") {
+    const test::ScratchFolder folder;
+    // Three tetrahedra, the last apart and in no set; three of their faces, one of them curved, and an edge.
+    const auto file = [](const std::string& arrays) {
+        return "<VTKFile type=\"UnstructuredGrid\" version=\"0.1\" byte_order=\"LittleEndian\">\n<UnstructuredGrid>\n"
+               "<Piece NumberOfPoints=\"12\" NumberOfCells=\"7\">\n<Points><DataArray type=\"Float64\" "
+               "NumberOfComponents=\"3\" format=\"ascii\">0 0 0 1 0 0 0 1 0 0 0 1 5 0 0 7 0 0 5 1 0 5 0 1 "
+               "9 0 0 10 0 0 9 1 0 9 0 3</DataArray></Points>\n"
+               "<Cells><DataArray type=\"Int64\" Name=\"connectivity\" format=\"ascii\">0 1 2 3 4 5 6 7 8 9 10 11 "
+               "0 1 2 4 5 6 8 8 8 0 1 3 0 1</DataArray>\n<DataArray type=\"Int64\" Name=\"offsets\" format=\"ascii\">"
+               "4 8 12 15 21 24 26</DataArray>\n<DataArray type=\"UInt8\" Name=\"types\" format=\"ascii\">"
+               "10 10 10 5 22 5 3</DataArray></Cells>\n<CellData>" +
+               arrays + "</CellData></Piece></UnstructuredGrid></VTKFile>\n";
+    };
+    const auto array = [](const std::string& name, const std::string& values) {
+        return "<DataArray type=\"Int64\" Name=\"" + name + "\" format=\"ascii\">" + values + "</DataArray>";
+    };
+    const std::string numbers = "7 -3 0 7 9 0 4";
+    for (const std::string name : {"gmsh:physical", "cell_tags", "medit:ref", "nastran:ref", "su2:tag", "CellEntityIds"}) {
+        CAPTURE(name);
+        save_text(folder / "a.vtu", file(array("other", "1 1 1 1 1 1 1") + array(name, numbers)));
+        const auto mesh = read_vtu<3>(folder / "a.vtu");
+        CHECK(mesh.body_names == std::vector<std::string>{"set_-3", "set_7", "body_1"});
+        REQUIRE(mesh.n_cells() == 3);
+        for (const auto& [label, body, volume] : {std::tuple{1, 0, 1.0 / 3}, {0, 1, 1.0 / 6}, {2, 2, 0.5}}) {
+            const auto cell = static_cast<std::size_t>(std::ranges::find(mesh.cell_label, label) - mesh.cell_label.begin());
+            REQUIRE(cell < 3);
+            CHECK(mesh.cell_body[cell] == body);
+            CHECK(mesh.cell_measure[cell] == Approx(volume));
+        }
+        REQUIRE(mesh.groups.size() == 2);
+        const auto area = [&](const std::string& group) {
+            REQUIRE(mesh.group(group).faces.size() == 1);
+            return mesh.face_measure[static_cast<std::size_t>(mesh.group(group).faces[0])];
+        };
+        CHECK(area("set_7") == Approx(0.5));
+        CHECK(area("set_9") == Approx(1.0));
+        CHECK(mesh.report.n_ignored_elements == 2);
+    }
+    save_text(folder / "a.vtu", file(array("body", "1 1 1 1 1 1 1") + array("medit:ref", numbers)));  // ours count first
+    CHECK(read_vtu<3>(folder / "a.vtu").body_names == std::vector<std::string>{"body_1"});
+    save_text(folder / "a.vtu", file("<DataArray type=\"Float64\" Name=\"medit:ref\" format=\"ascii\">"
+                                     "7 7.5 0 7 9 0 4</DataArray>"));  // no numbers of sets
+    CHECK(read_vtu<3>(folder / "a.vtu").body_names == std::vector<std::string>{"body_1", "body_2", "body_3"});
 }
 
 TEST_CASE("files that are missing, empty or something else are refused by name", "[mesh][files]") {

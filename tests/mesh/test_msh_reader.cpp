@@ -348,11 +348,17 @@ TEST_CASE("pipes, devices and folders are refused before a byte is read", "[mesh
 }
 
 TEST_CASE("files of other programs are refused with the command that converts them", "[mesh][files]") {
+    const std::string with_groups =
+        "python3 -c 'import sys, meshio; from abut import solid; "
+        "solid.mesh(meshio.read(sys.argv[1])).write_vtu(sys.argv[2])' ";
     CHECK_THROWS_WITH(read_mesh<3>("part.inp"),
                       "part.inp: the extension '.inp' is that of an input file of Abaqus, which is not "
-                      "read. Convert it: meshio convert part.inp part.msh --output-format gmsh22");
-    CHECK_THROWS_WITH(read_mesh<3>("part.MED"), Contains("Convert it: gmsh part.MED -save -o part.msh"));
-    CHECK_THROWS_WITH(read_mesh<3>("part.bdf"), Contains("Convert it: gmsh part.bdf -save -o part.msh"));
+                      "read. Convert it with its groups (package python3-meshio): " +
+                          with_groups + "part.inp part.vtu");
+    for (const std::string part : {"part.vtk", "part.MED", "part.bdf", "part.mesh", "part.su2", "part.exo"})
+        CHECK_THROWS_WITH(read_mesh<3>(part), Contains(with_groups + part + " part.vtu"));
+    CHECK_THROWS_WITH(read_mesh<3>("part.unv"), Contains("Convert it: gmsh part.unv -save -o part.msh"));
+    CHECK_THROWS_WITH(read_mesh<3>("part.key"), Contains("No converter is known. Write the mesh as .unv, .inp or .bdf"));
     CHECK_THROWS_WITH(read_mesh<2>("part.geo"), Contains("Convert it: gmsh part.geo -3 -o part.msh"));
     CHECK_THROWS_WITH(read_surface("part.vtk"), Contains("Convert it: meshio convert part.vtk part.vtu"));
 }
