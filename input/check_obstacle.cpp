@@ -79,16 +79,20 @@ double depth_in_cell(const mesh::Mesh<Dim>& mesh, std::int32_t cell, const Point
     return depth > tolerance ? depth : 0.0;
 }
 
-/// The deepest that a face is inside a cell, by body (n_bodies) [m].
+/// The deepest that a face is inside a cell, by body (n_bodies) [m]; of the first hundred pairs of a body that overlap.
 template <int Dim>
 std::vector<double> depths(const mesh::Mesh<Dim>& mesh, const std::vector<Points<Dim>>& faces) {
     std::vector<Box<Dim>> of_cells, of_faces;
     for (std::int32_t cell = 0; cell < mesh.n_cells(); ++cell) of_cells.push_back(box_of<Dim>(corners_of(mesh, cell)));
     for (const Points<Dim>& face : faces) of_faces.push_back(box_of<Dim>(face));
     std::vector<double> depths(mesh.body_names.size(), 0.0);
+    std::vector<std::int64_t> found(depths.size(), 0);
     for (const auto& [cell, face] : geometry::overlapping_pairs<Dim>({}, of_cells, of_faces)) {
-        double& deepest = depths[static_cast<std::size_t>(mesh.cell_body[cell])];
-        deepest = std::max(deepest, depth_in_cell(mesh, cell, faces[static_cast<std::size_t>(face)]));
+        const auto body = static_cast<std::size_t>(mesh.cell_body[cell]);
+        if (found[body] >= mesh::enough_interpenetrations.of_two_bodies) continue;
+        const double depth = depth_in_cell(mesh, cell, faces[static_cast<std::size_t>(face)]);
+        depths[body] = std::max(depths[body], depth);
+        if (depth > 0.0) ++found[body];
     }
     return depths;
 }

@@ -9,6 +9,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <span>
 #include <utility>
 
 #include "abut/base/error.hpp"
@@ -98,14 +99,25 @@ const BodySettings* table_of(const std::string& body, const std::vector<BodySett
     return found == tables.end() ? nullptr : &*found;
 }
 
-/// One fault for each pair of bodies, with the deepest pair of their cells.
+/// Words behind the depth of two bodies where the search for cells that overlap ended early.
+std::string more_cells(std::span<const mesh::Interpenetration> found, const std::array<std::int32_t, 2>& bodies) {
+    const std::int64_t n = std::ranges::count(found, bodies, &mesh::Interpenetration::bodies);
+    if (n >= mesh::enough_interpenetrations.of_two_bodies)
+        return fmt::format(" ({} pairs of cells were looked at, more may overlap, and deeper)", n);
+    return std::ssize(found) >= mesh::enough_interpenetrations.in_all
+               ? fmt::format(" (the search ended at {} pairs of cells: more bodies may overlap)", found.size())
+               : "";
+}
+
+/// One fault for each pair of bodies, with the deepest pair of their cells that were looked at.
 template <int Dim>
 void check_apart(const mesh::Mesh<Dim>& mesh, const Settings& settings, mesh::IgnoredPairs ignored,
                  std::vector<Fault>& faults) {
     std::set<std::array<std::int32_t, 2>> seen;
     std::map<std::string, std::int64_t> more;  // pairs of a pattern behind the first one
-    for (const mesh::Interpenetration& pair :
-         mesh::find_interpenetrations(mesh, settings.options.contact.search.broad_phase, ignored)) {
+    const auto found = mesh::find_interpenetrations(mesh, settings.options.contact.search.broad_phase, ignored,
+                                                    mesh::enough_interpenetrations);
+    for (const mesh::Interpenetration& pair : found) {
         if (!seen.insert(pair.bodies).second) continue;
         const std::string& first = mesh.body_names[static_cast<std::size_t>(pair.bodies[0])];
         const std::string& second = mesh.body_names[static_cast<std::size_t>(pair.bodies[1])];
@@ -117,8 +129,8 @@ void check_apart(const mesh::Mesh<Dim>& mesh, const Settings& settings, mesh::Ig
              : table ? table->where
                      : settings.file.string(),
              fmt::format("bodies '{}' and '{}' overlap at the start: two of their cells are {:.6g} m inside each "
-                         "other, 0 m is allowed. Move one of them with {}.",
-                         first, second, pair.depth, is_copy ? table->pattern : "place")});
+                         "other, 0 m is allowed{}. Move one of them with {}.",
+                         first, second, pair.depth, more_cells(found, pair.bodies), is_copy ? table->pattern : "place")});
     }
     for (const auto& [pattern, n] : more)
         if (n > 0)

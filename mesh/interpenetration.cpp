@@ -94,7 +94,7 @@ std::string cell_labels(const Mesh<Dim>& mesh, const Interpenetration& pair) {
 
 template <int Dim>
 std::vector<Interpenetration> find_interpenetrations(const Mesh<Dim>& mesh, geometry::BroadPhase broad_phase,
-                                                     IgnoredPairs ignored) {
+                                                     IgnoredPairs ignored, InterpenetrationLimits limits) {
     const auto bodies = cells_by_body(mesh);
     std::vector<Interpenetration> found;
     for (std::int32_t body_1 = 0; body_1 < mesh.n_bodies(); ++body_1)
@@ -106,7 +106,10 @@ std::vector<Interpenetration> find_interpenetrations(const Mesh<Dim>& mesh, geom
             const auto& part_1 = bodies[static_cast<std::size_t>(body_1)];
             const auto& part_2 = bodies[static_cast<std::size_t>(body_2)];
             if (!geometry::bounding_box<Dim>(part_1.boxes).overlaps(geometry::bounding_box<Dim>(part_2.boxes))) continue;
+            const std::int64_t enough = std::min(limits.in_all - std::ssize(found), limits.of_two_bodies);
+            const std::int64_t before = std::ssize(found);
             for (const auto& [i, k] : geometry::overlapping_pairs<Dim>({broad_phase}, part_1.boxes, part_2.boxes)) {
+                if (std::ssize(found) - before >= enough) break;
                 const std::array cells{part_1.cells[static_cast<std::size_t>(i)], part_2.cells[static_cast<std::size_t>(k)]};
                 if (const auto depth = overlap_depth(mesh, cells[0], cells[1]))
                     found.push_back({{body_1, body_2}, cells, *depth});
@@ -120,19 +123,24 @@ std::vector<Interpenetration> find_interpenetrations(const Mesh<Dim>& mesh, geom
 
 template <int Dim>
 void check_apart(const Mesh<Dim>& mesh, const std::string& remedy, geometry::BroadPhase broad_phase, IgnoredPairs ignored) {
-    const auto found = find_interpenetrations(mesh, broad_phase, ignored);
+    const auto found = find_interpenetrations(mesh, broad_phase, ignored, enough_interpenetrations);
     if (found.empty()) return;
     const Interpenetration& worst = found.front();
+    const std::int64_t of_these = std::ranges::count(found, worst.bodies, &Interpenetration::bodies);
+    const bool all =
+        std::ssize(found) < enough_interpenetrations.in_all && of_these < enough_interpenetrations.of_two_bodies;
     throw MeshError(mesh.name + ": bodies " + body_names(mesh, worst) + " overlap at the start: cells " +
                     cell_labels(mesh, worst) + " are " + number(worst.depth) + " m inside each other, 0 m is allowed (" +
                     std::to_string(found.size()) +
-                    (found.size() == 1 ? " pair of cells overlaps" : " pairs of cells overlap, this one is the deepest") +
+                    (found.size() == 1 ? " pair of cells overlaps"
+                     : all             ? " pairs of cells overlap, this one is the deepest"
+                           : " pairs of cells or more overlap, this one is the deepest of those that were looked at") +
                     "). " + remedy);
 }
 
 #define ABUT_INSTANTIATE(Dim)                                                                                  \
     template std::vector<Interpenetration> find_interpenetrations<Dim>(const Mesh<Dim>&, geometry::BroadPhase, \
-                                                                       IgnoredPairs);                          \
+                                                                       IgnoredPairs, InterpenetrationLimits);  \
     template void check_apart<Dim>(const Mesh<Dim>&, const std::string&, geometry::BroadPhase, IgnoredPairs);
 ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numbers>
 #include <random>
@@ -214,3 +215,17 @@ TEST_CASE("cells of one body are never compared", "[mesh][interpenetration]") {
 }
 
 }  // namespace abut::mesh
+
+TEST_CASE("a search for overlapping cells ends at so many of two bodies, and says that there may be more",
+          "[mesh][interpenetration]") {
+    const auto mesh = both<3>(cube<3>(Vector<3>::Zero(), 4, CellShape::tetrahedron, "low"),
+                              cube<3>(Vector<3>::Constant(0.1), 4, CellShape::tetrahedron, "high"));
+    REQUIRE(find_interpenetrations<3>(mesh).size() > 1000);
+    const auto few = find_interpenetrations<3>(mesh, geometry::BroadPhase::automatic, {}, enough_interpenetrations);
+    CHECK(std::ssize(few) == enough_interpenetrations.of_two_bodies);
+    CHECK(std::ranges::is_sorted(few, std::ranges::greater{}, &Interpenetration::depth));
+    CHECK(find_interpenetrations<3>(mesh, geometry::BroadPhase::automatic, {}, {.in_all = 7}).size() == 7);
+    CHECK_THROWS_WITH(check_apart<3>(mesh), Catch::Contains("'low' and 'high'") &&
+                                                Catch::Contains("100 pairs of cells or more overlap") &&
+                                                Catch::Contains("of those that were looked at"));
+}
