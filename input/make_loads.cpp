@@ -89,9 +89,11 @@ void add_supports(run::Scene<Dim>& scene, const Settings& settings, const Names<
     }
 }
 
-/// Faces of the boundary that lie on a plane, as near as bodies lie that touch, and look away from its normal.
+/// Faces of the boundary that lie on a plane, as near as bodies lie that touch, and look away from its normal. Throws BadInput for one
+/// along the plane that nearly lies on it: it would be held by nothing, and whoever cut the body there means it to be.
 template <int Dim>
 std::vector<std::int32_t> faces_on(const mesh::Mesh<Dim>& mesh, const Vector<Dim>& point, const Vector<Dim>& normal) {
+    constexpr double apart = 1e-4;  // of the size of a face
     std::vector<std::int32_t> faces;
     for (const std::int32_t face : mesh.boundary_faces) {
         double size = 0.0, height = 0.0;
@@ -99,7 +101,15 @@ std::vector<std::int32_t> faces_on(const mesh::Mesh<Dim>& mesh, const Vector<Dim
             size = std::max(size, 2.0 * (mesh.vertices[vertex] - mesh.face_centroid[face]).norm());
             height = std::max(height, std::abs(normal.dot(mesh.vertices[vertex] - point)));
         }
-        if (height <= mesh::touching_tolerance * size && normal.dot(mesh.face_normal[face]) < 0.0) faces.push_back(face);
+        if (height > apart * size || normal.dot(mesh.face_normal[face]) >= 0.0) continue;
+        if (height > mesh::touching_tolerance * size)
+            throw BadInput(
+                fmt::format("has a face of body '{}' {:.6g} m in front of it, neither on it (up to {:.2g} m) nor apart from "
+                            "it (from {:.2g} m on): "
+                            "nothing would hold it there. Move the plane onto the face, or the body away from the plane.",
+                            mesh.body_names[static_cast<std::size_t>(mesh.cell_body[mesh.face_cells[face][0]])], height,
+                            mesh::touching_tolerance * size, apart * size));
+        faces.push_back(face);
     }
     return faces;
 }

@@ -136,3 +136,25 @@ TEST_CASE("two planes make a quarter, which is stretched as the whole plate is",
     const double work = 0.5 * (1.0 - 0.0625) / 100.0;  // of the pull up to that stretch [J/m]
     for (const auto& entry : result.ledger.entries()) CHECK(entry.kinetic < 1e-20 * work);
 }
+
+TEST_CASE(
+    "a face that nearly lies on a plane of symmetry is refused with its distance, and one on it or apart from it is not",
+    "[input][symmetry]") {
+    // Faces of 0.25 m: on it up to 2.5e-7 m, apart from 2.5e-5 m on.
+    const auto block = [](const char* left) {
+        return fmt::format(
+                   "[bodies.block]\nshape = \"structured_box\"\nlower = [{}, 0]\nupper = [1, 1]\ncounts = [4, 4]\nyoung = "
+                   "100\ndensity = 1\n",
+                   left) +
+               symmetry;
+    };
+    for (const char* near : {"1e-6", "2e-5"})
+        CHECK_THAT(fault_of(block(near)), Catch::Contains("symmetry[0] has a face of body 'block'") &&
+                                              Catch::Contains(fmt::format("{:.6g} m in front", std::stod(near))) &&
+                                              Catch::Contains("2.5e-07 m") && Catch::Contains("2.5e-05 m"));
+    for (const char* well : {"0", "1e-7", "3e-5", "0.1"}) {
+        CAPTURE(well);
+        const WrittenScene written("dim = 2\n" + block(well) + "[run]\nsteps = 1\n");
+        CHECK(input::check_scene(written.path()).faults.empty());
+    }
+}
