@@ -16,12 +16,14 @@
 namespace abut::run {
 namespace {
 
-/// H, less the work from outside, beyond this many times the energy in play: the solution is lost.
+/// H~, less the work from outside, beyond this many times the energy in play: the solution is lost.
 constexpr double divergence_factor = 1e3;
+/// Part of H by which H~ may be off without meaning [-].
+constexpr double rounding = 1e-10;
 
 template <int Dim>
 double own_energy(const dynamics::LedgerEntry<Dim>& entry) {
-    return entry.energy - entry.received();
+    return entry.pseudo_energy - entry.received();
 }
 
 }  // namespace
@@ -29,7 +31,8 @@ double own_energy(const dynamics::LedgerEntry<Dim>& entry) {
 template <int Dim>
 bool is_alive(const dynamics::LedgerEntry<Dim>& entry, double scale, double excess_before) {
     if (!std::isfinite(entry.energy) || !std::isfinite(entry.pseudo_energy)) return false;
-    return excess_before <= scale && (own_energy(entry) <= divergence_factor * scale || scale == 0.0);
+    const double rounded = rounding * std::abs(entry.energy);  // H~ is a difference of energies as large as that
+    return excess_before <= scale && own_energy(entry) <= divergence_factor * scale + rounded;
 }
 
 template <int Dim>

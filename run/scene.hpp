@@ -13,6 +13,7 @@
 #include "abut/mesh/mesh.hpp"
 #include "abut/mesh/unjoined_faces.hpp"
 #include "abut/run/accounts.hpp"
+#include "abut/run/body_sliding.hpp"
 #include "abut/run/options.hpp"
 #include "abut/run/outputs.hpp"
 #include "abut/run/pilot_report.hpp"
@@ -32,7 +33,8 @@ namespace abut::run {
 struct EnergyScale {
     std::string name = "K0";  ///< a letter and its index
     /// [J]; 0: the largest of kinetic energy, V and work from outside so far (Accounts::energy_in_play), which is K0 as long as
-    /// nothing acts from outside and nothing is strained at the start, and is called E where it is more
+    /// nothing acts from outside and nothing is strained at the start, and is called E where it is more; RunResult::rest_energy
+    /// and less count as nothing
     double value = 0.0;
 
     /// An energy over the scale [-]; 0 as long as nothing has moved.
@@ -91,6 +93,7 @@ struct RunResult {
     std::int64_t resumed_after = 0;         ///< the step of the checkpoint that this run went on from; 0: none
     bool complete = true;                   ///< false: an observer asked to stop before the last step
     EnergyScale scale;                      ///< with its value, 0 as long as nothing has moved
+    double rest_energy = 0.0;               ///< up to which nothing has moved: what rounding makes of bodies at rest [J]
     double skin = 0.0;                      ///< of the last candidate list [m]
     int threads = 0;                        ///< allowed
     contact::ContactReport contact;
@@ -109,6 +112,9 @@ struct RunResult {
     std::optional<PilotReport> pilot;              ///< under BodyKinematics::automatic
     std::optional<SettlingReport> settling;        ///< under RunOptions::settle
     bool all_may_turn = false;                     ///< no body is of Kinematics::small
+    std::vector<bool> may_turn;                    ///< which bodies are not
+    TurnedBody turned;                             ///< at any record, of those that are
+    WeakFriction weak_friction;                    ///< of bodies that slide, with the longest time
     bool finite_kinematic_hardening = false;       ///< a body of finite strains hardens kinematically
     std::vector<solid::BodyInertia<Dim>> inertia;  ///< of the bodies; empty except on the first rank
     solid::StencilReport stencils;                 ///< of the faces between cells

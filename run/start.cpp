@@ -12,6 +12,7 @@
 #include "abut/dynamics/mass.hpp"
 #include "abut/dynamics/ranks.hpp"
 #include "abut/run/of_all_ranks.hpp"
+#include "abut/run/rest_energy.hpp"
 #include "abut/run/settling.hpp"
 #include "abut/run/start_contact.hpp"
 #include "abut/solid/bond_view.hpp"
@@ -60,6 +61,7 @@ EnergyScale known_scale(EnergyScale scale, const RunResult<Dim>& result) {
     if (scale.name.empty())
         throw BadInput("Scene::energy_scale has no name. Give a letter and what stands below it, such as H0.");
     if (scale.value != 0.0) return scale;
+    if (result.accounts.energy_in_play <= result.rest_energy) return scale;
     scale.value = result.accounts.energy_in_play;
     if (scale.name == EnergyScale{}.name && scale.value > (1.0 + rounding) * result.ledger.entries().front().kinetic)
         scale.name = "E";
@@ -97,6 +99,8 @@ Start<Dim>::Start(const Scene<Dim>& of, const RunOptions& given, std::optional<P
     result.finest_dt = result.dt = choose_step(options, result.stable.dt);
     if (options.integrator == SolidIntegrator::memm_async) set_local_steps();
     result.steps = choose_steps(options, scene.time, result.dt);
+    result.rest_energy =
+        rest_energy(scene.mesh, solid->options().materials, std::min(result.finest_dt, result.stable.dt), result.steps);
     const solid::Solid<Dim>& seen = whole ? *whole : *solid;
     result.stencils = seen.ccg().stencil_report();
     result.boundary_stencils = seen.ccg().boundary().report;
@@ -105,6 +109,8 @@ Start<Dim>::Start(const Scene<Dim>& of, const RunOptions& given, std::optional<P
             solid->options().materials[body].kinematic_hardening > 0.0)
             result.finite_kinematic_hardening = true;
     result.all_may_turn = solid::all_bodies(solid->options().kinematics, &solid::KinematicsProperties::turns);
+    for (std::size_t body = 0; body < solid->options().materials.size(); ++body)
+        result.may_turn.push_back(solid::properties_of(solid->options().kinematics, body).turns);
     if (share.ranks.rank() == 0) result.inertia = solid::inertia_of_bodies(seen);
     result.blind_corners = solid->contact().blind_corners();
     result.unseen_edges = solid->contact().unseen_edges();
@@ -129,6 +135,8 @@ void Start<Dim>::set_outside() {
     add_if(forces, !given.boundary.traction.empty(), "tractions");
     add_if(forces, bool(given.body_load), "loads on the volume");
     add_if(forces, std::ranges::any_of(given.springs, to_ground), "springs to the ground");
+    add_if(forces, std::ranges::any_of(given.materials, [](const auto& one) { return one.mass_damping > 0.0; }),
+           "mass_damping");
     const bool meets_obstacles = scene.contact && !given.obstacles.empty();
     // The filter holds momentum along what nothing holds, and an obstacle does.
     result.accounts_for_outside =
@@ -173,7 +181,8 @@ void Start<Dim>::settle() {
         const dynamics::IntegratorState all = collected<Dim>(ranks, {.q = q, .p_before = momentum, .p_after = momentum});
         if (scene.contact)
             on_first(ranks, [&] {
-                check_start_contact<Dim>(scene, whole ? *whole : *solid, all.q, std::max(kinetic, scene.energy_scale.value));
+                check_start_contact<Dim>(scene, whole ? *whole : *solid, all.q, std::max(kinetic, scene.energy_scale.value),
+                                         result.rest_energy);
             });
         Settled settled = run::settle(scene, solid->options(), first_share, q, result.stable.dt);
         q = std::move(settled.q);

@@ -14,7 +14,7 @@ namespace abut::run {
 template <int Dim>
 void check_for_ranks(const dynamics::Ranks& ranks, const Scene<Dim>& scene, const RunOptions& options);
 
-/// With the value that it has so far where the scene gives none, and then with the name E unless that is K0. Throws BadInput
+/// With the value that it has so far where the scene gives none and anything has moved, and then with the name E unless that is K0. Throws BadInput
 /// for one without a name.
 template <int Dim>
 [[nodiscard]] EnergyScale known_scale(EnergyScale scale, const RunResult<Dim>& result);

@@ -167,12 +167,13 @@ std::optional<Nearest<Dim>> how_far_apart(const PlacedSurface<Dim>& a, const Pla
 }  // namespace
 
 template <int Dim>
-void check_start_contact(const Scene<Dim>& scene, solid::Solid<Dim>& solid, std::span<const double> q, double scale) {
+void check_start_contact(const Scene<Dim>& scene, solid::Solid<Dim>& solid, std::span<const double> q, double scale,
+                         double rest_energy) {
     if (solid.contact_at(q).acting_pairs().empty()) return;
     const bool by_nodes = solid.contact().pair_potential() != nullptr;
     const double energy =
         by_nodes ? solid.contact().pair_potential()->last().energy : solid.contact().reconstruction()->last().energy;
-    if (!(std::abs(energy) > allowed_energy * scale)) return;
+    if (!(std::abs(energy) > std::max(allowed_energy * scale, rest_energy))) return;
     const geometry::SearchOptions search{.method = solid.options().contact->search.broad_phase};
     for (const auto& [a, b] : pushing_bodies(solid)) {
         const auto apart = how_far_apart(placed(scene, a), placed(scene, b), search);
@@ -194,7 +195,7 @@ void check_start_contact(const Scene<Dim>& scene, solid::Solid<Dim>& solid, std:
     }
 }
 
-template void check_start_contact<2>(const Scene<2>&, solid::Solid<2>&, std::span<const double>, double);
-template void check_start_contact<3>(const Scene<3>&, solid::Solid<3>&, std::span<const double>, double);
+template void check_start_contact<2>(const Scene<2>&, solid::Solid<2>&, std::span<const double>, double, double);
+template void check_start_contact<3>(const Scene<3>&, solid::Solid<3>&, std::span<const double>, double, double);
 
 }  // namespace abut::run

@@ -24,7 +24,8 @@ struct SurfaceLooks {
     Encounter remote{};
     /// Two bodies that slid along each other under the highest mean pressure: that over E of the softer one is `ratio`.
     Encounter pressed{};
-    /// Surfaces nearest to each other at the end, where nothing has touched. Without names: nothing could touch.
+    /// Surfaces nearest to each other at the end, where nothing has touched. Without names: nothing could touch, or some lie on
+    /// each other without a force.
     Encounter nearest{};
 };
 

@@ -31,7 +31,7 @@ using geometry::mean_of;
 constexpr std::int64_t cost_of_part = 8, cost_of_pair = 25, cost_of_acting_pair = 100, cost_of_step = 200;
 constexpr std::int64_t steps_per_cost = 100;  // a look takes a hundredth of the steps until the next one
 
-/// Cells inside each other by this part of the smaller one touch: mesh::touching_tolerance.
+/// Cells inside each other by this part of the smaller one touch, and so do bodies as near to each other: mesh::touching_tolerance.
 constexpr double touching_cells = 1e-6;
 /// Bodies slide along each other where their speed along the faces is more than this part of the largest speed.
 constexpr double sliding_share = 0.1;
@@ -354,12 +354,23 @@ void SurfaceWatch<Dim>::look_for_nearest(double time) {
             for (const auto& face : part.faces) faces.push_back(points(face));
         trees.emplace_back(std::move(faces));
     }
+    const auto size_of = [&](std::size_t body) {
+        geometry::Box<Dim> box;
+        for (const Part& part : bodies_[body].parts)
+            for (const auto& face : part.faces)
+                for (const std::int32_t corner : face) box.extend(position_[static_cast<std::size_t>(corner)]);
+        return (box.upper - box.lower).norm();
+    };
     double best = std::numeric_limits<double>::infinity();
     const Pairs passing = passing_pairs(time);
     for (std::size_t a = 0; a < bodies_.size(); ++a)
         for (std::size_t b = a + 1; b < bodies_.size(); ++b) {
             if (!may_meet(bodies_[a], bodies_[b], passing)) continue;
             const double distance = geometry::distance_below(trees[a], trees[b], best);
+            if (distance <= touching_cells * std::min(size_of(a), size_of(b))) {  // at rest on each other, without a force
+                looks_.nearest = {};
+                return;
+            }
             if (distance < best)
                 looks_.nearest = {quoted_name(scene_, bodies_[a].number), quoted_name(scene_, bodies_[b].number), distance,
                                   0.0, time};

@@ -15,8 +15,10 @@
 #include "abut/contact/nodal_contact.hpp"
 #include "abut/dynamics/remedies.hpp"
 #include "abut/dynamics/with_scheme.hpp"
+#include "abut/run/body_names.hpp"
 #include "abut/run/divergence.hpp"
 #include "abut/run/frame_piece.hpp"
+#include "abut/run/friction_watch.hpp"
 #include "abut/run/last_sound.hpp"
 #include "abut/run/obstacle_watch.hpp"
 #include "abut/run/of_all_ranks.hpp"
@@ -41,7 +43,7 @@ constexpr double sound_share = 0.5;
 const std::string observers_kind = "observers of a run";
 constexpr int observers_version = 5;
 const std::string looks_kind = "looks at surfaces";
-constexpr int looks_version = 4;
+constexpr int looks_version = 5;
 constexpr std::int64_t sightings_per_run = 40;  // looks for bodies past a rim and together with themselves, about
 
 /// One run, from the first step to the last.
@@ -63,6 +65,7 @@ public:
           make_(std::move(make)),
           integrator_(make_(start)),
           times_of_setup_(solid_.times()),
+          friction_watch_(scene_, options_),
           balance_(start.first_share.again ? options_.rebalance : 0, options_.rebalance_above),
           watch_(start.scene) {
         remedies_.prepare(*integrator_);
@@ -93,6 +96,7 @@ public:
             observer_.end(run, solid);
         });
         result_.looks = watch_.looks();
+        result_.weak_friction = friction_watch_.weakest();
         result_.local_rotations = solid_.local_rotations(integrator_->q());
         result_.finite = solid_.cells().finite_extremes();
         result_.dissipated = solid_.dissipated();
@@ -221,6 +225,9 @@ private:
             result_.sliding.save(looks);
             watch_.save(looks);
             result_.sightings.save(looks);
+            looks.put(result_.turned.name);
+            looks.put(result_.turned.angle);
+            friction_watch_.save(looks);
             checkpoint.looks = std::move(looks).finish();
             StateWriter state(observers_kind, observers_version);
             observer_.save(state);
@@ -247,6 +254,9 @@ private:
         result_.sliding.restore(looks);
         watch_.restore(looks);
         result_.sightings.restore(looks);
+        result_.turned.name = looks.get_text();
+        result_.turned.angle = looks.get<double>();
+        friction_watch_.restore(looks);
         looks.finish();
         result_.scale = known_scale<Dim>(scene_.energy_scale, result_);
         result_.inadmissible_overlaps_max = from.inadmissible_overlaps_max;
@@ -292,6 +302,10 @@ private:
                                     momentum_from_outside(integrator_->time(), scene_.mesh.n_bodies(), solid_));
             result_.contact = solid_.contact().report();
             result_.sliding.record(result_.contact);
+            const dynamics::LedgerEntry<Dim>& entry = result_.ledger.entries().back();
+            friction_watch_.record(entry.time, solid_.contact().impulses(), entry.losses.by_friction,
+                                   result_.accounts.speed);
+            if (!result_.all_may_turn) record_turned();
             result_.inadmissible_overlaps_max =
                 std::max(result_.inadmissible_overlaps_max, result_.contact.inadmissible_overlaps);
         }
@@ -304,11 +318,18 @@ private:
         result_.scale = known_scale<Dim>(scene_.energy_scale, result_);
         if (entries.size() == 1 && scene_.contact && !options_.settle) check_contact(entries.front());
         whole_.on_first([&] { observer_.record(entries.back(), result_); });
-        const double scale = std::max(result_.accounts.energy_in_play, result_.scale.value);
+        const double scale = std::max({result_.accounts.energy_in_play, result_.scale.value, result_.rest_energy});
         check_alive(entries.back(), scale, excess_before);
         const dynamics::LedgerEntry<Dim>& last = entries.back();
         if (entries.size() == 1 || last.energy - last.pseudo_energy <= sound_share * scale)
             sound_.keep(*integrator_, result_.dt);
+    }
+
+    void record_turned() {
+        const std::vector<double> angles = solid_.rotations(integrator_->q());
+        for (std::size_t body = 0; body < angles.size(); ++body)
+            if (!result_.may_turn[body] && angles[body] > result_.turned.angle)
+                result_.turned = {quoted_name(scene_, static_cast<std::int32_t>(body)), angles[body]};
     }
 
     void look_for_crossings() {
@@ -332,14 +353,16 @@ private:
 
     void check_contact(const dynamics::LedgerEntry<Dim>& at_start) {
         const double scale = std::max(at_start.kinetic, scene_.energy_scale.value);
-        whole_.show(*integrator_,
-                    [&](const auto& run, auto& solid) { check_start_contact<Dim>(scene_, solid, run.q, scale); });
+        whole_.show(*integrator_, [&](const auto& run, auto& solid) {
+            check_start_contact<Dim>(scene_, solid, run.q, scale, result_.rest_energy);
+        });
     }
 
-    /// The record before the last one tells of H - H~, and at the end of the run the last one, too.
+    /// The record before the last one tells of H - H~, and at the end of the run the last one, too, unless all was at rest until then.
     void check_alive(const dynamics::LedgerEntry<Dim>& entry, double scale, double excess_before) {
         const bool at_end = result_.ledger.entries().size() > 1 && entry.step == result_.steps;
-        if (is_alive(entry, scale, at_end ? result_.ledger.energy_excess() : excess_before)) return;
+        const bool moved = result_.accounts.energy_in_play > result_.rest_energy;
+        if (is_alive(entry, scale, at_end && moved ? result_.ledger.energy_excess() : excess_before)) return;
         if (!sound_.is_kept()) sound_.replace(integrator_->state());
         const dynamics::IntegratorState sound = whole_.of(sound_.state()), lost = whole_.of(integrator_->state());
         WorstCell worst;
@@ -363,6 +386,7 @@ private:
     LastSound sound_;
     solid::SolidTimes times_of_setup_;  // the start-up of the scheme, in the seconds of set-up already
     solid::SolidTimes times_before_;    // of steps with other parts
+    FrictionWatch<Dim> friction_watch_;
     RankBalance balance_;
     double own_seconds_before_ = 0.0;
     SurfaceWatch<Dim> watch_;  // on rank 0

@@ -16,6 +16,26 @@ namespace {
 /// |H~ - H~0 - W| over the scale above which more than rounding is at work [-].
 constexpr double round_off = 1e-10;
 
+/// The energy in play, and that of a motion which only the last step has begun [J].
+template <int Dim>
+double energy_at_end(const RunResult<Dim>& result) {
+    const auto& entries = result.ledger.entries();
+    return std::max(result.accounts.energy_in_play, entries.empty() ? 0.0 : entries.back().kinetic);
+}
+
+template <int Dim>
+bool rests(const RunResult<Dim>& result) {
+    return energy_at_end(result) <= result.rest_energy;
+}
+
+/// Whether H~ drifts by more than rounding, whatever scale the user quotes figures on.
+template <int Dim>
+bool drifts(const RunResult<Dim>& result) {
+    const double in_play = energy_at_end(result);
+    const double scale = result.scale.value > 0.0 ? std::min(result.scale.value, in_play) : in_play;
+    return result.ledger.pseudo_energy_drift() > std::max(round_off * scale, result.rest_energy);
+}
+
 std::string counted(std::int64_t n, const char* what) { return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s"); }
 
 template <int Dim>
@@ -26,9 +46,12 @@ std::string end_of(const RunResult<Dim>& result) {
 }
 
 template <int Dim>
-std::string energy_of(const RunResult<Dim>& result, double drift, bool warns) {
-    if (result.accounts.energy_in_play == 0.0) return "Nothing has moved.";
-    if (drift > round_off)
+std::string energy_of(const RunResult<Dim>& result, double drift, bool drifts, bool warns) {
+    if (rests(result)) return "Nothing has moved.";
+    if (const double in_play = energy_at_end(result); drifts && in_play < result.scale.value)
+        return fmt::format("The pseudo-energy drifts by {:.1e} of the energy in play: more than round-off.",
+                           result.ledger.pseudo_energy_drift() / in_play);
+    if (drifts)
         return fmt::format("The pseudo-energy drifts by {:.1e} of {}: more than round-off.", drift, result.scale.name);
     if (warns)
         return fmt::format("The pseudo-energy drifts by {:.1e} of {}, which does not see what the warnings say.", drift,
@@ -53,11 +76,14 @@ Verdict verdict(const Scene<Dim>& scene, const RunResult<Dim>& result) {
     const double drift = result.scale.over(result.ledger.pseudo_energy_drift());
     const std::size_t n_warnings = without_notes(all_warnings(scene, result)).size();
     const bool warns = n_warnings > 0, touched = result.contact.active_pairs_max > 0;
-    const bool misses_all = !touched && !result.looks.nearest.body_1.empty();
-    const std::string warned =
-        warns ? fmt::format(" {}.", counted(static_cast<std::int64_t>(n_warnings), "warning")) : " Nothing warns.";
-    return {.good = result.complete && !warns && drift <= round_off && !misses_all,
-            .text = end_of(result) + " " + energy_of(result, drift, warns) + contacts_of(result, touched, warns) + warned};
+    const bool misses_all = !touched && !result.looks.nearest.body_1.empty() && !rests(result);
+    const bool sound = !warns && !drifts(result) && !misses_all;
+    const std::string warned = warns   ? fmt::format(" {}.", counted(static_cast<std::int64_t>(n_warnings), "warning"))
+                               : sound ? " Nothing warns."
+                                       : "";
+    return {.good = result.complete && sound,
+            .text = end_of(result) + " " + energy_of(result, drift, drifts(result), warns) +
+                    contacts_of(result, touched, warns) + warned};
 }
 
 template <int Dim>

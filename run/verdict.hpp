@@ -8,7 +8,9 @@ namespace abut::run {
 
 /// Verdict on a finished run, in a few sentences that are the same everywhere.
 struct Verdict {
-    bool good;  ///< it came to its end, H~ is kept to round-off, nothing warns, and bodies that could touch have
+    bool
+        good;  ///< it came to its end, H~ is kept to round-off, nothing warns, and where anything has moved some of the bodies that could
+        ///< touch have
     std::string text;
 };
 

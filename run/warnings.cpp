@@ -13,6 +13,7 @@
 
 #include "abut/contact/nodal_contact.hpp"
 #include "abut/run/body_names.hpp"
+#include "abut/run/friction_watch.hpp"
 #include "abut/run/obstacle_watch.hpp"
 #include "abut/run/remedies.hpp"
 #include "abut/run/user_words.hpp"
@@ -21,7 +22,7 @@
 namespace abut::run {
 namespace {
 
-constexpr double rounding_of_motion = 1e-12;  // of the energy in play: less kinetic energy is that of bodies at rest
+constexpr double kinetic_of_rest = 1e-9;  // of the energy in play: bodies with no more are at rest, or came to it
 
 /// In the words of people who write scenes.
 std::vector<Warning> in_user_words(std::vector<Warning> warnings) {
@@ -53,9 +54,10 @@ void add_mesh(Counts& counts, const mesh::BuildReport& report, bool with_contact
     counts.add(WarningKind::cut_cells, Severity::note, report.n_cut_cells,
                fmt::format("{} cells are cut into tetrahedra, for {} faces that are not planar", report.n_cut_cells,
                            report.n_non_planar_faces));
-    counts.add(WarningKind::coincident_vertices, Severity::warning, with_contact ? report.n_coincident_vertices : 0,
-               fmt::format("{} vertices lie on a vertex of another body: meshes that match are a special case of contact",
-                           report.n_coincident_vertices));
+    counts.add(
+        WarningKind::coincident_vertices, Severity::note, with_contact ? report.n_coincident_vertices : 0,
+        fmt::format("{} vertices lie on a vertex of another body: bodies that touch are not joined; [[bonds]] glue them",
+                    report.n_coincident_vertices));
 }
 
 template <int Dim>
@@ -195,9 +197,10 @@ void add_motion(Counts& counts, const RunResult<Dim>& result) {
     };
     const bool is_memm =
         result.options.integrator == SolidIntegrator::memm || result.options.integrator == SolidIntegrator::memm_async;
-    const double energy = std::max(result.accounts.energy_in_play, result.scale.value);
+    // A scale that the user gives is one to quote figures on, and may be any.
+    const double energy = result.accounts.energy_in_play > result.rest_energy ? result.accounts.energy_in_play : 0.0;
     if (is_memm && energy > 0.0) {
-        const double excess = ledger.energy_excess() / energy;
+        const double excess = (ledger.energy_excess() - result.rest_energy) / energy;
         add_above(WarningKind::energy_excess, excess, large_energy_excess,
                   fmt::format("H - H~ came to {:.2g} of the energy in play, {:g} is safe: so much swings from step to step, "
                               "unseen by H~. Where contact excites it take {}; tips and edges that meet are to be blunted",
@@ -206,7 +209,7 @@ void add_motion(Counts& counts, const RunResult<Dim>& result) {
     const auto kinetic = [](const auto& entry) { return entry.kinetic; };
     const auto& entries = ledger.entries();
     const bool rests = std::ranges::all_of(
-        entries, [&](double value) { return value <= rounding_of_motion * energy; }, kinetic);
+        entries, [&](double value) { return value <= std::max(kinetic_of_rest * energy, result.rest_energy); }, kinetic);
     if (is_memm && result.accounts.speed > 0.0 && (entries.empty() || !rests)) {
         const double share = ledger.parasitic() / result.accounts.speed;
         add_above(WarningKind::parasitic, share, large_parasitic_share,
@@ -224,6 +227,26 @@ void add_motion(Counts& counts, const RunResult<Dim>& result) {
                         "nothing acts from outside: forces of contact have a moment",
                         ledger.pseudo_angular_momentum_drift(), drift, large_moment_drift));
     }
+}
+
+/// Warns of bodies that glide on less friction than they have.
+template <int Dim>
+void add_weak_friction(Counts& counts, const RunResult<Dim>& result) {
+    const WeakFriction& weak = result.weak_friction;
+    const double time = result.ledger.entries().empty() ? 0.0 : result.ledger.entries().back().time;
+    if (!(weak.seconds > weak_friction_time * time)) return;
+    const char* const remedy =
+        result.options.settle
+            ? "Damp them (stiffness_damping of the body)"
+            : "Weight or load that comes at once sets them off: begin at rest under it (run.settle = true), and damp "
+              "them (stiffness_damping of the body)";
+    counts.warnings.push_back(
+        {WarningKind::weak_friction, Severity::warning,
+         fmt::format("{} and {} slid past each other for {:.2g} s with {:.2g} of the friction of their normal force, {:g} "
+                     "is safe: faces "
+                     "that vibrate stick and slide in turn, so that a body glides too far, or where it should stick. {}",
+                     weak.body_1, weak.body_2, weak.seconds, weak.share, FrictionWatch<Dim>::enough_friction, remedy),
+         weak.seconds, weak_friction_time * time});
 }
 
 /// Warns of what is seen of the surfaces, whatever contact knows.
@@ -272,7 +295,7 @@ std::vector<Warning> warnings_before(const Scene<Dim>& scene, const RunResult<Di
     add_unjoined(counts, result);
     add_inertia(counts, scene, result);
     const auto& stencils = result.stencils;
-    counts.add(WarningKind::extrapolated_faces, Severity::warning, stencils.extrapolated,
+    counts.add(WarningKind::extrapolated_faces, Severity::note, stencils.extrapolated,
                fmt::format("{} of {} faces extrapolate from the cells around them, worst weight {:.2g}: the stable step is "
                            "shorter",
                            stencils.extrapolated, stencils.faces, stencils.worst_weight));
@@ -344,18 +367,21 @@ std::vector<Warning> warnings_after(const RunResult<Dim>& result) {
                 "step to step, and dissipation is wrong though the balance of energy holds. Leave --restart out (10 and "
                 "the filter act with friction), or take a lower --cfl",
                 share, least_sliding_share));
-    if (const double rotation = result.ledger.rotation(); rotation > far_rotation && !result.all_may_turn)
+    if (const auto& [name, rotation] = result.turned; rotation > far_rotation)
         add(WarningKind::rotation, rotation, far_rotation,
-            fmt::format(
-                "a body has turned by {:.2g} rad, {:g} is safe. A body of kinematics \"small\" grows as it turns, by "
-                "{:.2g} % at this angle, and no energy shows it. --kinematics floating lets bodies turn",
-                rotation, far_rotation, 100.0 * (1.0 / std::cos(rotation) - 1.0)));
-    if (const auto most = std::ranges::max_element(result.local_rotations);
-        result.all_may_turn && most != result.local_rotations.end() && *most > far_rotation)
-        add(WarningKind::local_rotation, *most, far_rotation,
+            fmt::format("{} has turned by {:.2g} rad, {:g} is safe. A body of kinematics \"small\" grows as it turns, by "
+                        "{:.2g} % at this angle, and no energy shows it. kinematics = \"floating\" lets it turn",
+                        name, rotation, far_rotation, 100.0 * (1.0 / std::cos(rotation) - 1.0)));
+    double local_rotation = 0.0;
+    for (std::size_t body = 0; body < result.local_rotations.size(); ++body)
+        if (result.all_may_turn || (body < result.may_turn.size() && result.may_turn[body]))
+            local_rotation = std::max(local_rotation, result.local_rotations[body]);
+    if (local_rotation > far_rotation)
+        add(WarningKind::local_rotation, local_rotation, far_rotation,
             fmt::format("a cell has turned by {:.2g} rad against the frame of its body, {:g} is safe. Strains are linear in "
                         "that frame. Parts that turn against each other are to be bodies of their own, joined by springs",
-                        *most, far_rotation));
+                        local_rotation, far_rotation));
+    add_weak_friction(counts, result);
     if (result.finite.strain > large_strain)
         add(WarningKind::finite_strain, result.finite.strain, large_strain,
             fmt::format(

@@ -38,6 +38,9 @@ inline constexpr double large_jump_loss = 0.1;
 /// alternates from step to step [-]. Sound runs have 0.64 and more, the least where a block comes to a stop, and lost ones
 /// 0.05 and less (docs/friction.md).
 inline constexpr double least_sliding_share = 0.4;
+/// Time in which bodies slide on less friction than belongs to their normal force (WeakFriction), over that of the run, above which it
+/// is told [-].
+inline constexpr double weak_friction_time = 0.1;
 /// (H - H~) over the energy in play above which the motion swings from step to step by more than belongs to it [-].
 inline constexpr double large_energy_excess = 0.02;
 /// Limits of |e|/m over the largest speed [-]: a note from the first, a warning from the second. Good impacts have 0.2 to
@@ -66,10 +69,10 @@ enum class WarningKind {
     ignored_elements,     ///< note: elements of a file that are neither cells nor named faces
     turned_cells,         ///< note: cells that were given inside out, and are turned
     cut_cells,            ///< note: cells that were cut because of faces that are not planar
-    coincident_vertices,  ///< vertices at the place of one of another body
+    coincident_vertices,  ///< note: vertices at the place of one of another body
     unjoined_faces,       ///< faces that lie on others of their body and are not joined to them
     missing_inertia,      ///< BodyInertia::least of a body that may turn [-]; threshold: enough_inertia
-    extrapolated_faces,   ///< faces that extrapolate from the cells around them: the stable step is shorter
+    extrapolated_faces,   ///< note: faces that extrapolate from the cells around them: the stable step is shorter
     blind_corners,        ///< corners too sharp for contact to see
     unseen_edges,     ///< how much crossing edges look at each other [-]; threshold: below it the law that acts misses them
     behind_obstacle,  ///< a body, or all of them, behind an obstacle at the start; no value
@@ -80,16 +83,17 @@ enum class WarningKind {
     look_ended,      ///< the time from which on a body is not watched any more for parts that come together [s]
     near_itself,     ///< gap of a body with itself [m]; threshold: that at which it is said
     deep_slip,       ///< ContactReport::slipped_compression_max [-]; threshold: deep_slip_compression
-    rotation,        ///< Ledger::rotation [rad] where a body is small; threshold: far_rotation
-    local_rotation,  ///< the largest of RunResult::local_rotations [rad] where none is; threshold: far_rotation
+    rotation,        ///< RunResult::turned [rad]; threshold: far_rotation
+    local_rotation,  ///< the largest of RunResult::local_rotations of bodies that may turn [rad]; threshold: far_rotation
     finite_strain,   ///< FiniteExtremes::strain [-] of bodies of Kinematics::finite; threshold: large_strain
     kinematic_flow,  ///< FiniteExtremes::plastic_strain [-] where a finite body hardens kinematically; threshold: large_kinematic_flow
     alternating_slip,  ///< force of sliding faces over its limit [-]; threshold: least_sliding_share
+    weak_friction,  ///< time in which bodies slid with too little friction [s]; threshold: weak_friction_time of that of the run
     face_loss,      ///< size of what RunResult::dissipated has `on_faces` over that in cells [-]; threshold: large_face_loss
     jump_loss,      ///< part of the plastic dissipation that jumps between cells have [-]; threshold: large_jump_loss
-    energy_excess,  ///< Ledger::energy_excess over the energy in play [-]; threshold: large_energy_excess
-    parasitic,      ///< Ledger::parasitic over Accounts::speed [-]; threshold: large_parasitic_share
-    moment_drift,   ///< of J~ where it is conserved [-]; threshold: large_moment_drift
+    energy_excess,          ///< Ledger::energy_excess over the energy in play [-]; threshold: large_energy_excess
+    parasitic,              ///< Ledger::parasitic over Accounts::speed [-]; threshold: large_parasitic_share
+    moment_drift,           ///< of J~ where it is conserved [-]; threshold: large_moment_drift
     interpenetration,       ///< SurfaceLooks::deepest [-]; threshold: deep_interpenetration
     remote_contact,         ///< SurfaceLooks::remote [-]; threshold: contact_from_afar
     sliding_pressure,       ///< note: SurfaceLooks::pressed [-]; threshold: high_sliding_pressure

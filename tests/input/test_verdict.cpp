@@ -1,8 +1,12 @@
 // Runs of scenes as users write them, and what is said of them at their end.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <filesystem>
+#include <limits>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -280,4 +284,182 @@ TEST_CASE("what an obstacle gives is accounted for: a block that bounces off a f
     REQUIRE(bounce.result.contact.active_pairs_max > 0);
     CHECK(run::momentum_note(bounce.result) == ", less what came from gravity and obstacles");
     CHECK(run::momentum_drift(bounce.result) < 1e-12 * 1000.0 * bounce.result.accounts.speed * 10.0);
+}
+
+TEST_CASE("bodies at rest stay at rest, in any units, wherever they stand, and of any kinematics", "[input][verdict]") {
+    struct Units {
+        double length, young, density, place;
+    };
+    // SI; mm, t and s; micrometres; a hundred kilometres from the origin
+    const auto [length, young, density, place] = GENERATE(Units{1.0, 1e9, 1000.0, 0.0}, Units{1e3, 1e3, 1e-9, 0.0},
+                                                          Units{1e-6, 1e9, 1000.0, 0.0}, Units{1.0, 1e9, 1000.0, 1e5});
+    const std::string kinematics = GENERATE("floating", "rigid", "finite", "small");
+    CAPTURE(length, place, kinematics);
+    std::string scene = "dim = 2\n";
+    for (const auto& [name, left] : {std::pair("a", place), {"b", place + 1.001 * length}})
+        scene += fmt::format(
+            "[bodies.{}]\nshape = \"structured_box\"\nlower = [{}, 0]\nupper = [{}, {}]\ncounts = [8, 8]\ncells = "
+            "\"triangle\"\nyoung = {}\ndensity = {}\nkinematics = \"{}\"\n",
+            name, left, left + length, length, young, density, kinematics);
+    const Ran still = ran(scene + "[run]\nsteps = 500\n[output]\ninterval = 1\n");
+    const double rounding = 2.0 * std::numeric_limits<double>::epsilon() * (place + 2.0 * length) / still.result.dt;
+    for (std::size_t body : {0, 1}) CHECK(still.velocity(body).norm() <= rounding);
+    CHECK(still.result.scale.value == 0.0);
+    CHECK_THAT(still.verdict(), Catch::Contains("Nothing has moved.") && Catch::Contains("Nothing warns."));
+    CHECK(still.is_good());
+}
+
+TEST_CASE("a block at rest that is pulled later is as fast as its impulse says, wherever the run ends", "[input][verdict]") {
+    const std::string scene = square("kinematics = \"floating\"\n",
+                                     "[tractions.pull]\ngroup = \"block.xmax\"\nvalue = [\"t < 0.2 ? 0 : 100\", "
+                                     "0]\nfollows = true\n[run]\ntime = 1\n[output]\ninterval = 1\n");
+    const Ran pulled = ran(scene);
+    const double end = pulled.result.ledger.entries().back().time, dt = pulled.result.dt;
+    CHECK(pulled.velocity().x() ==
+          Approx(100.0 * (end - 0.2) / 1000.0).margin(0.1 * 2.0 * dt));  // p t / (rho L), to two steps
+    const auto onset = static_cast<int>(0.2 / dt);
+    for (int steps = onset - 1; steps < onset + 4; ++steps) {
+        const Ran short_run = ran(scene, {fmt::format("run.time={}", (steps + 0.5) * dt)});
+        CHECK(short_run.result.complete);
+        const bool moves = short_run.velocity().x() > 1e-6;
+        CHECK(moves == (short_run.verdict().find("Nothing has moved") == std::string::npos));
+    }
+}
+
+TEST_CASE("a rigid block at rest leaves a wall that comes at twice its speed", "[input][verdict]") {
+    const Ran thrown = ran(square("kinematics = \"rigid\"\n",
+                                  "[obstacles.wall]\nshape = \"plane\"\npoint = [-0.001, 0]\nnormal = [1, 0]\nvelocity = "
+                                  "[0.1, 0]\n[run]\ntime = 0.2\n"));
+    CHECK(thrown.velocity().x() == Approx(2.0 * 0.1).epsilon(1e-3));
+    CHECK(thrown.is_good());
+}
+
+TEST_CASE("mass_damping is an outside force: momentum falls by exp(-alpha t), and no figure calls that a fault",
+          "[input][verdict]") {
+    const Ran damped = ran(
+        square("kinematics = \"floating\"\nmass_damping = 2\nvelocity = [0.01, 0]\nspin = 0.01\n", "[run]\ntime = 0.5\n"));
+    CHECK(damped.velocity().x() == Approx(0.01 * std::exp(-2.0 * damped.result.ledger.entries().back().time)).epsilon(0.01));
+    CHECK(run::momentum_note(damped.result) == "not conserved: mass_damping");
+    CHECK(run::moment_note(damped.result) == "not conserved: mass_damping");
+    CHECK_FALSE(damped.warns_of(WarningKind::moment_drift));
+    CHECK(damped.is_good());
+}
+
+TEST_CASE("bonded blocks whose corners coincide, and hit a floor together, are right and called so", "[input][verdict]") {
+    const Ran bonded = ran(R"toml(dim = 2
+[bodies.a]
+shape = "structured_box"
+lower = [-1, 0.01]
+upper = [0, 0.41]
+counts = [10, 4]
+young = 1
+density = 1
+velocity = [0, -0.01]
+[bodies.b]
+shape = "structured_box"
+lower = [0, 0.01]
+upper = [1, 0.41]
+counts = [9, 3]
+young = 1
+density = 1
+velocity = [0, -0.01]
+[[bonds]]
+bodies = ["a", "b"]
+[obstacles.floor]
+shape = "plane"
+point = [0, 0]
+normal = [0, 1]
+[run]
+time = 5
+)toml");
+    CHECK(bonded.result.contact.active_pairs_max > 0);
+    CHECK(bonded.warns_of(WarningKind::coincident_vertices));  // a note
+    CHECK_THAT(bonded.verdict(), Catch::Contains("Nothing warns."));
+    CHECK(bonded.is_good());
+}
+
+TEST_CASE("of two bodies that turn by 0.2 rad only the one that grows is told of", "[input][verdict]") {
+    const auto turning = [](const char* kinematics, double left) {
+        return fmt::format(
+            "[bodies.{}]\nshape = \"structured_box\"\nlower = [{}, 0]\nupper = [{}, 1]\ncounts = [4, 4]\nyoung = "
+            "1e6\ndensity = 1000\nspin = 1\nkinematics = \"{}\"\n",
+            kinematics, left, left + 1.0, kinematics);
+    };
+    const std::string end = "[run]\ntime = 0.2\n";
+    CHECK_FALSE(ran("dim = 2\n" + turning("floating", 0.0) + end).warns_of(WarningKind::rotation));
+    const Ran both = ran("dim = 2\n" + turning("floating", 0.0) + turning("small", 3.0) + end);
+    CHECK(both.warns_of(WarningKind::rotation));
+    CHECK(both.result.turned.name == "'small'");
+    CHECK(both.result.turned.angle == Approx(std::atan(0.2)).epsilon(0.02));  // velocities stay: x grows along a line
+    const std::string resting = turning("small", 3.0);
+    CHECK_FALSE(ran("dim = 2\n" + turning("floating", 0.0) + resting + end, {"bodies.small.spin=0"})
+                    .warns_of(WarningKind::rotation));
+}
+
+TEST_CASE("a block that must stick and glides is told of with a remedy, and with it sticks", "[input][verdict]") {
+    const double angle = 25.0 * std::numbers::pi / 180.0, mu = 0.6;  // tan 25 degrees = 0.466 < mu
+    const auto block = [&](double friction, const std::string& damping, const std::string& run) {
+        return ran(fmt::format(R"toml(dim = 2
+gravity = [0, -10]
+[bodies.b]
+shape = "structured_box"
+lower = [-0.2, 0]
+upper = [0.2, 0.1]
+counts = [8, 2]
+young = 1e7
+density = 1000
+kinematics = "floating"
+turn = {}
+{}
+[contact]
+friction = {}
+[obstacles.p]
+shape = "plane"
+point = [0, 0]
+normal = [{}, {}]
+half_width = 20
+[run]
+time = 0.5
+{}
+)toml",
+                               -angle, damping, friction, std::sin(angle), std::cos(angle), run));
+    };
+    const Ran gliding = block(mu, "", "");
+    CHECK(gliding.velocity().norm() > 0.05);  // it should stick
+    CHECK(gliding.warns_of(WarningKind::weak_friction));
+    CHECK_FALSE(gliding.is_good());
+    CHECK(gliding.result.weak_friction.share < 0.9);
+    CHECK(gliding.result.weak_friction.body_2 == "obstacle 'p'");
+    const Ran remedied = block(mu, "stiffness_damping = 1e-4", "settle = true");
+    CHECK(remedied.velocity().norm() < 1e-3);
+    CHECK_FALSE(remedied.warns_of(WarningKind::weak_friction));
+    // With less than tan 25 degrees it slides, by all the friction there is.
+    const Ran sliding = block(0.2, "stiffness_damping = 1e-4", "");
+    const double time = sliding.result.ledger.entries().back().time;
+    CHECK(sliding.velocity().norm() == Approx(10.0 * time * (std::sin(angle) - 0.2 * std::cos(angle))).epsilon(0.02));
+    CHECK_FALSE(sliding.warns_of(WarningKind::weak_friction));
+}
+
+TEST_CASE("a drift of H~ is seen whatever scale figures are quoted on, and nothing that is found fault with is praised",
+          "[input][verdict]") {
+    const run::Scene<2> scene;
+    for (const double scale : {0.5, 1.0, 1e9}) {
+        run::RunResult<2> result;
+        result.scale = {"H0", scale};
+        dynamics::LedgerEntry<2> entry{};
+        entry.energy = entry.pseudo_energy = entry.kinetic = 1.0;
+        for (const double drift : {0.0, 2e-10}) {
+            entry.energy = entry.pseudo_energy = 1.0 + drift;
+            result.ledger.record(entry);
+            result.accounts.record(entry, 1.0, Vector<2>::Zero());
+            const run::Verdict said = run::verdict(scene, result);
+            CHECK(said.good == (drift == 0.0));
+            CHECK((said.text.find("Nothing warns") == std::string::npos) == (drift > 0.0));
+        }
+        result.ledger = {};
+        result.ledger.record(entry);
+        result.looks.nearest = {.body_1 = "'a'", .body_2 = "'b'", .distance = 1.0};
+        CHECK_FALSE(run::verdict(scene, result).good);
+        CHECK_THAT(run::verdict(scene, result).text, !Catch::Contains("Nothing warns"));
+    }
 }
