@@ -40,7 +40,8 @@ template <int N>
 
 /// The mean force along a step in which the face moves by `motion` [m], for MEMM. The limit is that of the step [N];
 /// `creep` = dt/(2 relaxation time) [-], 0 without. Stretches are means of start and end, so that a slip which alternates from
-/// step to step has no force: a force that followed it at once would feed the alternating mode. docs/friction.md.
+/// step to step has no force: a force that followed it at once would feed the alternating mode. A face that slides bears the limit
+/// of the step, the mean of both directions, unless that would take less from the motion than its spring gains. docs/friction.md.
 template <int N>
 [[nodiscard]] FrictionStep<N> take_mean_step(StickState<N>& state, const Along<N>& motion, double limit, double creep) {
     const double k = state.stiffness, largest = limit / k;
@@ -60,11 +61,17 @@ template <int N>
         step.dissipated = cut_off + of_stretch.dot(crept);
     } else {
         const Along<N> of_direction = 0.5 * limit * (state.direction + direction);
-        const double stretched = (end - start).norm(), share = stretched / (stretched + step.slip);
         const double gained = 0.5 * k * (end.squaredNorm() - start.squaredNorm());
-        step.force = share * of_stretch + (1.0 - share) * of_direction;
-        step.dissipated =
-            cut_off + share * of_stretch.dot(slip + crept) + (1.0 - share) * (of_direction.dot(motion) - gained);
+        const double lost = of_direction.dot(motion) + cut_off - gained;
+        if (lost >= 0.0) {  // the motion pays for what the spring gains where the limit rises
+            step.force = of_direction;
+            step.dissipated = lost;
+        } else {
+            const double stretched = (end - start).norm(), share = stretched / (stretched + step.slip);
+            step.force = share * of_stretch + (1.0 - share) * of_direction;
+            step.dissipated =
+                cut_off + share * of_stretch.dot(slip + crept) + (1.0 - share) * (of_direction.dot(motion) - gained);
+        }
     }
     state.stretch = end;
     state.direction = direction;

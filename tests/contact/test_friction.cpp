@@ -115,6 +115,54 @@ TEST_CASE("a face that slides steadily feels the limit, one that sticks a spring
     CHECK_FALSE(step.slides());
 }
 
+/// A limit that rises within a step is no spring that has to be stretched first.
+TEMPLATE_TEST_CASE_SIG("a face that slides on bears the limit of each step, whether that rises or falls",
+                       "[contact][friction]", ((int N), N), 1, 2) {
+    std::mt19937 random(2);
+    const double k = 1e5, largest = 3e4;
+    const Along<N> ahead = random_along<N>(random, 1.0).normalized(), motion = ahead * (largest / k);
+    StickState<N> state{.stretch = 0.9 * motion, .direction = ahead, .stiffness = k};
+    double before = state.energy();
+    for (int i = 0; i < 1000; ++i) {
+        const double limit = largest * uniform(random, 0.01, 0.99);
+        const FrictionStep<N> step = contact::take_mean_step<N>(state, motion, limit, 0.0);
+        const double expected = limit * limit / (2.0 * k);  // of the spring at its limit
+        CHECK(step.slides());
+        CHECK((step.force - limit * ahead).norm() <= 1e-12 * limit);
+        CHECK(state.energy() == Approx(expected));
+        CHECK(step.dissipated == Approx(limit * motion.norm() - (expected - before)).epsilon(1e-10));
+        before = expected;
+    }
+
+    // one that turns round takes less from the motion than a rising limit would store: it stretches first
+    state = {.stretch = -0.1 * motion, .direction = -ahead, .stiffness = k};
+    before = state.energy();
+    const FrictionStep<N> step = contact::take_mean_step<N>(state, motion, 0.5 * largest, 0.0);
+    CHECK(step.slides());
+    CHECK(step.force.norm() < 0.5 * largest);
+    CHECK(step.dissipated >= -1e-15 * state.energy());
+    CHECK(step.force.dot(motion) == Approx(state.energy() - before + step.dissipated));
+}
+
+TEMPLATE_TEST_CASE_SIG("a step without slip has the bits of the spring alone", "[contact][friction]", ((int N), N), 1, 2) {
+    std::mt19937 random(3);
+    int sticks = 0;
+    for (int i = 0; i < 100'000; ++i) {
+        StickState<N> state = random_state<N>(random);
+        const double k = state.stiffness, limit = k * uniform(random, 0.0, 2.0);
+        const Along<N> motion = random_along<N>(random, 0.5);
+        const Along<N> start = contact::cut_to<N>(state.stretch, limit / k), end = start + motion;
+        if (end.norm() >= limit / k) continue;
+        const double cut_off = state.energy() - 0.5 * k * start.squaredNorm();
+        const FrictionStep<N> step = contact::take_mean_step<N>(state, motion, limit, 0.0);
+        ++sticks;
+        CHECK(step.force == Along<N>(0.5 * k * (start + end)));
+        CHECK(step.dissipated == cut_off);
+        CHECK(state.stretch == end);
+    }
+    CHECK(sticks > 10'000);
+}
+
 TEST_CASE("a force that sticks relaxes by 1/e in the relaxation time", "[contact][friction]") {
     StickState<1> state{.stretch = Along<1>(0.02), .stiffness = 100.0};
     const int n = 1000;  // steps in one relaxation time

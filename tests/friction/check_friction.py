@@ -128,12 +128,17 @@ def slide_stop_stay(programs):
 
 @claim
 def stopping_distance(programs):
-    """v^2/(2 mu g): to the first order in the step, since faces that vibrate reverse their slip within a step or two."""
-    for cfl, allowed in ((0.9, 0.05), (0.45, 0.025), (0.225, 0.0125)):
-        done = run(programs, "block.toml", "--cfl", cfl, "--interval", 1, *keys(run__time=0.9)).require_end()
-        rows, mass = done.rows(), done.body("block")["mass"]
-        path = sum(row["linear_momentum_x"] / mass * (row["time"] - before["time"]) for before, row in zip(rows, rows[1:]))
-        near(path / (4.0 / (2 * MU * G)), 1.0, allowed, f"cfl {cfl}: the path over v^2/(2 mu g)")
+    """v^2/(2 mu g): of a damped block at any step within 0.5 %. One that nothing damps rings, and runs at steps that differ by 0.4 % by
+    1 %: the mean of four is within 4 %, and what slides bears 0.95 of its limit."""
+    def path_of(*options):
+        done = run(programs, "block.toml", "--interval", 1, *keys(run__time=0.9), *options).require_end()
+        return stopping_path(done.rows(), done.body("block")["mass"]) / (4.0 / (2 * MU * G)), done.summary["friction"]["sliding_share"]
+
+    for cfl in (0.9, 0.45, 0.225):
+        near(path_of("--cfl", cfl, *keys(bodies__block__stiffness_damping=1e-4))[0], 1.0, 0.005, f"cfl {cfl}, damped: the path over v^2/(2 mu g)")
+    paths, shares = zip(*(path_of("--cfl", 0.9 * (1 - 0.004 * i)) for i in range(4)))
+    near(sum(paths) / 4, 1.0, 0.04, "nothing damps: the mean path over v^2/(2 mu g)")
+    require(sum(shares) / 4 >= 0.95, f"what slides bears {shares} of its limit")
 
 
 @claim
