@@ -1,8 +1,26 @@
 #include "abut/geometry/pair_potential/pair_slip.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace abut::geometry {
+namespace {
+
+/// A face is continued to a point that is so many of its least heights from where it presses, where that can be.
+constexpr double continued_at_most = 0.25;
+
+/// x_c between the points where both faces press: half way where neither face is continued farther than is `allowed` [m], else
+/// nearer to the one that is a needle. Where both are, each is continued by as many of its heights as the other one.
+template <int Dim>
+Vector<Dim> common_point(const std::array<Vector<Dim>, 2>& pressed, double distance, const std::array<double, 2>& allowed) {
+    if (0.5 * distance <= std::min(allowed[0], allowed[1])) return 0.5 * (pressed[0] + pressed[1]);
+    const double of_both = allowed[0] + allowed[1];
+    const double from_first =
+        distance >= of_both ? allowed[0] / of_both : std::clamp(0.5, 1.0 - allowed[1] / distance, allowed[0] / distance);
+    return pressed[0] + from_first * (pressed[1] - pressed[0]);
+}
+
+}  // namespace
 
 template <>
 void PairSlip<2>::find_slopes(Side& side) {
@@ -11,6 +29,7 @@ void PairSlip<2>::find_slopes(Side& side) {
     side.normal = Vector<2>(edge[1], -edge[0]) / std::sqrt(squared_length);
     side.slope[1] = edge / squared_length;
     side.slope[0] = -side.slope[1];
+    side.steepest = 1.0 / squared_length;
 }
 
 template <>
@@ -22,6 +41,7 @@ void PairSlip<3>::find_slopes(Side& side) {
     side.slope[1] = edge_c.cross(area) / squared_area;
     side.slope[2] = area.cross(edge_b) / squared_area;
     side.slope[0] = -(side.slope[1] + side.slope[2]);
+    side.steepest = std::max({edge_b.squaredNorm(), edge_c.squaredNorm(), (edge_c - edge_b).squaredNorm()}) / squared_area;
 }
 
 template <int Dim>
@@ -41,7 +61,10 @@ PairSlip<Dim>::PairSlip(const PairCorners<Dim>& x_0, const PairCorners<Dim>& x_1
         }
         find_slopes(side);
     }
-    point_ = 0.5 * (pressed[0] + pressed[1]);
+    const double distance = (pressed[1] - pressed[0]).norm();
+    const std::array<double, 2> allowed{continued_at_most / std::sqrt(side_[0].steepest),
+                                        continued_at_most / std::sqrt(side_[1].steepest)};
+    point_ = common_point<Dim>(pressed, distance, allowed);
     normal_ = (side_[0].normal - side_[1].normal).normalized();
     for (std::size_t face = 0; face < 2; ++face) {
         Side& side = side_[face];
@@ -49,11 +72,15 @@ PairSlip<Dim>::PairSlip(const PairCorners<Dim>& x_0, const PairCorners<Dim>& x_1
         side.height = side.normal.dot(from_pressed);
         for (std::size_t i = 0; i < Dim; ++i) side.share[i] += side.slope[i].dot(from_pressed);
     }
+    motion_ = continued_motion();
+    scale_ = distance > allowed[0] + allowed[1] ? (allowed[0] + allowed[1]) / distance : 1.0;
+    scale_ *= cut_to_corners(scale_ * motion_);
+    if (is_clipped()) motion_ *= scale_;
 }
 
 /// A point over a face moves with the shape functions, and turns with the normal: dn = -sum slope_j (n . dx_j).
 template <int Dim>
-Vector<Dim> PairSlip<Dim>::motion() const {
+Vector<Dim> PairSlip<Dim>::continued_motion() const {
     std::array<Vector<Dim>, 2> of_face;
     for (std::size_t face = 0; face < 2; ++face) {
         const Side& side = side_[face];
@@ -63,6 +90,20 @@ Vector<Dim> PairSlip<Dim>::motion() const {
                 side.share[i] * side.motion[i] - (side.height * side.normal.dot(side.motion[i])) * side.slope[i];
     }
     return of_face[1] - of_face[0];
+}
+
+/// Factor that cuts the slip of a motion to that of corners past each other.
+template <int Dim>
+double PairSlip<Dim>::cut_to_corners(const Vector<Dim>& motion) const {
+    const double squared_slip = (motion - normal_ * normal_.dot(motion)).squaredNorm();
+    constexpr double rounding = 1e-13;
+    double farthest = rounding * rounding * side_[0].corner[0].squaredNorm();  // squared
+    for (const Vector<Dim>& of_first : side_[0].motion)
+        for (const Vector<Dim>& of_second : side_[1].motion) {
+            farthest = std::max(farthest, (of_second - of_first).squaredNorm());
+            if (squared_slip <= farthest) return 1.0;
+        }
+    return std::sqrt(farthest / squared_slip);
 }
 
 /// The tangent of a line stands on its normal, and is turned as it is.
@@ -82,7 +123,8 @@ Tangents<3> PairSlip<3>::tangents(int face) const {
 }
 
 template <int Dim>
-PairCorners<Dim> PairSlip<Dim>::on_corners(const Vector<Dim>& force) const {
+PairCorners<Dim> PairSlip<Dim>::on_corners(const Vector<Dim>& on_second) const {
+    const Vector<Dim> force = scale_ * on_second;
     PairCorners<Dim> on_corners;
     for (std::size_t face = 0; face < 2; ++face) {
         const Side& side = side_[face];

@@ -1,5 +1,6 @@
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <random>
 
 #include "abut/geometry/pair_potential/pair_slip.hpp"
 #include "geometry/random_pairs.hpp"
@@ -121,7 +122,103 @@ Impact collide(SlipPoints points) {
     return impact;
 }
 
+/// Two faces of size 1 of which each is a needle, down to a width of 1e-7, pressed into each other anyhow: by far more than that.
+template <int Dim>
+PairCorners<Dim> needles(std::mt19937& random) {
+    PairCorners<Dim> x;
+    for (Vector<Dim>& corner : x) {
+        corner = random_vector<Dim>(random, 1.0);
+        corner[Dim - 1] *= 0.2;
+    }
+    for (int face = 0; face < 2; ++face) {
+        const double width = std::pow(10.0, uniform(random, -7.0, 0.0));
+        const Vector<Dim>&first = x[Dim * face], &second = x[Dim * face + 1];
+        const double along = Dim == 2 ? width : uniform(random, 0.0, 1.0);
+        Vector<Dim> last = first + along * (second - first);
+        if (Dim == 3) last += random_vector<Dim>(random, width);
+        x[Dim * face + Dim - 1] = last;
+    }
+    return x;
+}
+
 }  // namespace
+
+/// Forces on the corners are the transpose of the slip: that they have no sum, no moment and do its work is of needles as of others.
+TEMPLATE_TEST_CASE_SIG(
+    "the slip of needles is within the motion of their corners, and its forces are those of a point on them",
+    "[pair_potential][friction]", ((int Dim), Dim), 2, 3) {
+    std::mt19937 random(7);
+    int pressed = 0, clipped = 0;
+    double beyond = 0.0, largest = 0.0, sum = 0.0, moment = 0.0, work = 0.0, turning = 0.0;
+    for (int i = 0; i < 100'000; ++i) {
+        const auto x_0 = needles<Dim>(random);
+        auto x_1 = x_0;
+        for (Vector<Dim>& corner : x_1) corner += random_vector<Dim>(random, 1e-3);
+        const auto normal = pair_mean_gradient<Dim>(x_0, x_1, law_of<Dim>(x_0));
+        if (!(normal.area > 0.0 && normal.active_share > 0.0)) continue;
+        const PairSlip<Dim> slip(x_0, x_1, normal.pressure);
+        ++pressed, clipped += slip.is_clipped() ? 1 : 0;
+
+        double farthest = 0.0;
+        for (int v = 0; v < Dim; ++v)
+            for (int w = Dim; w < 2 * Dim; ++w) raise(farthest, ((x_1[w] - x_0[w]) - (x_1[v] - x_0[v])).norm());
+        const Vector<Dim> along = slip.motion() - slip.normal() * slip.normal().dot(slip.motion());
+        raise(beyond, along.norm() / farthest - 1.0);
+
+        const Vector<Dim> force = slip.tangents(0) * PlaneVector<Dim>::Unit(0);
+        const auto on_corners = slip.on_corners(force);
+        Vector<Dim> sum_of_forces = Vector<Dim>::Zero();
+        AxialVector<Dim> sum_of_moments = AxialVector<Dim>::Zero();
+        double done = 0.0;
+        for (int v = 0; v < 2 * Dim; ++v) {
+            sum_of_forces += on_corners[v];
+            sum_of_moments += abut::moment<Dim>(Vector<Dim>(0.5 * (x_0[v] + x_1[v])), on_corners[v]);
+            done += on_corners[v].dot(x_1[v] - x_0[v]);
+            raise(largest, on_corners[v].norm());
+        }
+        raise(sum, sum_of_forces.norm());
+        raise(moment, sum_of_moments.norm());
+        raise(work, std::abs(done - force.dot(slip.motion())) / farthest);
+
+        const Matrix<Dim> turn = random_turn<Dim>(random, 1.0);
+        auto turned = x_0;
+        for (Vector<Dim>& corner : turned) corner = turn * corner;
+        raise(turning, PairSlip<Dim>(x_0, turned, normal.pressure).motion().norm());
+    }
+    CHECK(pressed > 5000);
+    CHECK(clipped > 1000);
+    CHECK(beyond <= 1e-12);
+    CHECK(largest <= 2.0);
+    CHECK(sum <= 1e-14);
+    CHECK(moment <= 1e-14);
+    CHECK(work <= 1e-13);
+    CHECK(turning <= 1e-10);
+}
+
+TEMPLATE_TEST_CASE_SIG("faces that are pressed in by less than they are wide slip unclipped", "[pair_potential][friction]",
+                       ((int Dim), Dim), 2, 3) {
+    std::mt19937 random(8);
+    int pressed = 0, clipped = 0;
+    double off = 0.0;
+    for (int i = 0; i < 10'000; ++i) {
+        const auto x_0 = random_pair<Dim>(random), x_1 = moved_on<Dim>(x_0, random, 1e-2, 1e-2);
+        const auto normal = pair_mean_gradient<Dim>(x_0, x_1, law_of<Dim>(x_0));
+        if (!(normal.area > 0.0 && normal.active_share > 0.0)) continue;
+        const PairSlip<Dim> slip(x_0, x_1, normal.pressure);
+        ++pressed, clipped += slip.is_clipped() ? 1 : 0;
+        Vector<Dim> middle = Vector<Dim>::Zero();  // between the points where the faces press
+        for (int face = 0; face < 2; ++face) {
+            double all = 0.0;
+            for (int v = Dim * face; v < Dim * (face + 1); ++v) all += normal.pressure[v];
+            for (int v = Dim * face; v < Dim * (face + 1); ++v)
+                middle += 0.5 * normal.pressure[v] / all * 0.5 * (x_0[v] + x_1[v]);
+        }
+        raise(off, (slip.point() - middle).norm());
+    }
+    CHECK(pressed > 5000);
+    CHECK(clipped == 0);
+    CHECK(off <= 1e-14);
+}
 
 TEMPLATE_TEST_CASE_SIG("a slip read at one point of a pair keeps J~ in an impact; read at two, it moves J~ and nothing else",
                        "[pair_potential][friction]", ((int Dim), Dim), 2, 3) {
