@@ -91,7 +91,7 @@ Solid<Dim>::Solid(const mesh::Mesh<Dim>& mesh, SolidOptions<Dim> options, const 
                             })),
       rotation_(std::make_unique<BodyRotation<Dim>>(part_->rest(), part_->masses(), part_->body_begin(), part_->ranks())),
       frames_(std::make_unique<BodyFrames<Dim>>(bodies_->frames(*part_))),
-      point_loads_(std::make_unique<PointLoads<Dim>>(*bodies_, *part_)),
+      point_loads_(std::make_unique<PointLoads<Dim>>(*bodies_, ccg_, *part_)),
       all_cells_(static_cast<std::size_t>(bodies_->n_cells())),
       rigid_force_(bodies_->rigid_forces()),
       rigid_stiffness_(bodies_->rigid_stiffness()) {

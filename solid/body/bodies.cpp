@@ -87,6 +87,7 @@ Bodies<Dim>::Bodies(const mesh::Mesh<Dim>& mesh, const SolidOptions<Dim>& option
         else  // its faces are no free ones for cells of finite bodies
             part_options_.boundary.traction.push_back({.group = options.boundary.traction[i].group});
     if (part_) keep_groups();
+    join_pulled_faces();
     rigid_.emplace(mesh, rigid, options.materials, n_cells());
 
     const mesh::Mesh<Dim>& part = deformable();
@@ -114,7 +115,6 @@ SolidPoints<Dim> Bodies<Dim>::points() const {
 template <int Dim>
 void Bodies<Dim>::take_bonds(std::vector<BondPlace<Dim>> places, std::span<const BoundaryFace> joined) {
     bond_places_ = std::move(places);
-    part_options_.boundary.joined_faces.clear();
     for (const BoundaryFace b : joined) part_options_.boundary.joined_faces.push_back(mesh_face(deformable(), b));
 }
 
@@ -153,6 +153,18 @@ void Bodies<Dim>::keep_groups() {
     };
     keep(part_options_.boundary.dirichlet);
     keep(part_options_.boundary.traction);
+}
+
+/// Faces of floating bodies that a traction pulls at as places: their row in the operators is that of the place.
+template <int Dim>
+void Bodies<Dim>::join_pulled_faces() {
+    part_options_.boundary.joined_faces.clear();
+    for (std::size_t i = 0; i < options_.boundary.traction.size(); ++i) {
+        if (traction_holds_[i] != TractionHold::points) continue;
+        for (const std::int32_t face : deformable().group(options_.boundary.traction[i].group).faces)
+            if (properties(deformable_bodies_[deformable().cell_body[deformable().face_cells[face][0]]]).has_frame)
+                part_options_.boundary.joined_faces.push_back(face);
+    }
 }
 
 template <int Dim>

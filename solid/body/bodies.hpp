@@ -35,8 +35,8 @@ public:
     void place_cell_points(const RankPart<Dim>& part);
     /// Who brings ranks together from then on, in what is said to be a call of all; to be called before any of that.
     void take_part(const RankPart<Dim>& part) { rank_part_ = &part; }
-    /// Where bodies are bonded, and which boundary faces of `deformable` are joined, increasing; to be called before anything is made
-    /// of `deformable`.
+    /// Where bodies are bonded, and which boundary faces of `deformable` are joined by that; to be called before anything is made of
+    /// `deformable`.
     void take_bonds(std::vector<BondPlace<Dim>> places, std::span<const BoundaryFace> joined);
 
     [[nodiscard]] const mesh::Mesh<Dim>& mesh() const { return mesh_; }
@@ -130,6 +130,7 @@ private:
     void check_directions(const Material& material, std::int32_t body, const std::string& who) const;
     void check_pairs() const;
     void keep_groups();
+    void join_pulled_faces();
     void set_laws();
     void refuse_on_turning_bodies(const DirichletCondition<Dim>& condition) const;
     void refuse_following(const TractionCondition<Dim>& condition) const;

@@ -47,8 +47,8 @@ struct DirichletCondition {
     Field<Dim> history;                       ///< u_D(t, x) [m] if it varies; then `value` is not used
 };
 
-/// On a body that may turn its work is booked, and it is a force at the centroid of each face, which the reconstruction takes as
-/// free; where it follows a floating body the cells behind the face bear it. docs/method.md, Bodies that turn.
+/// On a body that may turn its work is booked, and it is a force at the centroid of each face, which is extrapolated from the cells
+/// around; where it follows a floating body the cell behind the face balances it. docs/method.md, Bodies that turn.
 template <int Dim>
 struct TractionCondition {
     std::string group;
@@ -67,8 +67,9 @@ struct BoundaryConditions {
     CornerRule corner_rule = CornerRule::relaxed;
     std::vector<DirichletCondition<Dim>> dirichlet;
     std::vector<TractionCondition<Dim>> traction;
-    /// Boundary faces of the mesh that are bonded face to face for ever: what holds them is no matter of their own cell, and they are
-    /// extrapolated from the cells around. Read by operators alone: a solid finds them by itself
+    /// Boundary faces of the mesh whose own cell does not balance what holds them, so that they are extrapolated from the cells
+    /// around: they are bonded face to face for ever, or a traction pulls at their extrapolated centroids (a dead one on a floating
+    /// body). Read by operators alone: a solid finds them by itself
     std::vector<std::int32_t> joined_faces = {};
 };
 

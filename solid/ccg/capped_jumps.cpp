@@ -31,7 +31,7 @@ enum class Held : char { no, along_normals, all };
 ///
 ///  - a free face that contact may push: what it pushes with is not in the stress of the cell, but in the jumps behind it;
 ///  - free faces of more than one normal, which leave no more stress than a bar has, or none;
-///  - a load, in finite bodies and no simplices: these faces go where the cells around point.
+///  - a load or a bond that it does not balance itself, and is no simplex: these faces go where the cells around point.
 template <int Dim>
 std::vector<Held> held_by_jumps(const mesh::Mesh<Dim>& mesh, std::span<const Kinematics> kinematics,
                                 const FaceConditions<Dim>& conditions, FreeFaces free_faces) {
@@ -46,7 +46,8 @@ std::vector<Held> held_by_jumps(const mesh::Mesh<Dim>& mesh, std::span<const Kin
         const std::int32_t cell = cell_of(mesh, b);
         const auto i = static_cast<std::size_t>(cell);
         const auto hold = [&](Held by) { held[i] = std::max(held[i], by); };
-        if (is_loaded[b] && bends(cell) && !is_simplex(mesh, cell)) hold(Held::all);
+        const bool is_affine = conditions.joined[b] || (is_loaded[b] && bends(cell));
+        if (is_affine && !is_simplex(mesh, cell)) hold(Held::all);
         if (!conditions.prescribed[b].isZero(0.0)) continue;
         const Vector<Dim>& normal = mesh.face_normal[mesh_face(mesh, b)];
         if (!first[i]) first[i] = &normal;

@@ -112,6 +112,7 @@ PlasticCells<Dim>::PlasticCells(const mesh::Mesh<Dim>& mesh, std::span<const Mat
     std::vector<std::vector<Strain>> free(index_.size());
     for (const BoundaryFace b : boundary_faces(mesh)) {
         if (rule != FreeFaceRule::local_equilibrium) break;
+        if (conditions.joined[b]) continue;
         const Matrix<Dim> directions = Matrix<Dim>::Identity() - conditions.prescribed[b];
         const Vector<Dim>& normal = mesh.face_normal[mesh_face(mesh, b)];
         for (int i = 0; i < Dim; ++i) {

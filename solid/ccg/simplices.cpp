@@ -40,7 +40,8 @@ void Simplices<Dim>::condense(const mesh::Mesh<Dim>& mesh, const FaceConditions<
     for (const BoundaryFace b : boundary_faces(mesh)) ++n_boundary[cell_of(mesh, b)];
     for (const BoundaryFace b : boundary_faces(mesh)) {  // increasing with their cells
         const std::int32_t cell = cell_of(mesh, b);
-        if (!contains(cell) || n_boundary[cell] > 1 || !conditions.prescribed[b].isZero(0.0)) continue;
+        if (!contains(cell) || n_boundary[cell] > 1 || !conditions.prescribed[b].isZero(0.0) || conditions.joined[b])
+            continue;
         condensed_.push_back({cell, b});
         condensed_face_[cell] = b;
     }

@@ -152,20 +152,38 @@ auto HeldPlaces<Dim>::gathered_points_of(std::int32_t body) const -> Points {
     return points;
 }
 
+/// Of a face of a body that deforms, by its number in the mesh of all bodies.
+template <int Dim>
+HeldPlace<Dim> HeldPlaces<Dim>::place_of(std::int32_t face) const {
+    const mesh::Mesh<Dim>& mesh = bodies_.mesh();
+    const auto in_mesh =
+        static_cast<BoundaryFace>(std::ranges::lower_bound(mesh.boundary_faces, face) - mesh.boundary_faces.begin());
+    const auto b = std::ranges::lower_bound(boundary_in_mesh_, in_mesh) - boundary_in_mesh_.begin();
+    const BoundaryReconstruction<Dim>& boundary = ccg_.boundary();
+    HeldPlace<Dim> place{.points = {}, .weights = {}, .rest = mesh.face_centroid[static_cast<std::size_t>(face)]};
+    for (std::int32_t i = boundary.offsets[static_cast<std::size_t>(b)];
+         i < boundary.offsets[static_cast<std::size_t>(b) + 1]; ++i) {
+        place.points.push_back(static_cast<std::int32_t>(part_.cell_numbers()[boundary.cells[i]]));
+        place.weights.push_back(boundary.weights[i](0, 0));
+    }
+    return place;
+}
+
 /// Every rank has the faces of rigid bodies; those of others come from the ranks that own their cells.
 template <int Dim>
-auto HeldPlaces<Dim>::faces_of(const std::string& group) const -> std::vector<Face> {
+auto HeldPlaces<Dim>::faces_of(const std::string& group) -> std::vector<Face> {
     const mesh::Mesh<Dim>& mesh = bodies_.mesh();
     const std::vector<std::int32_t>& in_group = mesh.group(group).faces;
     std::vector<Face> faces;
-    std::vector<double> mine;  // key, body, area, centroid
+    std::vector<double> mine;  // key, body, area, corners, points, centroid
     for (std::size_t i = 0; i < in_group.size(); ++i) {
         const auto f = static_cast<std::size_t>(in_group[i]);
         const std::int32_t cell = mesh.face_cells[f][0], body = mesh.cell_body[cell];
-        Face face{in_group[i], body, i, mesh.face_measure[f], mesh.face_centroid[f], mesh.face_normal[f], {}};
+        Face face{in_group[i], body, i, mesh.face_measure[f], mesh.face_centroid[f], mesh.face_normal[f], {}, {}};
         for (const std::int32_t vertex : mesh.face_vertices[in_group[i]]) face.corners.push_back(mesh.vertices[vertex]);
         if (area_vector<Dim>(face.corners).dot(face.normal) < 0.0) std::ranges::reverse(face.corners);
         if (part_.is_whole() || bodies_.is_rigid(body)) {
+            face.place = bodies_.is_rigid(body) ? of({.body = body, .position = face.centroid}) : place_of(in_group[i]);
             faces.push_back(std::move(face));
             continue;
         }
@@ -174,16 +192,21 @@ auto HeldPlaces<Dim>::faces_of(const std::string& group) const -> std::vector<Fa
         const auto position = std::ranges::find(mesh.cell_faces[cell], in_group[i]) - mesh.cell_faces[cell].begin();
         mine.insert(mine.end(),
                     {static_cast<double>(part_.key_of(deformable, position)), static_cast<double>(body), face.area});
-        mine.push_back(static_cast<double>(face.corners.size()));
+        face.place = place_of(in_group[i]);
+        mine.insert(mine.end(), {static_cast<double>(face.corners.size()), static_cast<double>(face.place.points.size())});
         for (const Vector<Dim>* vector : {&face.centroid, &face.normal})
             mine.insert(mine.end(), vector->begin(), vector->end());
         for (const Vector<Dim>& corner : face.corners) mine.insert(mine.end(), corner.begin(), corner.end());
+        mine.insert(mine.end(), face.place.points.begin(), face.place.points.end());
+        mine.insert(mine.end(), face.place.weights.begin(), face.place.weights.end());
     }
     const std::vector<double> all = part_.ranks().gather(mine);
     for (auto next = all.begin(); next != all.end();) {
-        Face face{static_cast<std::int64_t>(next[0]), static_cast<std::int32_t>(next[1]), 0, next[2], {}, {}, {}};
+        Face face{static_cast<std::int64_t>(next[0]), static_cast<std::int32_t>(next[1]), 0, next[2], {}, {}, {}, {}};
         face.corners.resize(static_cast<std::size_t>(next[3]));
-        next += 4;
+        face.place.points.resize(static_cast<std::size_t>(next[4]));
+        face.place.weights.resize(face.place.points.size());
+        next += 5;
         const auto take = [&](Vector<Dim>& vector) {
             std::copy_n(next, Dim, vector.begin());
             next += Dim;
@@ -191,6 +214,9 @@ auto HeldPlaces<Dim>::faces_of(const std::string& group) const -> std::vector<Fa
         take(face.centroid);
         take(face.normal);
         for (Vector<Dim>& corner : face.corners) take(corner);
+        face.place.rest = face.centroid;
+        for (std::int32_t& point : face.place.points) point = static_cast<std::int32_t>(*next++);
+        for (double& weight : face.place.weights) weight = *next++;
         faces.push_back(std::move(face));
     }
     std::ranges::sort(faces, {}, [](const Face& face) { return std::pair(face.body, face.key); });

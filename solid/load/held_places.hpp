@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "abut/solid/body/bodies.hpp"
+#include "abut/solid/ccg/ccg.hpp"
 #include "abut/solid/options/attachments.hpp"
 #include "abut/solid/part/rank_part.hpp"
 
@@ -51,15 +52,18 @@ public:
         Vector<Dim> centroid;
         Vector<Dim> normal;                // out of the body
         std::vector<Vector<Dim>> corners;  // in the order in which the normal sees them run to the left
+        HeldPlace<Dim> place;              // of its centroid, as below
     };
 
     /// All must outlive it.
-    HeldPlaces(const Bodies<Dim>& bodies, const RankPart<Dim>& part) : bodies_(bodies), part_(part) {}
+    HeldPlaces(const Bodies<Dim>& bodies, const Ccg<Dim>& ccg, const RankPart<Dim>& part)
+        : bodies_(bodies), ccg_(ccg), part_(part), boundary_in_mesh_(bodies.boundary_in_mesh()) {}
 
     /// Throws BadInput for a body that does not exist, and for one whose cells span nothing to hold a place beside.
     [[nodiscard]] HeldPlace<Dim> of(const Anchor<Dim>& anchor);
-    /// Of a group of all ranks, by body and key.
-    [[nodiscard]] std::vector<Face> faces_of(const std::string& group) const;
+    /// Of a group of all ranks, by body and key. Centroids of bodies that deform are held as the operators hold them, by their rows of
+    /// R, which are affine where a traction pulls at places: no other weights give forces that a uniform stress of the cells balances.
+    [[nodiscard]] std::vector<Face> faces_of(const std::string& group);
 
 private:
     /// The points of a body, on several ranks those of all of them, increasing by number.
@@ -76,9 +80,13 @@ private:
     [[nodiscard]] HeldPlace<Dim> held_by(const Points& points, std::span<const std::size_t> chosen,
                                          const Vector<Dim>& position) const;
 
+    [[nodiscard]] HeldPlace<Dim> place_of(std::int32_t face) const;
+
     const Bodies<Dim>& bodies_;
+    const Ccg<Dim>& ccg_;
     const RankPart<Dim>& part_;
-    std::map<std::int32_t, Points> points_;  // of the bodies that were asked for
+    std::vector<BoundaryFace> boundary_in_mesh_;  // of the faces of bodies that deform
+    std::map<std::int32_t, Points> points_;       // of the bodies that were asked for
 };
 
 }  // namespace abut::solid

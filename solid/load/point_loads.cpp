@@ -9,8 +9,8 @@
 namespace abut::solid {
 
 template <int Dim>
-PointLoads<Dim>::PointLoads(const Bodies<Dim>& bodies, const RankPart<Dim>& part)
-    : PointLoads(bodies, part, HeldPlaces<Dim>(bodies, part)) {}
+PointLoads<Dim>::PointLoads(const Bodies<Dim>& bodies, const Ccg<Dim>& ccg, const RankPart<Dim>& part)
+    : PointLoads(bodies, part, HeldPlaces<Dim>(bodies, ccg, part)) {}
 
 template <int Dim>
 PointLoads<Dim>::PointLoads(const Bodies<Dim>& bodies, const RankPart<Dim>& part, HeldPlaces<Dim> places)

@@ -14,6 +14,54 @@ namespace {
 constexpr double along_normal = 1e-12;    // what a pressure may have across, over all of it
 constexpr std::size_t most_corners = 12;  // of a face, without memory of its own
 
+/// d(v_f)/dx_i of a face whose normal sees its corners run to the left: half of its area vector, in space a third of that of each
+/// triangle with the middle of the face.
+template <int Dim>
+void set_volume_slopes(std::span<const Vector<Dim>> x, std::span<Vector<Dim>> slope) {
+    if constexpr (Dim == 2) {
+        slope[0] = slope[1] = 0.5 * area_vector<2>(x);
+    } else {
+        const std::size_t n = x.size();
+        const auto share = 1.0 / static_cast<double>(n);
+        Vector<Dim> middle = Vector<Dim>::Zero(), on_middle = Vector<Dim>::Zero();
+        for (std::size_t i = 0; i < n; ++i) {
+            middle += share * x[i];
+            slope[i] = Vector<Dim>::Zero();
+        }
+        for (std::size_t i = 0; i < n; ++i) {
+            const std::size_t j = (i + 1) % n;
+            const std::array<Vector<Dim>, 3> triangle{middle, x[i], x[j]};
+            const Vector<Dim> third = area_vector<3>(triangle) / 3.0;
+            slope[i] += third;
+            slope[j] += third;
+            on_middle += share * third;
+        }
+        for (Vector<Dim>& of_corner : slope) of_corner += on_middle;
+    }
+}
+
+/// d(a_f . d)/dx_i.
+template <int Dim>
+Vector<Dim> area_slope(std::span<const Vector<Dim>> x, std::size_t i, const Vector<Dim>& d) {
+    if constexpr (Dim == 2) {
+        return (i == 0 ? 1.0 : -1.0) * Vector<2>(d[1], -d[0]);
+    } else {
+        const std::size_t n = x.size();
+        return 0.5 * moment<3>(Vector<3>(x[(i + 1) % n] - x[(i + n - 1) % n]), d);
+    }
+}
+
+/// Shares of corners in the force of a pressure on a face at rest.
+template <int Dim>
+std::vector<double> corner_weights(std::span<const Vector<Dim>> corners) {
+    std::vector<Vector<Dim>> slopes(corners.size());
+    set_volume_slopes<Dim>(corners, slopes);
+    const Vector<Dim> area = area_vector<Dim>(corners);
+    std::vector<double> weights;
+    for (const Vector<Dim>& slope : slopes) weights.push_back(slope.dot(area) / area.squaredNorm());
+    return weights;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -26,16 +74,12 @@ PointTractions<Dim>::PointTractions(const Bodies<Dim>& bodies, HeldPlaces<Dim>& 
         if (bodies_.traction_hold(i) == TractionHold::cells) continue;
         for (const auto& face : places.faces_of(conditions[i].group)) {
             if (bodies_.traction_hold(i) == TractionHold::frames && !bodies_.is_rigid(face.body)) continue;
-            Held traction{places.of({.body = face.body, .position = face.centroid}),
-                          face.area,
-                          face.body,
-                          i,
-                          face.in_group,
-                          face.normal,
-                          {}};
-            if (conditions[i].follows && bodies_.is_finite(face.body))
+            Held traction{face.place, face.area, face.body, i, face.in_group, face.normal, {}, {}};
+            if (conditions[i].follows && bodies_.is_finite(face.body)) {
                 for (const Vector<Dim>& corner : face.corners)
                     traction.corners.push_back(places.of({.body = face.body, .position = corner}));
+                traction.weights = corner_weights<Dim>(face.corners);
+            }
             tractions_.push_back(std::move(traction));
         }
     }
@@ -106,9 +150,7 @@ double PointTractions<Dim>::add_all(Points q_0, Points q_1, double time, const T
     return work;
 }
 
-/// Of a face of a body of Kinematics::finite: along its area vector in the middle of the step, half of it (in space a third of that
-/// of each triangle with the middle of the face) on each corner. Faces share their corners, so that an equal pressure all
-/// round has no force and no moment about the mean positions. Its work [J].
+/// In the middle of the step. Its work [J].
 template <int Dim>
 double PointTractions<Dim>::add_pressure(const Held& traction, const Vector<Dim>& value, Points q_0, Points q_1,
                                          std::span<Vector<Dim>> force) const {
@@ -127,31 +169,21 @@ double PointTractions<Dim>::add_pressure(const Held& traction, const Vector<Dim>
     }
     const std::span<Vector<Dim>> x = n > most_corners ? std::span(more_x) : std::span(room_x).first(n);
     const std::span<Vector<Dim>> push = n > most_corners ? std::span(more_push) : std::span(room_push).first(n);
-    Vector<Dim> middle = Vector<Dim>::Zero();
+    Vector<Dim> off = 0.5 * (traction.place.at(q_0) + traction.place.at(q_1));  // x_f - c_f
     for (std::size_t i = 0; i < n; ++i) {
         x[i] = 0.5 * (traction.corners[i].at(q_0) + traction.corners[i].at(q_1));
-        middle += x[i] / static_cast<double>(n);
-        push[i] = Vector<Dim>::Zero();
+        off -= traction.weights[i] * x[i];
     }
-    if constexpr (Dim == 2) {
-        push[0] = push[1] = 0.5 * along * area_vector<2>(x);
-    } else {
-        Vector<Dim> on_middle = Vector<Dim>::Zero();
-        for (std::size_t i = 0; i < n; ++i) {
-            const std::size_t j = (i + 1) % n;
-            const std::array<Vector<Dim>, 3> triangle{middle, x[i], x[j]};
-            const Vector<Dim> third = along / 3.0 * area_vector<3>(triangle);
-            push[i] += third;
-            push[j] += third;
-            on_middle += third / static_cast<double>(n);
-        }
-        for (Vector<Dim>& of_corner : push) of_corner += on_middle;
-    }
+    const Vector<Dim> area = area_vector<Dim>(std::span<const Vector<Dim>>(x));
+    set_volume_slopes<Dim>(x, push);
     double work = 0.0;
-    for (std::size_t i = 0; i < n; ++i) {
-        held_.push(traction.corners[i], push[i], force);
-        work += push[i].dot(traction.corners[i].at(q_1) - traction.corners[i].at(q_0));
-    }
+    const auto act = [&](const HeldPlace<Dim>& place, const Vector<Dim>& on_place) {
+        held_.push(place, on_place, force);
+        work += on_place.dot(place.at(q_1) - place.at(q_0));
+    };
+    act(traction.place, along * area);
+    for (std::size_t i = 0; i < n; ++i)
+        act(traction.corners[i], along * (push[i] - traction.weights[i] * area + area_slope<Dim>(x, i, off)));
     return work;
 }
 

@@ -10,7 +10,14 @@
 
 namespace abut::solid {
 
-/// Tractions and pressures on bodies that turn (TractionHold::points). Their work is booked.
+/// Tractions and pressures on bodies that turn (TractionHold::points): forces at the centroids of faces, which move as the cells have them.
+/// Their work is booked. Forces of a pressure p on faces f of a body of Kinematics::finite are the slopes of -p times the volume
+///
+///     sum of v_f + (x_f - c_f) . a_f
+///
+/// with the place x_f of the face, the volume v_f below its corners, their area vector a_f, and their mean c_f with the weights with which
+/// they share the force of a pressure at rest. Affine motions leave x_f = c_f, and the force -p a_f at x_f alone, which a uniform stress
+/// balances. Faces share corners, so that an equal pressure all round has no force and no moment in any state.
 template <int Dim>
 class PointTractions final : public PointLoad<Dim> {
 public:
@@ -40,6 +47,7 @@ private:
         std::size_t face;                     // in the group
         Vector<Dim> normal;                   // at rest
         std::vector<HeldPlace<Dim>> corners;  // of a face that a pressure turns with, and stretches; else empty
+        std::vector<double> weights;          // of c_f, as many
     };
     using Points = std::span<const Vector<Dim>>;
 

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "abut/solid/cell_view.hpp"
-#include "solid/turning_scenes.hpp"
+#include "solid/finite_scenes.hpp"
 
 using namespace abut;
 using namespace abut::test;
@@ -110,4 +110,41 @@ TEST_CASE("a pressure on a finite body acts on the area that its face has", "[so
     for (const auto& body : solid::body_motions<2>(scene.memm, scene.solid)) impulse += body.mass * body.velocity;
     CHECK(impulse[0] == Approx(1e-4 / spin).epsilon(0.03));  // the integral of (cos, sin)(spin t)
     CHECK(impulse[1] == Approx(1e-4 / spin).epsilon(0.03));
+}
+
+TEST_CASE("an equal pressure all round a finite body does no work along a closed path, and turns nothing in any state",
+          "[solid][pressure]") {
+    for (const auto& [name, mesh] : boxes<2>(3)) {
+        CAPTURE(name);
+        auto options = pressed_box<2>(0.01);
+        options.kinematics = {Kinematics::finite};
+        solid::Solid<2> solid(mesh, options);
+        auto free = options;
+        free.boundary.traction.clear();
+        solid::Solid<2> bare(mesh, free);
+        std::vector<std::vector<double>> path;
+        for (unsigned state = 0; state < 4; ++state) path.push_back(turned_state<2>(mesh, 0.4 * state, state, 0.02));
+        path.push_back(path.front());
+        double of_steps = 0.0;
+        for (std::size_t i = 0; i + 1 < path.size(); ++i) {
+            const double before = solid.work();
+            std::vector<double> force(solid.size()), of_cells(solid.size());
+            solid.mean_force(path[i], path[i + 1], static_cast<double>(i), 1.0, force);
+            of_steps += std::abs(solid.work() - before);
+            bare.mean_force(path[i], path[i + 1], static_cast<double>(i), 1.0, of_cells);
+            Vector<2> sum = Vector<2>::Zero();
+            double turning = 0.0, size = 0.0;
+            for (std::size_t c = 0; c < solid.rest_positions().size(); ++c) {
+                const Vector<2> push = vectors<2>(force)[c] - vectors<2>(of_cells)[c];
+                const Vector<2> arm =
+                    solid.rest_positions()[c] + 0.5 * (vectors<2>(path[i])[c] + vectors<2>(path[i + 1])[c]);
+                sum += push;
+                turning += moment<2>(arm, push)[0];
+                size += push.norm();
+            }
+            CHECK(sum.norm() <= 1e-13 * size);
+            CHECK(std::abs(turning) <= 1e-13 * size);
+        }
+        CHECK(std::abs(solid.work()) <= 1e-12 * of_steps);
+    }
 }
