@@ -49,9 +49,10 @@ template <int Dim>
 template <int Dim>
 struct FreeCell {
     std::int32_t cell;
-    int n_tangents;       ///< Dim - 1 where all free faces have one normal, fewer at edges and corners
+    /// Dim - 1 where all free faces have one normal, fewer at edges and corners. Normals less than 28 degrees apart are one: their mean
+    int n_tangents;
     Matrix<Dim> axes;     ///< orthonormal and right-handed, tangents first
-    double measure_over;  ///< |c| over the area of the free faces [m]
+    double measure_over;  ///< |c| over the area of the free faces, seen along their normal [m]
 
     [[nodiscard]] bool has_one_normal() const { return n_tangents == Dim - 1; }
     [[nodiscard]] Vector<Dim> normal() const { return axes.col(Dim - 1); }

@@ -8,18 +8,34 @@
 namespace abut::solid {
 namespace {
 
-constexpr double one_direction = 1e-10;  // an eigenvalue of the sum of n n^T over the largest that counts as none
+// An eigenvalue of the sum of n n^T over the largest that counts as none: two normals count as one up to 28 degrees between them. Chords
+// of a curve differ by less, and a cell that is condensed along both of them would bear nothing.
+constexpr double one_direction = 0.25 * 0.25;
+constexpr double rounding = 1e-10;  // the same of normals that are one
 
-/// The principal axes of what these normals span, those that they do not span first; right-handed.
 template <int Dim>
-FreeCell<Dim> free_cell(std::int32_t cell, const std::vector<Vector<Dim>>& normals) {
+struct FreeFace {
+    Vector<Dim> normal;
+    double measure;
+};
+
+/// The principal axes of what the normals span, those that they do not span first; right-handed.
+template <int Dim>
+FreeCell<Dim> free_cell(std::int32_t cell, double measure, const std::vector<FreeFace<Dim>>& faces) {
     Matrix<Dim> sum = Matrix<Dim>::Zero();
-    for (const Vector<Dim>& normal : normals) sum += normal * normal.transpose();
+    for (const FreeFace<Dim>& face : faces) sum += face.normal * face.normal.transpose();
     const SymmetricEigen<Dim> eigen = symmetric_eigen(sum);
     FreeCell<Dim> free{.cell = cell, .n_tangents = 0, .axes = eigen.vectors, .measure_over = 0.0};
     while (eigen.values[free.n_tangents] <= one_direction * eigen.values[Dim - 1]) ++free.n_tangents;
-    if (free.has_one_normal()) free.axes.col(Dim - 1) = normals.front();
+    if (free.has_one_normal() && eigen.values[Dim - 2] <= rounding * eigen.values[Dim - 1])
+        free.axes.col(Dim - 1) = faces.front().normal;
     if (free.axes.determinant() < 0.0) free.axes.col(0) *= -1.0;
+    double area = 0.0;
+    for (const FreeFace<Dim>& face : faces) {
+        const double along = free.has_one_normal() ? face.normal.dot(free.normal()) : 1.0;
+        area += along * along * face.measure;
+    }
+    free.measure_over = measure / area;
     return free;
 }
 
@@ -35,20 +51,17 @@ FiniteCells<Dim>::FiniteCells(const mesh::Mesh<Dim>& mesh, const FaceConditions<
         set_elastic(mesh, options);
     for (std::int32_t c = 0; c < mesh.n_cells(); ++c)
         if (properties_of(kinematics[static_cast<std::size_t>(mesh.cell_body[c])]).finite_strains) position_[c] = inside;
-    std::vector<std::vector<Vector<Dim>>> normals(position_.size());
-    std::vector<double> area(position_.size(), 0.0);
+    std::vector<std::vector<FreeFace<Dim>>> faces(position_.size());
     const auto is_loaded = conditions.are_loaded();  // what is behind these bears it
     for (const BoundaryFace b : boundary_faces(mesh)) {
         const std::int32_t cell = cell_of(mesh, b), face = mesh_face(mesh, b);
         if (!contains(cell) || !conditions.prescribed[b].isZero(0.0) || is_loaded[b]) continue;
-        normals[cell].push_back(mesh.face_normal[face]);
-        area[cell] += mesh.face_measure[face];
+        faces[cell].push_back({mesh.face_normal[face], mesh.face_measure[face]});
     }
     for (std::int32_t c = 0; c < mesh.n_cells(); ++c) {
-        if (normals[c].empty()) continue;
+        if (faces[c].empty()) continue;
         position_[c] = static_cast<std::int32_t>(free_.size());
-        free_.push_back(free_cell<Dim>(c, normals[c]));
-        free_.back().measure_over = mesh.cell_measure[c] / area[c];
+        free_.push_back(free_cell<Dim>(c, mesh.cell_measure[c], faces[c]));
     }
     if (std::ranges::any_of(options.inelastic, [](const auto& law) { return law != nullptr; })) set_inelastic(mesh, options);
 }

@@ -219,6 +219,32 @@ std::pair<double, double> errors_of(const mesh::Mesh<Dim>& mesh, const Filled<Di
     return {largest(force) / (area * filled.stress().norm()), stress / filled.stress().norm()};
 }
 
+/// A slab of triangles with a roof on each of its upper edges: a triangle with two free faces that turn by `degrees`.
+mesh::Mesh<2> roofed_slab(double degrees) {
+    constexpr int n = 4, rows = 2;
+    mesh::CellSoup<2> soup;
+    soup.name = soup.body_names.emplace_back("slab");
+    for (int j = 0; j <= rows; ++j)
+        for (int i = 0; i <= n; ++i) soup.vertices.push_back({double(i), double(j)});
+    const auto node = [&](int i, int j) { return j * (n + 1) + i; };
+    const auto append = [&](std::vector<std::int32_t> corners) {
+        soup.cell_shape.push_back(CellShape::triangle);
+        soup.cell_vertices.append(corners);
+        soup.cell_body.push_back(0);
+    };
+    for (int j = 0; j < rows; ++j)
+        for (int i = 0; i < n; ++i) {
+            append({node(i, j), node(i + 1, j), node(i + 1, j + 1)});
+            append({node(i, j), node(i + 1, j + 1), node(i, j + 1)});
+        }
+    const double height = 0.5 * std::tan(degrees * M_PI / 360.0);
+    for (int i = 0; i < n; ++i) {
+        append({node(i, rows), node(i + 1, rows), static_cast<std::int32_t>(soup.vertices.size())});
+        soup.vertices.push_back({i + 0.5, rows + height});
+    }
+    return mesh::build_mesh<2>(std::move(soup));
+}
+
 std::vector<solid::Material> materials_of(Kinematics kinematics) {
     const solid::Material plain{.young = 1.0, .poisson = 0.3, .density = 1.0};
     std::vector<solid::Material> materials{plain};
@@ -266,4 +292,29 @@ TEMPLATE_TEST_CASE_SIG("a uniform stress balances what acts on faces of every ki
     INFO("left out:");
     for (const auto& [why, n] : left_out) UNSCOPED_INFO(why << ": " << n);
     CHECK(n_tested >= 2 * std::ssize(meshes) * (kinematics == Kinematics::small ? 16 : 12));
+}
+
+TEST_CASE("a finite triangle bears a stretch along two free faces that turn by less than 28 degrees, and none at a corner",
+          "[solid][patch]") {
+    const double degrees = GENERATE(0.5, 6.0, 15.0, 23.0, 27.0, 40.0, 90.0), strain = 0.05;
+    CAPTURE(degrees);
+    const auto mesh = roofed_slab(degrees);
+    const solid::Material material{.young = 1.0, .poisson = 0.3, .density = 1.0};
+    solid::Solid<2> solid(mesh, alone<2>(material));
+    static_cast<void>(solid.potential(sampled<2>(mesh, [&](const Vector<2>& x) -> Vector<2> {
+        return {strain * x[0], 0.0};
+    })));
+    // Plane stress along x, F = (1 + strain) e_x (x) e_x + r e_y (x) e_y
+    const double lambda = material.lambda(), mu = material.mu(), green = strain + 0.5 * strain * strain;
+    const double stress = 4.0 * mu * (lambda + mu) / (lambda + 2.0 * mu) * green;
+    const double r = std::sqrt(1.0 - 2.0 * lambda / (lambda + 2.0 * mu) * green);
+    const Matrix<2> of_plane = stress * (1.0 + strain) / r * Vector<2>::UnitX() * Vector<2>::UnitX().transpose();
+    int n_roofs = 0;
+    for (std::int32_t c = 0; c < mesh.n_cells(); ++c) {
+        if (mesh.cell_centroid[c][1] < 2.0) continue;
+        ++n_roofs;
+        const Matrix<2> expected = degrees < 28.0 ? of_plane : Matrix<2>(Matrix<2>::Zero());
+        CHECK((solid.cells().stress(c) - expected).norm() <= 1e-13);
+    }
+    CHECK(n_roofs == 4);
 }
