@@ -52,7 +52,7 @@ Matrix<Dim> CellView<Dim>::stress(std::int32_t cell) const {
     const auto [deformable, body] = solid_.bodies_->deformable_cell(cell);
     if (deformable < 0) return Matrix<Dim>::Zero();
     const Matrix<Dim>& turn = solid_.frames_->end()[static_cast<std::size_t>(body)].turn;
-    return turn * solid_.ccg_.stress(deformable) * turn.transpose();
+    return turn * solid_.ccg_.stress_under_pushes(deformable) * turn.transpose();
 }
 
 template <int Dim>

@@ -28,7 +28,7 @@ public:
     /// Cells whose points this rank owns, on one rank all. Needs no other rank.
     [[nodiscard]] OwnCells own() const;
 
-    /// sigma of a cell in space [Pa]; 0 in rigid bodies.
+    /// sigma of a cell in space, with what contact and bonds push its free faces with [Pa]; 0 in rigid bodies.
     [[nodiscard]] Matrix<Dim> stress(std::int32_t cell) const;
     /// In 2D: sigma_zz of a cell, which `stress` does not have [Pa]; of an elastic body that of small strains, nu (sigma_xx +
     /// sigma_yy). In 3D 0.

@@ -66,12 +66,13 @@ std::unique_ptr<RankPart<Dim>> part_of_rank(const dynamics::Ranks& ranks, Bodies
     return part;
 }
 
-/// Whether there is anything that a body could touch.
+/// By what contact acts on them, if there is anything that a body could touch.
 template <int Dim>
-FreeFaces free_faces_of(const mesh::Mesh<Dim>& mesh, const SolidOptions<Dim>& options) {
+FreeFaces free_faces_of(const mesh::Mesh<Dim>& mesh, const SolidOptions<Dim>& options, const Bodies<Dim>& bodies) {
     const bool has_partner = mesh.n_bodies() > 1 || !options.obstacles.empty();
     const bool may_touch = options.contact && (has_partner || options.contact->search.self_contact);
-    return may_touch ? FreeFaces::may_touch : FreeFaces::stay_alone;
+    if (!may_touch) return FreeFaces::stay_alone;
+    return acting_law(bodies) == ContactLaw::reconstruction ? FreeFaces::are_moved : FreeFaces::are_pushed;
 }
 
 }  // namespace
@@ -87,7 +88,8 @@ Solid<Dim>::Solid(const mesh::Mesh<Dim>& mesh, SolidOptions<Dim> options, const 
                                 const SolidOptions<Dim>& deformable = bodies_->deformable_options();
                                 return Ccg<Dim>(bodies_->deformable(), deformable.materials, deformable.boundary,
                                                 deformable.kinematics, CellForm::automatic, deformable.precision,
-                                                deformable.device, deformable.finite, free_faces_of(mesh_, options_));
+                                                deformable.device, deformable.finite,
+                                                free_faces_of(mesh_, options_, *bodies_));
                             })),
       rotation_(std::make_unique<BodyRotation<Dim>>(part_->rest(), part_->masses(), part_->body_begin(), part_->ranks())),
       frames_(std::make_unique<BodyFrames<Dim>>(bodies_->frames(*part_))),

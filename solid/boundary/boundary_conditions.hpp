@@ -27,6 +27,14 @@ enum class CornerRule {
     fixed,
 };
 
+/// What acts on the free faces of bodies, beside tractions.
+enum class FreeFaces {
+    stay_alone,
+    are_moved,  ///< contact by the modified reconstruction: what it moves a face by is in the stress of the cell and in its traces
+    are_pushed,  ///< contact by the pair potential: its forces are not in the stress of the cell, and the traces do without the
+                 ///< balance of these faces (CcgArrays::affine)
+};
+
 /// A vector that may depend on time and position.
 template <int Dim>
 using Field = std::function<Vector<Dim>(double time, const Vector<Dim>& position)>;

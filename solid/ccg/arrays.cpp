@@ -40,13 +40,13 @@ std::array<double, Dim> to_array(const Vector<Dim>& v) {
 template <int Dim>
 CcgArrays<Dim>::CcgArrays(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials,
                           const FaceConditions<Dim>& conditions, FreeFaceRule rule, CornerRule corner_rule,
-                          std::span<const Kinematics> kinematics, CellForm form) {
+                          std::span<const Kinematics> kinematics, CellForm form, FreeFaces free_faces) {
     set_faces(mesh, materials);
     set_cells(mesh, materials);
     if (form == CellForm::automatic) simplices = Simplices<Dim>(mesh, materials, conditions, rule, kinematics);
     set_shares(kinematics);
     directed = DirectedCells<Dim>(mesh, materials);
-    set_boundary(mesh, materials, conditions, rule, corner_rule, kinematics);
+    set_boundary(mesh, materials, conditions, rule, corner_rule, kinematics, free_faces);
 }
 
 template <int Dim>
@@ -140,8 +140,9 @@ void CcgArrays<Dim>::set_shares(std::span<const Kinematics> kinematics) {
 template <int Dim>
 void CcgArrays<Dim>::set_boundary(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials,
                                   const FaceConditions<Dim>& conditions, FreeFaceRule rule, CornerRule corner_rule,
-                                  std::span<const Kinematics> kinematics) {
-    boundary = reconstruct_boundary<Dim>(mesh, stencils, materials, conditions, rule, corner_rule, kinematics);
+                                  std::span<const Kinematics> kinematics, FreeFaces free_faces) {
+    boundary = reconstruct_boundary<Dim>(mesh, stencils, materials, conditions, rule, corner_rule, kinematics, free_faces);
+    set_affine();
     for (const Matrix<Dim>& weight : boundary.weights) boundary_weights.push_back(load_packed<Dim>(weight));
     for (const BoundaryFace b : all_ids<BoundaryFace>(n_boundary())) {
         if (simplices.condensed_face(cell_of(b)) == b) continue;
@@ -149,6 +150,8 @@ void CcgArrays<Dim>::set_boundary(const mesh::Mesh<Dim>& mesh, std::span<const M
         boundary_cells.insert(boundary_cells.end(), boundary.cells.begin() + boundary.offsets[number_of(b)],
                               boundary.cells.begin() + boundary.offsets[number_of(b) + 1]);
     }
+    for (const AffineFace<Dim>& face : boundary.affine)
+        boundary_cells.insert(boundary_cells.end(), face.stencil.cells.begin(), face.stencil.cells.end());
     sort_unique(boundary_cells);
     boundary_cell_position.assign(cells.size(), -1);
     for (std::size_t i = 0; i < boundary_cells.size(); ++i)
@@ -158,6 +161,39 @@ void CcgArrays<Dim>::set_boundary(const mesh::Mesh<Dim>& mesh, std::span<const M
             for (std::int32_t i = boundary.offsets[number_of(b)]; i < boundary.offsets[number_of(b) + 1]; ++i)
                 visit(boundary_cell_position[boundary.cells[i]], b,
                       load_packed<Dim>(Matrix<Dim>(boundary.weights[i].transpose())));
+    });
+    if (!affine.faces.empty()) set_affine_occurrences();
+}
+
+/// Their stencils stand where boundary faces have none.
+template <int Dim>
+void CcgArrays<Dim>::set_affine() {
+    if (boundary.affine.empty()) return;
+    affine.cell_index.assign(cells.size(), -1);
+    affine.face_index.assign(boundary_faces.size(), -1);
+    for (const AffineFace<Dim>& face : boundary.affine) {
+        const auto index = static_cast<std::int32_t>(affine.faces.size());
+        const std::int32_t cell = cell_of(face.face);
+        if (affine.cells.empty() || affine.cells.back().cell != cell) {
+            affine.cell_index[cell] = static_cast<std::int32_t>(affine.cells.size());
+            affine.cells.push_back({cell, index, index});
+        }
+        affine.cells.back().end = index + 1;
+        affine.face_index[number_of(face.face)] = index;
+        affine.faces.push_back(face.face);
+        affine_parts.push_back(load_packed<Dim>(face.free_part));
+        stencils[face_of(face.face)] = face.stencil;
+    }
+}
+
+template <int Dim>
+void CcgArrays<Dim>::set_affine_occurrences() {
+    affine.of_cell = occurrences<std::int32_t>(boundary_cells.size(), affine_weights, [&](const auto& visit) {
+        for (std::size_t i = 0; i < affine.faces.size(); ++i) {
+            const FaceStencil<Dim>& stencil = stencils[face_of(affine.faces[i])];
+            for (std::size_t j = 0; j <= Dim; ++j)
+                visit(boundary_cell_position[stencil.cells[j]], static_cast<std::int32_t>(i), stencil.weights[j]);
+        }
     });
 }
 

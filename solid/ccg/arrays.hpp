@@ -27,6 +27,23 @@ struct Occurrences {
     LargeArray<Row> rows;
 };
 
+/// A cell with free faces that contact pushes: CcgArrays::affine.
+struct AffineCell {
+    std::int32_t cell;
+    std::int32_t begin, end;  // of its faces among those of all such cells
+};
+
+/// Where contact pushes by nodes, its forces are not in the stress of a cell, whose free faces balance as if nothing touched them.
+/// Jumps that took these faces for granted would hold the cell back, and leave the layers behind a contact with 0.8 to 1.1 of the
+/// pressure. In the traces I_c(x_f) of such cells free faces are affine instead, whatever pushes them. docs/method.md, Contact.
+struct AffineTraces {
+    std::vector<AffineCell> cells;         // increasing
+    std::vector<std::int32_t> cell_index;  // of a cell in `cells`; -1: it is none. Empty without any
+    std::vector<BoundaryFace> faces;       // cell by cell
+    std::vector<std::int32_t> face_index;  // of a boundary face in `faces`; -1: it is none. Empty without any
+    Occurrences<std::int32_t> of_cell;  // by position in CcgArrays::boundary_cells: indices of faces whose stencils use it
+};
+
 /// What the operators of a mesh are made of, in the order in which they run over it.
 template <int Dim>
 struct CcgArrays : CcgCoefficients<Dim, double> {
@@ -38,10 +55,12 @@ struct CcgArrays : CcgCoefficients<Dim, double> {
     using CcgCoefficients<Dim, double>::of_cell_weights;
     using CcgCoefficients<Dim, double>::boundary_weights;
     using CcgCoefficients<Dim, double>::boundary_cell_weights;
+    using CcgCoefficients<Dim, double>::affine_parts;
+    using CcgCoefficients<Dim, double>::affine_weights;
 
     CcgArrays(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials, const FaceConditions<Dim>& conditions,
               FreeFaceRule rule, CornerRule corner_rule, std::span<const Kinematics> kinematics = {},
-              CellForm form = CellForm::automatic);
+              CellForm form = CellForm::automatic, FreeFaces free_faces = FreeFaces::stay_alone);
 
     [[nodiscard]] std::int32_t n_cells() const { return static_cast<std::int32_t>(cells.size()); }
     [[nodiscard]] std::int32_t n_faces() const { return static_cast<std::int32_t>(face_cells.size()); }
@@ -59,7 +78,23 @@ struct CcgArrays : CcgCoefficients<Dim, double> {
                 static_cast<std::size_t>(half_face_offsets[c + 1] - half_face_offsets[c])};
     }
 
-    // Faces. A boundary face has its one cell on both sides, no stiffness and an empty stencil: the sweeps need no branch.
+    /// Those of AffineTraces of a cell.
+    [[nodiscard]] std::span<const BoundaryFace> affine_faces_of(std::int32_t c) const {
+        if (affine.faces.empty() || affine.cell_index[c] < 0) return {};
+        const AffineCell& cell = affine.cells[static_cast<std::size_t>(affine.cell_index[c])];
+        return std::span(affine.faces)
+            .subspan(static_cast<std::size_t>(cell.begin), static_cast<std::size_t>(cell.end - cell.begin));
+    }
+    /// Indices of those whose stencils use a cell.
+    [[nodiscard]] std::span<const std::int32_t> affine_rows_of(std::int32_t c) const {
+        const std::int32_t position = boundary_cell_position[c];
+        if (affine.faces.empty() || position < 0) return {};
+        const std::int32_t begin = affine.of_cell.offsets[position];
+        return {affine.of_cell.rows.data() + begin, static_cast<std::size_t>(affine.of_cell.offsets[position + 1] - begin)};
+    }
+
+    // Faces. A boundary face has its one cell on both sides, no stiffness and, but for those of `affine`, an empty stencil: the sweeps
+    // need no branch.
     LargeArray<std::array<std::int32_t, 2>> face_cells;
     StencilReport report;
     // Cells and their half-faces, cell by cell.
@@ -74,9 +109,10 @@ struct CcgArrays : CcgCoefficients<Dim, double> {
     std::vector<BoundaryFace> boundary_index;  // of a face; none inside
     BoundaryReconstruction<Dim> boundary;
     std::vector<BoundaryFace> row_faces;               // those that the sweeps reconstruct by rows of R: not condensed
-    std::vector<std::int32_t> boundary_cells;          // cells that one of them depends on
+    std::vector<std::int32_t> boundary_cells;          // cells that one of them depends on, or one of `affine`
     std::vector<std::int32_t> boundary_cell_position;  // of a cell, -1 elsewhere
     Occurrences<BoundaryFace> of_boundary_cell;        // these rows by position in boundary_cells, transposed
+    AffineTraces affine;
 
 private:
     void set_faces(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials);
@@ -84,7 +120,9 @@ private:
     void set_shares(std::span<const Kinematics> kinematics);
     void set_boundary(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials,
                       const FaceConditions<Dim>& conditions, FreeFaceRule rule, CornerRule corner_rule,
-                      std::span<const Kinematics> kinematics);
+                      std::span<const Kinematics> kinematics, FreeFaces free_faces);
+    void set_affine();
+    void set_affine_occurrences();
 };
 
 }  // namespace abut::solid

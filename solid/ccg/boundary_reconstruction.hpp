@@ -11,6 +11,14 @@
 
 namespace abut::solid {
 
+/// A free face of a cell that contact pushes: in the traces of the cell it is where the cells around point.
+template <int Dim>
+struct AffineFace {
+    BoundaryFace face;
+    FaceStencil<Dim> stencil;
+    Matrix<Dim> free_part;  ///< projector onto the directions that are not prescribed
+};
+
 /// û = R u + B u_D + L t on the boundary faces, and ũ = û + delta + sum of C delta where contact moves faces by delta.
 /// docs/method.md, Space and Contact.
 template <int Dim>
@@ -30,7 +38,8 @@ struct BoundaryReconstruction {
     /// k_f = n . A_ff n / |f|, what the answers leave of it, stabilisation left out (n_boundary); infinity: the displacement
     /// along the normal is prescribed [Pa/m]
     std::vector<double> normal_stiffness;
-    StencilReport report;  ///< of the affine extrapolations that were needed
+    std::vector<AffineFace<Dim>> affine;  ///< cell by cell, increasing; of FreeFaces::are_pushed
+    StencilReport report;                 ///< of the affine extrapolations that were needed
 
     [[nodiscard]] std::int32_t size() const { return static_cast<std::int32_t>(offsets.size()) - 1; }
     /// visit(face, C) for each face that answers to a correction of b.
@@ -44,12 +53,10 @@ struct BoundaryReconstruction {
 /// `interior` holds a stencil for every interior face, by face number. Free faces of bodies of Kinematics::finite (one per
 /// body; empty: none) are extrapolated, whatever the rule: FreeCell says what they do beside that.
 template <int Dim>
-[[nodiscard]] BoundaryReconstruction<Dim> reconstruct_boundary(const mesh::Mesh<Dim>& mesh,
-                                                               std::span<const FaceStencil<Dim>> interior,
-                                                               std::span<const Material> materials,
-                                                               const FaceConditions<Dim>& conditions, FreeFaceRule rule,
-                                                               CornerRule corner_rule,
-                                                               std::span<const Kinematics> kinematics);
+[[nodiscard]] BoundaryReconstruction<Dim> reconstruct_boundary(
+    const mesh::Mesh<Dim>& mesh, std::span<const FaceStencil<Dim>> interior, std::span<const Material> materials,
+    const FaceConditions<Dim>& conditions, FreeFaceRule rule, CornerRule corner_rule, std::span<const Kinematics> kinematics,
+    FreeFaces free_faces = FreeFaces::stay_alone);
 
 /// A_fg of a cell: the answer of dV/dũ_f to a displacement of g, stabilisation left out; the area
 /// vectors |f| n_f and |g| n_g point out of the cell. docs/method.md, Space.

@@ -39,7 +39,7 @@ std::vector<Held> held_by_jumps(const mesh::Mesh<Dim>& mesh, std::span<const Kin
     const auto bends = [&](std::int32_t cell) {
         return is_finite(kinematics, static_cast<std::size_t>(mesh.cell_body[cell]));
     };
-    const bool may_touch = free_faces == FreeFaces::may_touch;
+    const bool may_touch = free_faces != FreeFaces::stay_alone;
     std::vector<Held> held(static_cast<std::size_t>(mesh.n_cells()), Held::no);
     std::vector<const Vector<Dim>*> first(held.size(), nullptr);
     for (const BoundaryFace b : boundary_faces(mesh)) {
@@ -69,7 +69,7 @@ CappedJumps<Dim>::CappedJumps(const mesh::Mesh<Dim>& mesh, std::span<const Mater
     : arrays_(arrays) {
     // By default not where contact squeezes finite bodies: what flows further needs a shorter step than at rest.
     const auto yields = [&](std::size_t body) {
-        const bool may_fold = free_faces == FreeFaces::may_touch && is_finite(kinematics, body);
+        const bool may_fold = free_faces != FreeFaces::stay_alone && is_finite(kinematics, body);
         return materials[body].law == MaterialLaw::j2 && (materials[body].jump_cap > 0.0 || !may_fold);
     };
     for (std::size_t body = 0; body < materials.size(); ++body) any_ = any_ || yields(body);

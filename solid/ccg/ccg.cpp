@@ -75,13 +75,14 @@ Ccg<Dim>::Impl::Impl(const mesh::Mesh<Dim>& mesh, std::span<const Material> mate
     : conditions(boundary_conditions),
       face_conditions(sort_to_faces(mesh, boundary_conditions)),
       arrays(mesh, checked(mesh, materials), face_conditions, conditions.free_face_rule, conditions.corner_rule, kinematics,
-             form),
+             form, free_faces),
       finite(mesh, face_conditions, kinematics, finite_options),
       viscous(mesh, materials),
       plastic(mesh, materials, kinematics, face_conditions, conditions.free_face_rule, free_faces, arrays),
       capped(mesh, materials, kinematics, face_conditions, free_faces, arrays),
       sweeps(arrays, arrays, finite, &viscous, &plastic, &capped, &thermal),
-      steps(step_sweeps(mesh, kinematics, materials, arrays, finite, sweeps, precision, device)) {
+      steps(step_sweeps(mesh, kinematics, materials, arrays, finite, sweeps, precision, device)),
+      are_moved(free_faces == FreeFaces::are_moved) {
     const auto all = solid::boundary_faces(mesh);
     motion_bound.emplace(arrays, std::vector<BoundaryFace>(all.begin(), all.end()));
     for (const std::int32_t f : arrays.boundary_faces) {
@@ -133,6 +134,7 @@ void Ccg<Dim>::boundary_displacement(std::span<const Vector<Dim>> u, const Bound
 template <int Dim>
 void Ccg<Dim>::gradient(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load,
                         const FaceCorrections<Dim>& corrections, std::span<Vector<Dim>> result) {
+    impl_->keep_pushes(corrections);
     impl_->sweeps.gradient(u, load, corrections, result);
     impl_->steps_were_last = impl_->steps_have_state = false;
 }
@@ -140,12 +142,14 @@ void Ccg<Dim>::gradient(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>&
 template <int Dim>
 void Ccg<Dim>::step_gradient(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load,
                              const FaceCorrections<Dim>& corrections, std::span<Vector<Dim>> result) {
+    impl_->keep_pushes(corrections);
     impl_->take_step([&](auto& sweeps) { sweeps.gradient(u, load, corrections, result); });
 }
 
 template <int Dim>
 void Ccg<Dim>::mean_gradient(const StepEnds<Dim>& ends, const BoundaryLoad<Dim>& load,
                              const FaceCorrections<Dim>& corrections, std::span<Vector<Dim>> result) {
+    impl_->keep_pushes(corrections);
     impl_->take_step([&](auto& sweeps) { sweeps.mean_gradient(ends, load, corrections, result); });
 }
 
@@ -153,6 +157,7 @@ template <int Dim>
 void Ccg<Dim>::gradient_of_packed(LargeArray<double>& u, const BoundaryLoad<Dim>& load,
                                   const FaceCorrections<Dim>& corrections, std::span<Vector<Dim>> result,
                                   const StepEnds<Dim>& ends) {
+    impl_->keep_pushes(corrections);
     if (impl_->steps)
         return impl_->take_step([&](auto& sweeps) { sweeps.gradient_of_packed(u, load, corrections, result); });
     impl_->sweeps.gradient_of_packed(u, load, corrections, result, ends);
@@ -182,6 +187,7 @@ template <int Dim>
 std::vector<double> Ccg<Dim>::cell_energies(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load,
                                             const FaceCorrections<Dim>& corrections) {
     std::vector<double> energy(static_cast<std::size_t>(n_cells()));
+    impl_->keep_pushes(corrections);
     impl_->sweeps.cell_energies(u, load, corrections, energy);
     impl_->steps_have_state = false;
     return energy;
@@ -220,6 +226,7 @@ void Ccg<Dim>::evaluate_tilted_faces(const Region<Dim>& region, std::span<const 
 template <int Dim>
 void Ccg<Dim>::evaluate_cells(const Region<Dim>& region, std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load,
                               const FaceCorrections<Dim>& corrections, std::span<Vector<Dim>> result) {
+    impl_->keep_pushes(corrections);
     impl_->sweeps.evaluate_cells(region, u, load, corrections, result);
 }
 
@@ -265,6 +272,28 @@ Matrix<Dim> Ccg<Dim>::displacement_gradient(std::int32_t cell) const {
 template <int Dim>
 Matrix<Dim> Ccg<Dim>::stress(std::int32_t cell) const {
     return impl_->steps_have_state ? impl_->steps->stress(cell) : impl_->sweeps.stress(cell);
+}
+
+/// By L of the free faces: the least energy of a cell and of what pushes its faces is where these give way to it.
+template <int Dim>
+Matrix<Dim> Ccg<Dim>::stress_under_pushes(std::int32_t cell) const {
+    const CcgArrays<Dim>& arrays = impl_->arrays;
+    Matrix<Dim> sigma = stress(cell);
+    if (impl_->pushed.empty() || impl_->finite.contains(cell)) return sigma;
+    const BoundaryReconstruction<Dim>& boundary = arrays.boundary;
+    const auto& [inverse_measure, lambda, mu] = arrays.cells[cell];
+    Matrix<Dim> g = Matrix<Dim>::Zero();
+    for (const HalfFace& half_face : arrays.half_faces_of(cell)) {
+        const BoundaryFace b = arrays.boundary_index[half_face.face];
+        if (b == no_face) continue;
+        Vector<Dim> moved = Vector<Dim>::Zero();
+        for (std::int32_t i = boundary.load_offsets[number_of(b)]; i < boundary.load_offsets[number_of(b) + 1]; ++i)
+            moved += boundary.from_traction[i] * impl_->push_on(boundary.load_faces[i]);
+        g += inverse_measure * impl_->boundary_measure[b] * moved * arrays.normal_of(b).transpose();
+    }
+    sigma += lambda * g.trace() * Matrix<Dim>::Identity() + mu * (g + g.transpose());
+    if (arrays.directed.contains(cell)) sigma += arrays.directed[cell].stress(g);
+    return sigma;
 }
 
 template <int Dim>

@@ -95,12 +95,6 @@ struct Region {
     std::vector<Offsets> chunks;
 };
 
-/// What pushes the free faces of bodies, beside tractions.
-enum class FreeFaces {
-    stay_alone,
-    may_touch,  ///< contact: the stabilisation of materials that yield stays elastic behind them
-};
-
 /// Cell-centred Galerkin operators of a mesh, without a matrix. docs/method.md, Space.
 ///
 ///     u_f by the stencils -> G_c and its traces I_c(x_f) -> S_c with the jumps k [u]_f -> face gradients y_f -> dV/du_c
@@ -258,6 +252,9 @@ public:
     /// cells beside it they are not to be used unless it was the same.
     [[nodiscard]] Matrix<Dim> displacement_gradient(std::int32_t cell) const;
     [[nodiscard]] Matrix<Dim> stress(std::int32_t cell) const;
+    /// The same with the forces on free faces of the last call that had corrections: sigma_c alone balances these faces as if nothing
+    /// pushed them, and the faces give way as long as the cell does not bear what does. Of bodies of Kinematics::finite sigma_c.
+    [[nodiscard]] Matrix<Dim> stress_under_pushes(std::int32_t cell) const;
 
     /// Of these cells, increasing, at the end of the step or in the state that `gradient` was called for last.
     [[nodiscard]] FiniteExtremes finite_extremes(std::span<const std::int32_t> cells) const;
@@ -265,7 +262,8 @@ public:
     /// Of interior faces only; `boundary` has that of the others.
     [[nodiscard]] const StencilReport& stencil_report() const;
     [[nodiscard]] const BoundaryReconstruction<Dim>& boundary() const;
-    [[nodiscard]] std::span<const FaceStencil<Dim>> stencils() const;  ///< by face; a boundary face has weight 0 throughout
+    /// By face; a boundary face has weight 0 throughout, or is one of BoundaryReconstruction::affine.
+    [[nodiscard]] std::span<const FaceStencil<Dim>> stencils() const;
     /// Normal stiffness of a boundary half-cell [Pa/m]: (lambda + 2 mu) |f|/|c|, less where other faces answer (CornerRule).
     [[nodiscard]] double normal_stiffness(BoundaryFace face) const;
     /// Cells on whose displacement û of this boundary face depends.

@@ -37,6 +37,10 @@ struct Ccg<Dim>::Impl {
     IdVector<BoundaryFace, double> boundary_measure;
     std::vector<std::vector<Vector<Dim>>> outside;  // tractions by face, of each traction condition; empty: not from outside
     bool varies = false;
+    bool are_moved;  // free faces, FreeFaces: what acts on them is in the stress of their cells
+    // Of the last call that had corrections: which faces were pushed, increasing, and dV/dû [N]
+    std::vector<BoundaryFace> pushed;
+    std::vector<Vector<Dim>> pushes;
 
     Impl(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials,
          const BoundaryConditions<Dim>& boundary_conditions, std::span<const Kinematics> kinematics, CellForm form,
@@ -51,6 +55,18 @@ struct Ccg<Dim>::Impl {
              ++i)
             sum += arrays.boundary.from_traction[i] * (stress * arrays.normal_of(arrays.boundary.load_faces[i]));
         return sum;
+    }
+
+    void keep_pushes(const FaceCorrections<Dim>& corrections) {
+        if (are_moved) return;
+        pushes.assign(corrections.energy_gradient.begin(), corrections.energy_gradient.end());
+        pushed.assign(corrections.faces.begin(), corrections.faces.begin() + std::ssize(pushes));
+    }
+    /// By which the traction on a face moves it and the other free faces of its cell; 0 where nothing pushes it [Pa].
+    [[nodiscard]] Vector<Dim> push_on(BoundaryFace face) const {
+        const auto at = std::ranges::lower_bound(pushed, face);
+        if (at == pushed.end() || *at != face) return Vector<Dim>::Zero();
+        return -pushes[static_cast<std::size_t>(at - pushed.begin())] / boundary_measure[face];
     }
 
     /// evaluate(sweeps) of those that make steps.

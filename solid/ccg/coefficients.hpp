@@ -99,6 +99,8 @@ struct CcgCoefficients {
     LargeArray<Real> of_cell_weights;                     // by entry of CcgArrays::of_cell
     std::vector<LaneTensor<Dim, Real>> boundary_weights;  // as CcgArrays::boundary.weights
     LargeArray<LaneTensor<Dim, Real>> boundary_cell_weights;  // by entry of CcgArrays::of_boundary_cell
+    std::vector<LaneTensor<Dim, Real>> affine_parts;          // AffineFace::free_part, by index of AffineTraces::faces
+    LargeArray<Real> affine_weights;                          // by entry of AffineTraces::of_cell
 };
 
 template <int Dim>

@@ -127,6 +127,9 @@ void set_stresses(const Execution& execution, const SweepElements<V>& element, T
         execution, element.tables.cells.size, "displacement gradients",
         KOKKOS_LAMBDA(std::int32_t c) { element.set_any_displacement_gradient(c); });
     for_each(
+        execution, element.tables.affine_cells.size, "affine traces",
+        KOKKOS_LAMBDA(std::int32_t i) { element.set_affine_traces(element.tables.affine_cells[i]); });
+    for_each(
         execution, element.tables.cells.size, "stresses", KOKKOS_LAMBDA(std::int32_t c) { element.set_any_stress(c); });
     for_each(
         execution, moment_cells.size, "moments", KOKKOS_LAMBDA(std::int32_t i) {
@@ -191,8 +194,8 @@ struct DeviceKernels<Dim>::Impl {
         tables.u = u.table();
         tables.correction = correction.table();
         tables.pair_gradient = pair_gradient.table();
-        for (Table<double>* work :
-             {&tables.of_face, &tables.g, &tables.trace, &tables.s, &tables.deviation, &tables.direct, &tables.boundary_y})
+        for (Table<double>* work : {&tables.of_face, &tables.g, &tables.trace, &tables.s, &tables.deviation, &tables.direct,
+                                    &tables.boundary_y, &tables.affine_y})
             *work = arrays.template zeros<double>(work->size);
         tables.load_displacement = tables.traction = {};
         element = {tables, {}};

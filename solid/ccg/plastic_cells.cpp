@@ -14,8 +14,8 @@
 namespace abut::solid {
 namespace {
 
-constexpr double free_direction = 1e-10;  // an eigenvalue of B^T C B over the largest, below which it counts as none
-constexpr double no_answer = 1e-12;       // the same of dev C_e dev, over 2 mu
+constexpr double no_direction = 1e-12;  // of a projector: rounding
+constexpr double no_answer = 1e-12;     // the same of dev C_e dev, over 2 mu
 constexpr int most_doublings = 60;
 constexpr double return_rounding =
     1e-9;  // more than what sums of very many steps make of a driving force, over the yield radius
@@ -64,21 +64,23 @@ Matrix<Dim> PlasticCells<Dim>::unpacked(const Strain& strain) {
     return tensor;
 }
 
-/// C_e = C - C B (B^T C B)^+ B^T C with the strains of free faces in the columns of B.
+/// C_e = C - C B (B^T C B)^-1 B^T C with the strains of balancing combinations of free faces in the columns of B.
 template <int Dim>
-auto PlasticCells<Dim>::response_of(const Material& material, const std::vector<Strain>& free) -> Response {
+auto PlasticCells<Dim>::response_of(const Material& material, std::span<const FreeFaceOfCell<Dim>> free) -> Response {
     Response response;
     Stiffness& stiffness = response.stiffness;
     stiffness = 2.0 * material.mu() * Stiffness::Identity();
     stiffness.template topLeftCorner<3, 3>().array() += material.lambda();
     if (!free.empty()) {
-        Eigen::MatrixXd strains(n_strains, static_cast<Eigen::Index>(free.size()));
-        for (std::size_t i = 0; i < free.size(); ++i) strains.col(static_cast<Eigen::Index>(i)) = free[i];
+        Eigen::MatrixXd strains(n_strains, std::ssize(free) * Dim);
+        for (std::size_t i = 0; i < free.size(); ++i)
+            for (int j = 0; j < Dim; ++j)
+                strains.col(static_cast<Eigen::Index>(i) * Dim + j) =
+                    packed(free[i].free_part.col(j) * free[i].normal.transpose());
+        strains *= balancing_combinations<Dim>(free);
         const Eigen::MatrixXd stresses = stiffness * strains;
         const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(strains.transpose() * stresses);
-        const double largest = solver.eigenvalues().maxCoeff();
         for (Eigen::Index i = 0; i < solver.eigenvalues().size(); ++i) {
-            if (solver.eigenvalues()[i] <= free_direction * largest) continue;
             const Eigen::VectorXd relaxed = stresses * solver.eigenvectors().col(i);
             stiffness -= relaxed * relaxed.transpose() / solver.eigenvalues()[i];
         }
@@ -109,16 +111,13 @@ PlasticCells<Dim>::PlasticCells(const mesh::Mesh<Dim>& mesh, std::span<const Mat
     }
     if (!any_) return;
     index_.assign(static_cast<std::size_t>(mesh.n_cells()), -1);
-    std::vector<std::vector<Strain>> free(index_.size());
+    std::vector<std::vector<FreeFaceOfCell<Dim>>> free(index_.size());
     for (const BoundaryFace b : boundary_faces(mesh)) {
         if (rule != FreeFaceRule::local_equilibrium) break;
         if (conditions.joined[b]) continue;
-        const Matrix<Dim> directions = Matrix<Dim>::Identity() - conditions.prescribed[b];
-        const Vector<Dim>& normal = mesh.face_normal[mesh_face(mesh, b)];
-        for (int i = 0; i < Dim; ++i) {
-            const Vector<Dim> direction = directions.col(i);
-            if (!direction.isZero(0.0)) free[cell_of(mesh, b)].push_back(packed(direction * normal.transpose()));
-        }
+        const Matrix<Dim> free_part = Matrix<Dim>::Identity() - conditions.prescribed[b];
+        if (!free_part.isZero(no_direction))
+            free[cell_of(mesh, b)].push_back({mesh.face_normal[mesh_face(mesh, b)], free_part});
     }
     for (std::int32_t c = 0; c < mesh.n_cells(); ++c) {
         const auto body = static_cast<std::size_t>(mesh.cell_body[c]);
@@ -132,7 +131,7 @@ PlasticCells<Dim>::PlasticCells(const mesh::Mesh<Dim>& mesh, std::span<const Mat
         cells_.push_back({.material = &materials_[body], .response = number, .measure = mesh.cell_measure[c]});
         surfaces_.push_back({.poisson = materials_[body].poisson});
         set_surface(surfaces_.size() - 1);
-        if (free_faces == FreeFaces::may_touch && rule == FreeFaceRule::local_equilibrium) make_push(arrays, c, conditions);
+        if (free_faces != FreeFaces::stay_alone && rule == FreeFaceRule::local_equilibrium) make_push(arrays, c, conditions);
     }
     driving_.assign(cells_.size(), unknown());
     next_driving_ = driving_;

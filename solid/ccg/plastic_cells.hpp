@@ -11,6 +11,7 @@
 #include "abut/solid/boundary/boundary_conditions.hpp"
 #include "abut/solid/ccg/arrays.hpp"
 #include "abut/solid/ccg/ccg.hpp"
+#include "abut/solid/ccg/free_strains.hpp"
 #include "abut/solid/kinematics/kinematics.hpp"
 #include "abut/solid/material/flow_stress.hpp"
 #include "abut/solid/material/material.hpp"
@@ -112,7 +113,7 @@ private:
         Stiffness axes;  // of dev C_e dev, by column
         Strain values;   // the eigenvalues
     };
-    [[nodiscard]] static Response response_of(const Material& material, const std::vector<Strain>& free);
+    [[nodiscard]] static Response response_of(const Material& material, std::span<const FreeFaceOfCell<Dim>> free);
     /// Where a cell yields, which follows from what it remembers: all that a step which stays elastic looks at beside xi.
     struct Surface {
         Strain shift = Strain::Zero();  // dev C_e : p + 2/3 H p

@@ -48,6 +48,18 @@ void complete_gradients(const CcgArrays<Dim>& arrays, Region<Dim>& region) {
     sort_unique(region.input_cells);
 }
 
+/// What the traces of the cells depend on beside their gradients.
+template <int Dim>
+void append_affine_cells(const CcgArrays<Dim>& arrays, Region<Dim>& region) {
+    if (arrays.affine.faces.empty()) return;
+    for (const std::int32_t c : region.displacement_gradient_cells)
+        for (const BoundaryFace b : arrays.affine_faces_of(c)) {
+            const auto& cells = arrays.stencils[arrays.face_of(b)].cells;
+            region.input_cells.insert(region.input_cells.end(), cells.begin(), cells.end());
+        }
+    sort_unique(region.input_cells);
+}
+
 /// From the cells whose stress is wanted.
 template <int Dim>
 void complete(const CcgArrays<Dim>& arrays, Region<Dim>& region) {
@@ -56,6 +68,7 @@ void complete(const CcgArrays<Dim>& arrays, Region<Dim>& region) {
     for (const std::int32_t f : faces_of(arrays, region.stress_cells))
         append_face_cells(arrays, f, region.displacement_gradient_cells);
     complete_gradients(arrays, region);
+    append_affine_cells(arrays, region);
 }
 
 /// All boundary faces that share an energy term with b, itself included, increasing.
@@ -157,6 +170,8 @@ Region<Dim> region_of_cells(const CcgArrays<Dim>& arrays, std::span<const std::i
         append_rows(region.energy_gradient_faces, arrays.of_cell, c);
         if (const std::int32_t position = arrays.boundary_cell_position[c]; position >= 0)
             append_rows(region.faces, arrays.of_boundary_cell, position);
+        for (const std::int32_t i : arrays.affine_rows_of(c))
+            region.stress_cells.push_back(arrays.cell_of(arrays.affine.faces[static_cast<std::size_t>(i)]));
     }
     sort_unique(region.energy_gradient_faces);
     sort_unique(region.faces);

@@ -139,6 +139,7 @@ inline void SweepElements<V>::set_any_stress(std::int32_t c) const {
         set_simplex_jumps(c);
     else
         set_stress(c);
+    if (const std::int32_t i = tables.affine_index_of(c); i >= 0) set_affine_gradients(tables.affine_cells[i]);
 }
 
 /// Of an interior face.

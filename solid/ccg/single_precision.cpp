@@ -51,6 +51,11 @@ FaceStencil<Dim, float> rounded(const FaceStencil<Dim>& stencil) {
     return result;
 }
 
+template <int Dim>
+float weight_of(const FaceStencil<Dim, float>& stencil, std::int32_t cell) {
+    return stencil.weights[static_cast<std::size_t>(std::ranges::find(stencil.cells, cell) - stencil.cells.begin())];
+}
+
 double power_of_two(double near) { return std::exp2(std::round(std::log2(near))); }
 
 /// Of the largest cell, and the largest modulus.
@@ -88,14 +93,20 @@ CcgCoefficients<Dim, float> in_single_precision(const CcgArrays<Dim>& arrays) {
     for (const auto [first, second] : arrays.shares)
         single.shares.push_back({static_cast<float>(first), static_cast<float>(second)});
     for (std::int32_t c = 0; c < arrays.n_cells(); ++c)
-        for (std::int32_t i = arrays.of_cell.offsets[c]; i < arrays.of_cell.offsets[c + 1]; ++i) {
-            const FaceStencil<Dim, float>& stencil = single.stencils[arrays.of_cell.rows[i]];
-            const auto j = std::ranges::find(stencil.cells, c) - stencil.cells.begin();
-            single.of_cell_weights.push_back(stencil.weights[static_cast<std::size_t>(j)]);
-        }
+        for (std::int32_t i = arrays.of_cell.offsets[c]; i < arrays.of_cell.offsets[c + 1]; ++i)
+            single.of_cell_weights.push_back(weight_of<Dim>(single.stencils[arrays.of_cell.rows[i]], c));
     for (const LaneTensor<Dim>& weight : arrays.boundary_weights) single.boundary_weights.push_back(rounded<Dim>(weight));
     for (const LaneTensor<Dim>& weight : arrays.boundary_cell_weights)
         single.boundary_cell_weights.push_back(rounded<Dim>(weight));
+    for (const LaneTensor<Dim>& part : arrays.affine_parts) single.affine_parts.push_back(rounded<Dim>(part));
+    if (!arrays.affine.faces.empty())
+        for (std::size_t position = 0; position < arrays.boundary_cells.size(); ++position)
+            for (std::int32_t i = arrays.affine.of_cell.offsets[position]; i < arrays.affine.of_cell.offsets[position + 1];
+                 ++i) {
+                const BoundaryFace face = arrays.affine.faces[static_cast<std::size_t>(arrays.affine.of_cell.rows[i])];
+                single.affine_weights.push_back(
+                    weight_of<Dim>(single.stencils[arrays.face_of(face)], arrays.boundary_cells[position]));
+            }
     return single;
 }
 

@@ -69,6 +69,11 @@ void CcgSweeps<Dim, Real>::set_chunks() {
     for (const BoundaryFace b : a.row_faces)
         for (std::int32_t i = a.boundary.offsets[number_of(b)]; i < a.boundary.offsets[number_of(b) + 1]; ++i)
             need(reconstruction, a.cell_of(b), a.boundary.cells[i]);
+    for (const BoundaryFace b : a.affine.faces)
+        for (const std::int32_t c : a.stencils[a.face_of(b)].cells) {
+            need(displacement_gradients, a.cell_of(b), c);
+            need(cell_gradients, c, a.cell_of(b));
+        }
     for (std::int32_t c = 0; c < a.n_cells(); ++c) {
         for (const Stage stage : {reconstruction, displacement_gradients, stresses, face_gradients, cell_gradients})
             need(stage, c, c);
@@ -109,23 +114,26 @@ SweepLists CcgSweeps<Dim, Real>::lists_of(const WantedElements& wanted) const {
             if (faces[a.face_of(a.row_faces[i])]) rows.push_back(a.row_faces[i]);
         rows.end_chunk();
     };
-    const auto append_condensed = [&](OfChunks<CondensedCell>& condensed, const Chunk& from, const Chunk& to,
-                                      const std::vector<bool>& cells) {
-        const auto all = a.simplices.condensed();
-        const std::int32_t end = position(all, to.cell, &CondensedCell::cell);
-        for (std::int32_t i = position(all, from.cell, &CondensedCell::cell); i < end; ++i)
-            if (cells[all[i].cell]) condensed.push_back(all[i]);
-        condensed.end_chunk();
+    const auto append_among = []<class Cell>(OfChunks<Cell>& among, std::span<const Cell> all, const Chunk& from,
+                                             const Chunk& to, const std::vector<bool>& cells) {
+        const std::int32_t end = position(all, to.cell, &Cell::cell);
+        for (std::int32_t i = position(all, from.cell, &Cell::cell); i < end; ++i)
+            if (cells[all[i].cell]) among.push_back(all[i]);
+        among.end_chunk();
     };
+    const std::span<const CondensedCell> condensed = a.simplices.condensed();
+    const std::span<const AffineCell> affine = a.affine.cells;
     for (std::size_t k = 0; k + 1 < chunks_.size(); ++k) {
         const Chunk &from = chunks_[k], &to = chunks_[k + 1];
         append_cells(lists.loaded, from, to, wanted.loaded);
         append_interior_faces(lists.reconstructed, from, to, wanted.reconstructed);
         append_rows(lists.reconstructed_rows, from, to, wanted.reconstructed);
         append_cells(lists.displacement_gradients, from, to, wanted.displacement_gradients);
-        append_condensed(lists.condensed_gradients, from, to, wanted.displacement_gradients);
+        append_among(lists.condensed_gradients, condensed, from, to, wanted.displacement_gradients);
+        append_among(lists.affine_traces, affine, from, to, wanted.displacement_gradients);
         append_cells(lists.stresses, from, to, wanted.stresses);
-        append_condensed(lists.condensed_stresses, from, to, wanted.stresses);
+        append_among(lists.condensed_stresses, condensed, from, to, wanted.stresses);
+        append_among(lists.affine_gradients, affine, from, to, wanted.stresses);
         append_interior_faces(lists.face_gradients, from, to, wanted.face_gradients);
         append_rows(lists.row_gradients, from, to, wanted.face_gradients);
         append_cells(lists.cell_gradients, from, to, wanted.cell_gradients);

@@ -61,6 +61,10 @@ public:
     [[nodiscard]] ABUT_HOST_DEVICE Double cell_gradient(std::ptrdiff_t c) const;
     [[nodiscard]] ABUT_HOST_DEVICE Double boundary_cell_gradient(std::ptrdiff_t position) const;
 
+    // Of cells that contact pushes
+    ABUT_HOST_DEVICE void set_affine_traces(const AffineCell& cell) const;
+    ABUT_HOST_DEVICE void set_affine_gradients(const AffineCell& cell) const;
+
     // Of simplices: simplex_elements.hpp
     template <class Relative>
     [[nodiscard]] ABUT_HOST_DEVICE SimplexState<V> simplex_state(const double* u, std::int32_t c,
@@ -188,6 +192,48 @@ inline V SweepElements<V>::reconstructed_row(const double* u, BoundaryFace face)
     return sum + units.displacement(gathered(tables.load_displacement, b) - missing);
 }
 
+/// The traces of the cell with its free faces where the cells around point; these faces have been reconstructed.
+template <class V>
+inline void SweepElements<V>::set_affine_traces(const AffineCell& cell) const {
+    const std::int32_t c = cell.cell;
+    const bool simplex = tables.of_simplices(c);
+    Tensor g{};
+    if (!simplex) g = load_tensor<V>(tables.g.data, c);
+    V deviation = load<V>(tables.deviation.data, c);
+    for (std::int32_t i = cell.begin; i < cell.end; ++i) {
+        const std::int32_t f = tables.face_of(tables.affine_faces[i]);
+        const V moved = load_tensor<V>(tables.affine_parts.data, i) *
+                        (reconstructed(tables.u.data, f) - load<V>(tables.of_face.data, f));
+        if (simplex)
+            deviation -= (tables.shares.size == 0 ? simplex_share<Dim, Real> : tables.shares[f][0]) * moved;
+        else
+            g.add_outer(tables.cells[c].inverse_measure * moved, tables.faces[f].area_vector);
+    }
+    if (simplex)
+        store(deviation, tables.deviation.data, c);
+    else
+        set_traces(c, g);
+}
+
+/// What the jumps do to these faces, in place of what they do to the reconstructed ones: before the stress of the cell has anything
+/// beside.
+template <class V>
+inline void SweepElements<V>::set_affine_gradients(const AffineCell& cell) const {
+    const std::int32_t c = cell.cell;
+    const bool simplex = tables.of_simplices(c);
+    Tensor of_jumps{};
+    if (!simplex) {
+        of_jumps = load_tensor<V>(tables.s.data, c);
+        const Tensor sigma = elastic_stress(tables.cells[c], load_tensor<V>(tables.g.data, c));
+        for (int j = 0; j < Dim; ++j) of_jumps.col[j] -= sigma.col[j];
+    }
+    for (std::int32_t i = cell.begin; i < cell.end; ++i) {
+        const std::int32_t f = tables.face_of(tables.affine_faces[i]);
+        const V y = simplex ? Real(-1) * shared_jumps(f, c, false) : of_jumps.times(tables.faces[f].area_vector);
+        store(load_tensor<V>(tables.affine_parts.data, i) * y, tables.affine_y.data, i);
+    }
+}
+
 template <class V>
 [[gnu::always_inline]] inline V SweepElements<V>::interior_gradient(std::ptrdiff_t f) const {
     const auto [a, b] = tables.face_cells[f];
@@ -202,6 +248,7 @@ inline V SweepElements<V>::boundary_gradient(BoundaryFace face) const {
     const std::int32_t f = tables.face_of(face), b = number_of(face), c = tables.face_cells[f][0];
     V gradient = load_tensor<V>(tables.s.data, c).times(tables.faces[f].area_vector) + load<V>(tables.pair_gradient.data, b);
     if (tables.of_simplices(c)) gradient -= shared_jumps(f, c, false);
+    if (const std::int32_t i = tables.affine_index_of(face); i >= 0) gradient -= load<V>(tables.affine_y.data, i);
     return tables.traction.size == 0 ? gradient : gradient - units.force(gathered(tables.traction, b));
 }
 
@@ -221,6 +268,9 @@ inline auto SweepElements<V>::boundary_cell_gradient(std::ptrdiff_t position) co
     for (std::int32_t i = tables.of_boundary_cell_offsets[position]; i < tables.of_boundary_cell_offsets[position + 1]; ++i)
         sum += in_double(load_tensor<V>(tables.of_boundary_cell_weights.data, i) *
                          load<V>(tables.boundary_y.data, number_of(tables.of_boundary_cell_rows[i])));
+    if (tables.of_affine_offsets.size > 0)
+        for (std::int32_t i = tables.of_affine_offsets[position]; i < tables.of_affine_offsets[position + 1]; ++i)
+            sum += tables.of_affine_weights[i] * in_double(load<V>(tables.affine_y.data, tables.of_affine_rows[i]));
     return units.in_newtons(sum);
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "abut/solid/boundary/boundary_face.hpp"
+#include "abut/solid/ccg/arrays.hpp"
 #include "abut/solid/ccg/simplices.hpp"
 
 namespace abut::solid {
@@ -60,8 +61,10 @@ struct SweepLists {
     OfChunks<BoundaryFace> reconstructed_rows;    // faces with rows of R
     OfChunks<Run> displacement_gradients;         // cells
     OfChunks<CondensedCell> condensed_gradients;  // among them
+    OfChunks<AffineCell> affine_traces;           // among them
     OfChunks<Run> stresses;                       // cells
     OfChunks<CondensedCell> condensed_stresses;   // among them
+    OfChunks<AffineCell> affine_gradients;        // among them
     OfChunks<Run> face_gradients;                 // interior faces
     OfChunks<BoundaryFace> row_gradients;         // faces with rows of R
     OfChunks<Run> cell_gradients;                 // cells

@@ -61,6 +61,12 @@ struct SweepTables {
     Table<const std::int32_t> of_boundary_cell_offsets;
     Table<const BoundaryFace> of_boundary_cell_rows;
     Table<const Real> of_boundary_cell_weights;
+    Table<const AffineCell> affine_cells;  // this and all below empty without any
+    Table<const std::int32_t> affine_cell_index, affine_face_index;
+    Table<const BoundaryFace> affine_faces;
+    Table<const Real> affine_parts;  // packed
+    Table<const std::int32_t> of_affine_offsets, of_affine_rows;
+    Table<const Real> of_affine_weights;
 
     // Work arrays, packed.
     Table<double> u;            // displacement, by cell
@@ -71,6 +77,7 @@ struct SweepTables {
     Table<Real> deviation;      // d_c, by cell of simplices
     Table<Real> direct;         // sum of k [u], by cell
     Table<Real> boundary_y;     // dV/dũ_f, by boundary face
+    Table<Real> affine_y;       // dV/dX u of the faces of AffineTraces, by index
     Table<Real> correction;     // delta_f and answers, by boundary face; zero except during a call
     Table<Real> pair_gradient;  // by boundary face; zero except during a call
 
@@ -79,6 +86,14 @@ struct SweepTables {
 
     [[nodiscard]] ABUT_HOST_DEVICE bool of_simplices(std::ptrdiff_t c) const {
         return simplices.size > 0 && simplices[c].faces[0] >= 0;
+    }
+    /// Among `affine_cells`; -1: it is none.
+    [[nodiscard]] ABUT_HOST_DEVICE std::int32_t affine_index_of(std::ptrdiff_t c) const {
+        return affine_cell_index.size > 0 ? affine_cell_index[c] : -1;
+    }
+    /// Among `affine_faces`; -1: it is none.
+    [[nodiscard]] ABUT_HOST_DEVICE std::int32_t affine_index_of(BoundaryFace b) const {
+        return affine_face_index.size > 0 ? affine_face_index[number_of(b)] : -1;
     }
     /// `no_face` where the cell is not condensed.
     [[nodiscard]] ABUT_HOST_DEVICE BoundaryFace condensed_face_of(std::ptrdiff_t c) const {
@@ -97,6 +112,8 @@ void for_each_fixed_table(SweepTables<Dim, Real>& t, const Visit& visit) {
     each(t.boundary_faces, t.boundary_index, t.row_faces, t.row_offsets, t.row_cells, t.row_weights, t.deficit);
     each(t.boundary_cells, t.boundary_cell_position, t.of_boundary_cell_offsets, t.of_boundary_cell_rows,
          t.of_boundary_cell_weights);
+    each(t.affine_cells, t.affine_cell_index, t.affine_face_index, t.affine_faces, t.affine_parts, t.of_affine_offsets,
+         t.of_affine_rows, t.of_affine_weights);
 }
 
 /// The first part of them. All must outlive what it returns.
@@ -131,6 +148,14 @@ template <int Dim, class Real>
     set(tables.of_boundary_cell_offsets, arrays.of_boundary_cell.offsets);
     set(tables.of_boundary_cell_rows, arrays.of_boundary_cell.rows);
     tables.of_boundary_cell_weights = plain<Real>(coefficients.boundary_cell_weights);
+    set(tables.affine_cells, arrays.affine.cells);
+    set(tables.affine_cell_index, arrays.affine.cell_index);
+    set(tables.affine_face_index, arrays.affine.face_index);
+    set(tables.affine_faces, arrays.affine.faces);
+    tables.affine_parts = plain<Real>(coefficients.affine_parts);
+    set(tables.of_affine_offsets, arrays.affine.of_cell.offsets);
+    set(tables.of_affine_rows, arrays.affine.of_cell.rows);
+    set(tables.of_affine_weights, coefficients.affine_weights);
     return tables;
 }
 

@@ -45,6 +45,7 @@ CcgSweeps<Dim, Real>::CcgSweeps(const CcgArrays<Dim>& arrays, const CcgCoefficie
     deviation_.resize(width * arrays.cells.size());
     direct_.resize(width * arrays.cells.size());
     boundary_y_.resize(width * arrays.boundary_faces.size());
+    affine_y_.resize(width * arrays.affine.faces.size());
     correction_.resize(width * arrays.boundary_faces.size());
     pair_gradient_.resize(width * arrays.boundary_faces.size());
     free_.resize(finite.free().size());
@@ -68,6 +69,7 @@ CcgSweeps<Dim, Real>::CcgSweeps(const CcgArrays<Dim>& arrays, const CcgCoefficie
     tables.deviation = Table<Real>(deviation_);
     tables.direct = Table<Real>(direct_);
     tables.boundary_y = Table<Real>(boundary_y_);
+    tables.affine_y = Table<Real>(affine_y_);
     tables.correction = Table<Real>(correction_);
     tables.pair_gradient = Table<Real>(pair_gradient_);
     set_chunks();
@@ -200,6 +202,7 @@ void CcgSweeps<Dim, Real>::evaluate_faces(const Region<Dim>& region, std::span<c
                                           const BoundaryLoad<Dim>& boundary_load, std::span<Vector<Dim>> displacement,
                                           std::span<Vector<Dim>> gradient) {
     evaluate_to_displacement_gradients(region, u, boundary_load);
+    for_all(region.displacement_gradient_cells, [&](std::int32_t c) { set_any_traces(c); });
     for_all(region.stress_cells, [&](std::int32_t c) { set_any_stress(c); });
     for (std::size_t i = 0; i < region.faces.size(); ++i) {
         displacement[i] = face_displacement(region.faces[i]);
@@ -238,8 +241,10 @@ void CcgSweeps<Dim, Real>::run_task(const Region<Dim>& region, int stage, std::i
                 store(element_.reconstructed_row(u_.data(), b), of_face_, arrays_.face_of(b));
             });
         case displacement_gradients:
-            return each(region.displacement_gradient_cells, &Offsets::displacement_gradient_cell,
-                        [&](std::int32_t c) { set_any_displacement_gradient(c); });
+            return each(region.displacement_gradient_cells, &Offsets::displacement_gradient_cell, [&](std::int32_t c) {
+                set_any_displacement_gradient(c);
+                set_any_traces(c);
+            });
         case stresses:
             return each(region.stress_cells, &Offsets::stress_cell, [&](std::int32_t c) {
                 set_any_stress(c);

@@ -138,6 +138,7 @@ private:
     [[nodiscard]] double energy(std::ptrdiff_t c) const;
     [[nodiscard]] Vectors any_boundary_displacement(const double* u, BoundaryFace b) const;
     void set_any_displacement_gradient(std::int32_t c);
+    void set_any_traces(std::int32_t c);
     void set_any_stress(std::int32_t c);
     void add_stress_of_material(std::int32_t c);
     [[nodiscard]] Matrix<Dim> stress_beside(std::int32_t c, const Matrix<Dim>& g) const;
@@ -219,7 +220,7 @@ private:
     const FiniteCells<Dim>& finite_;
     // Work arrays: SweepTables.
     LargeArray<double> u_;
-    LargeArray<Real> of_face_, g_, trace_, s_, deviation_, direct_, boundary_y_, correction_, pair_gradient_;
+    LargeArray<Real> of_face_, g_, trace_, s_, deviation_, direct_, boundary_y_, affine_y_, correction_, pair_gradient_;
     SweepElements<Vectors> element_;  // of these arrays
     CellMoments<Dim> moments_;        // empty except during a call
     // Of finite bodies.

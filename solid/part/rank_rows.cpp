@@ -80,8 +80,7 @@ public:
             const std::int32_t cell = mesh_.face_cells[f][0];
             if (const BoundaryFace b = boundary_[static_cast<std::size_t>(f)]; b != no_face)
                 for (const std::int32_t used : ccg_.cells_of(b)) visit(cell, used);
-            else
-                for (const std::int32_t used : ccg_.stencils()[static_cast<std::size_t>(f)].cells) visit(cell, used);
+            for (const std::int32_t used : ccg_.stencils()[static_cast<std::size_t>(f)].cells) visit(cell, used);
         }
         sort_unique(known);
         const std::vector<double> all = part_.ranks().gather(foreign);
@@ -104,14 +103,12 @@ private:
             const BoundaryFace b = boundary_[static_cast<std::size_t>(f)];
             print.add(std::int64_t{b != no_face});
             if (mesh_.face_cells[f][0] != cell) continue;
-            if (b == no_face) {
-                const FaceStencil<Dim>& stencil = ccg_.stencils()[static_cast<std::size_t>(f)];
-                for (std::size_t j = 0; j <= Dim; ++j) {
-                    print.add(number_[static_cast<std::size_t>(stencil.cells[j])]);
-                    print.add(stencil.weights[j]);
-                }
-                continue;
+            const FaceStencil<Dim>& stencil = ccg_.stencils()[static_cast<std::size_t>(f)];
+            for (std::size_t j = 0; j <= Dim; ++j) {
+                print.add(number_[static_cast<std::size_t>(stencil.cells[j])]);
+                print.add(stencil.weights[j]);
             }
+            if (b == no_face) continue;
             const BoundaryReconstruction<Dim>& boundary = ccg_.boundary();
             print.add(boundary.normal_stiffness[static_cast<std::size_t>(b)]);
             for (std::int32_t i = boundary.offsets[number_of(b)]; i < boundary.offsets[number_of(b) + 1]; ++i) {

@@ -1,0 +1,117 @@
+#include <catch2/catch.hpp>
+
+#include <string>
+
+#include "abut/solid/cell_view.hpp"
+#include "solid/scenes.hpp"
+
+// Blocks that are pressed together evenly, free at their sides, are in a uniform stress. That state has to be one of rest, and each cell
+// has to show this stress, those that touch and those behind them.
+
+using namespace abut;
+using namespace abut::test;
+using solid::ContactLaw;
+using solid::Kinematics;
+
+namespace {
+
+constexpr double block_pressure = 1e-7;  // of the modulus: what is of second order in the strain is below what is tested
+constexpr double allowed_error = 1e-6;
+const solid::Material elastic_block{.young = 1.0, .poisson = 0.3, .density = 1.0};
+constexpr double block_bottom = -0.3;  // of the boxes
+
+/// Uniaxial stress along the last axis: the strains along it and across.
+template <int Dim>
+std::array<double, 2> squeezed() {
+    const double nu = elastic_block.poisson;
+    const double along = -block_pressure / elastic_block.young * (Dim == 3 ? 1.0 : 1.0 - nu * nu);
+    return {along, -along * (Dim == 3 ? nu : nu / (1.0 - nu))};
+}
+
+template <int Dim>
+solid::SolidOptions<Dim> pressed_pile(std::size_t n_bodies, Kinematics kinematics, ContactLaw law,
+                                      const std::string& above) {
+    solid::SolidOptions<Dim> options;
+    options.materials.assign(n_bodies, elastic_block);
+    options.kinematics.assign(n_bodies, kinematics);
+    options.law = law;
+    options.contact.emplace();
+    options.boundary.traction = {{.group = above, .value = -block_pressure * Vector<Dim>::Unit(Dim - 1), .follows = true}};
+    options.obstacles = {
+        contact::plane_obstacle<Dim>(block_bottom * Vector<Dim>::Unit(Dim - 1), Vector<Dim>::Unit(Dim - 1), 5.0)};
+    return options;
+}
+
+/// Every cell of a pile on the floor is at rest in the exact state, and shows its stress.
+template <int Dim>
+void check_pile(const mesh::Mesh<Dim>& mesh, const solid::SolidOptions<Dim>& options) {
+    solid::Solid<Dim> solid(mesh, options);
+    const auto [along, across] = squeezed<Dim>();
+    std::vector<Vector<Dim>> u;
+    for (const Vector<Dim>& x : mesh.cell_centroid) {
+        u.push_back(across * x);
+        u.back()[Dim - 1] = along * (x[Dim - 1] - block_bottom);
+    }
+    std::vector<double> force(solid.size());
+    solid.force(solid.cells().to_q(u), force);
+    Matrix<Dim> exact = Matrix<Dim>::Zero();
+    exact(Dim - 1, Dim - 1) = -block_pressure;
+    double worst_force = 0.0, worst_stress = 0.0;
+    for (std::int32_t c = 0; c < mesh.n_cells(); ++c) {
+        const double area = std::pow(mesh.cell_measure[c], (Dim - 1.0) / Dim);
+        raise(worst_force, vectors<Dim>(force)[c].norm() / (block_pressure * area));
+        raise(worst_stress, (solid.cells().stress(c) - exact).norm() / block_pressure);
+    }
+    CHECK(worst_force < allowed_error);
+    CHECK(worst_stress < allowed_error);
+}
+
+template <int Dim>
+void check_block(Kinematics kinematics, ContactLaw law) {
+    for (const auto& [name, mesh] : boxes<Dim>(Dim == 2 ? 8 : 10)) {
+        CAPTURE(Dim, name, static_cast<int>(kinematics), static_cast<int>(law));
+        check_pile<Dim>(mesh, pressed_pile<Dim>(1, kinematics, law, Dim == 2 ? "ymax" : "zmax"));
+    }
+}
+
+/// Two blocks of one width whose faces do not match.
+template <int Dim>
+mesh::Mesh<Dim> two_blocks(CellShape shape) {
+    const double joint = 0.2;
+    Vector<Dim> lower = Vector<Dim>::Constant(block_bottom), upper = Vector<Dim>::Constant(0.8);
+    Vector<Dim> lower_top = upper, upper_bottom = lower;
+    lower_top[Dim - 1] = upper_bottom[Dim - 1] = joint;
+    std::array<int, Dim> of_lower, of_upper;
+    of_lower.fill(9);
+    of_upper.fill(8);
+    return together(mesh::structured_box<Dim>(lower, lower_top, of_lower, shape, "lower"),
+                    mesh::structured_box<Dim>(upper_bottom, upper, of_upper, shape, "upper"));
+}
+
+}  // namespace
+
+TEST_CASE("a block that is pressed on a floor is at rest under a uniform stress, which every cell shows",
+          "[solid][contact][fields]") {
+    const Kinematics kinematics = GENERATE(Kinematics::small, Kinematics::floating);
+    check_block<2>(kinematics, ContactLaw::pair_potential);
+    check_block<3>(kinematics, ContactLaw::pair_potential);
+}
+
+TEST_CASE("under the modified reconstruction, too, every cell of a block on a floor shows the pressure on it",
+          "[solid][contact][fields]") {
+    check_block<2>(Kinematics::small, ContactLaw::reconstruction);
+    check_block<3>(Kinematics::small, ContactLaw::reconstruction);
+}
+
+TEST_CASE("blocks whose faces do not match press each other with a uniform stress, which every cell shows",
+          "[solid][contact][fields]") {
+    const Kinematics kinematics = GENERATE(Kinematics::small, Kinematics::floating);
+    for (const CellShape shape : {CellShape::quadrangle, CellShape::triangle}) {
+        CAPTURE(static_cast<int>(shape));
+        check_pile<2>(two_blocks<2>(shape), pressed_pile<2>(2, kinematics, ContactLaw::pair_potential, "upper.ymax"));
+    }
+    for (const CellShape shape : {CellShape::hexahedron, CellShape::tetrahedron, CellShape::prism}) {
+        CAPTURE(static_cast<int>(shape));
+        check_pile<3>(two_blocks<3>(shape), pressed_pile<3>(2, kinematics, ContactLaw::pair_potential, "upper.zmax"));
+    }
+}
