@@ -44,7 +44,7 @@ const Keys<MomentSettings>& moment_keys() {
     using Of = Make<Moment>;
     static const Keys<Moment> keys = {
         required(Of::text("body", &Moment::body, "text", "the body that it acts on as a whole")),
-        Of::axial("value", &Moment::value, "N m", "moment, constant in time"),
+        Of::axial_field("value", &Moment::value, "N m", "moment"),
         Of::number("damping", &Moment::damping, {.unit = "N m s", .above = 0.0, .zero = true},
                    "moment against the spin of the body, over that spin")};
     return keys;

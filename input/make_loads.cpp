@@ -292,8 +292,14 @@ void add_springs(run::Scene<Dim>& scene, const Settings& settings, const Names<D
 template <int Dim>
 void add_moments(run::Scene<Dim>& scene, const Settings& settings, const Names<Dim>& names) {
     for (const MomentSettings& moment : settings.moments)
-        if (const auto body = names.body(moment.body, moment.where, "moments." + moment.name + ".body"))
-            scene.solid.moments.push_back({.body = *body, .moment = axial<Dim>(moment.value), .damping = moment.damping});
+        if (const auto body = names.body(moment.body, moment.where, "moments." + moment.name + ".body")) {
+            FieldSettings value{};
+            if (moment.value) value = *moment.value;
+            const auto at = [value](double time) { return axial<Dim>(value_at<3>(value, time, Vector<3>::Zero())); };
+            solid::BodyMoment<Dim>& made = scene.solid.moments.emplace_back();
+            made = {.body = *body, .moment = at(0.0), .damping = moment.damping};
+            if (varies(value)) made.history = at;
+        }
 }
 
 }  // namespace

@@ -168,8 +168,8 @@ struct SpringSettings : Named {
 
 struct MomentSettings : Named {
     std::string body;
-    Vector<3> value = Vector<3>::Zero();  ///< [N m]
-    double damping = 0.0;                 ///< [N m s]
+    std::optional<FieldSettings> value;  ///< of t [N m]
+    double damping = 0.0;                ///< [N m s]
 };
 
 /// Names of bodies or obstacles.

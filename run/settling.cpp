@@ -36,6 +36,8 @@ solid::SolidOptions<Dim> frozen(solid::SolidOptions<Dim> options) {
         if (obstacle.placement) obstacle.placement = [at = obstacle.placement(0.0)](double) { return at; };
     }
     return options;
+    for (solid::BodyMoment<Dim>& moment : options.moments)
+        if (moment.history) moment.moment = std::exchange(moment.history, {})(0.0);
 }
 
 /// Peaks of the kinetic energy, and whether they have come down as far as they can. Single ones say little: a fast vibration

@@ -41,7 +41,8 @@ void BodyMoments<Dim>::add(const PointStep<Dim>& step, std::span<Vector<Dim>> fo
         const Middle middle = middle_of(moment, q_0, q_1);
         const AxialVector<Dim> spin =
             spin_at(moment, middle, q_0, q_1, [&](std::int32_t i) -> Vector<Dim> { return q_1[i] - q_0[i]; }) / step.dt;
-        work += add_moment(moment.law, acting_rate(step.take, moment.spin, spin), middle, q_0, q_1, force);
+        const AxialVector<Dim> brake = moment.law.damping * acting_rate(step.take, moment.spin, spin);
+        work += add_moment(moment.law.body, moment_at(moment.law, step.time) - brake, middle, q_0, q_1, force);
         moment.spin = spin;
     }
 }
@@ -55,11 +56,23 @@ void BodyMoments<Dim>::set_rates(const ByPoint<Dim>& q, const ByPoint<Dim>& v) {
 }
 
 template <int Dim>
-void BodyMoments<Dim>::add_at(const ByPoint<Dim>& q, double /*time*/, const TurnOf<Dim>& /*turn_of*/,
+void BodyMoments<Dim>::add_at(const ByPoint<Dim>& q, double time, const TurnOf<Dim>& /*turn_of*/,
                               std::span<Vector<Dim>> force) const {
-    for (const Held& moment : moments_)
-        add_moment(moment.law, moment.spin.value_or(AxialVector<Dim>::Zero()), middle_of(moment, q.all, q.all), q.all, q.all,
+    for (const Held& moment : moments_) {
+        const AxialVector<Dim> brake = moment.law.damping * moment.spin.value_or(AxialVector<Dim>::Zero());
+        add_moment(moment.law.body, moment_at(moment.law, time) - brake, middle_of(moment, q.all, q.all), q.all, q.all,
                    force);
+    }
+}
+
+template <int Dim>
+AxialVector<Dim> BodyMoments<Dim>::moment_at(const BodyMoment<Dim>& law, double time) {
+    if (!law.history) return law.moment;
+    const AxialVector<Dim> moment = law.history(time);
+    if (!moment.allFinite())
+        throw BadInput("moment on body " + std::to_string(law.body) + ": its value at t = " + number(time) +
+                       " s is not finite. Correct its value or history.");
+    return moment;
 }
 
 /// Calls of_point(point) for the own cells of a body that deforms, or all points of a rigid one.
@@ -113,16 +126,15 @@ AxialVector<Dim> BodyMoments<Dim>::spin_at(const Held& held, const Middle& middl
 
 /// Forces m alpha × x' that have this moment, x' being arms about the centre in the middle of the step. Their work [J].
 template <int Dim>
-double BodyMoments<Dim>::add_moment(const BodyMoment<Dim>& law, const AxialVector<Dim>& spin, const Middle& middle,
-                                    Points q_0, Points q_1, std::span<Vector<Dim>> force) const {
-    const Matrix<Dim> turning =
-        hat<Dim>(spin_of<Dim>(middle.second_moment, AxialVector<Dim>(law.moment - law.damping * spin)));
+double BodyMoments<Dim>::add_moment(std::int32_t body, const AxialVector<Dim>& moment, const Middle& middle, Points q_0,
+                                    Points q_1, std::span<Vector<Dim>> force) const {
+    const Matrix<Dim> turning = hat<Dim>(spin_of<Dim>(middle.second_moment, moment));
     const auto of_point = [&](std::int32_t i) -> Vector<Dim> {
         const Vector<Dim> arm = bodies_.rest()[i] + 0.5 * (q_0[i] + q_1[i]) - middle.centre;
         return bodies_.masses()[i] * (turning * arm);
     };
-    for_each_here(law.body, [&](std::int32_t i) { force[i] += of_point(i); });
-    return sum_of(law.body, 0.0, [&](std::int32_t i) { return of_point(i).dot(q_1[i] - q_0[i]); });
+    for_each_here(body, [&](std::int32_t i) { force[i] += of_point(i); });
+    return sum_of(body, 0.0, [&](std::int32_t i) { return of_point(i).dot(q_1[i] - q_0[i]); });
 }
 
 template <int Dim>

@@ -40,12 +40,14 @@ private:
     using Points = std::span<const Vector<Dim>>;
 
     void check() const;
+    /// Throws BadInput for one that is not finite.
+    [[nodiscard]] static AxialVector<Dim> moment_at(const BodyMoment<Dim>& law, double time);
     [[nodiscard]] Middle middle_of(const Held& held, Points q_0, Points q_1) const;
     /// Of the body where velocity(point) is that of its points.
     template <class Velocity>
     [[nodiscard]] AxialVector<Dim> spin_at(const Held& held, const Middle& middle, Points q_0, Points q_1,
                                            const Velocity& velocity) const;
-    double add_moment(const BodyMoment<Dim>& law, const AxialVector<Dim>& spin, const Middle& middle, Points q_0, Points q_1,
+    double add_moment(std::int32_t body, const AxialVector<Dim>& moment, const Middle& middle, Points q_0, Points q_1,
                       std::span<Vector<Dim>> force) const;
     template <class OfPoint>
     void for_each_here(std::int32_t body, const OfPoint& of_point) const;

@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <limits>
 
 #include "abut/base/vector.hpp"
@@ -42,12 +43,14 @@ struct Bond {
     double fracture_energy = 0.0;
 };
 
-/// A moment on a body as a whole, as of a drive or a brake: a constant part and one against its spin. Its work is booked.
+/// A moment on a body as a whole, as of a drive or a brake: a given part and one against its spin. Its work is booked.
 template <int Dim>
 struct BodyMoment {
     std::int32_t body = 0;                               ///< number in the mesh
     AxialVector<Dim> moment = AxialVector<Dim>::Zero();  ///< [N m]
     double damping = 0.0;                                ///< >= 0 [N m s]
+    /// The moment at a time [s], finite, in place of `moment`: constant within a step, as it begins. Empty: it does not vary
+    std::function<AxialVector<Dim>(double time)> history = {};
 };
 
 }  // namespace abut::solid

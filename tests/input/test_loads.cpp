@@ -282,6 +282,9 @@ body = "right"
 value = 8
 damping = 9
 )toml"));
+[moments.ramp]
+body = "left"
+value = "8 * t"
     const auto solid = input::SceneFile(written.path()).scene<2>().solid;
     REQUIRE(solid.springs.size() == 3);
     CHECK(solid.springs[0].first.body == 0);
@@ -294,7 +297,10 @@ damping = 9
     CHECK(solid.springs[1].first.body == solid::ground);
     CHECK(solid.springs[1].length == 0.0);  // a hinge
     CHECK(solid.springs[2].length == 7.0);
-    REQUIRE(solid.moments.size() == 1);
+    REQUIRE(solid.moments.size() == 2);
+    CHECK(solid.moments[1].history(0.25)[0] == 2.0);  // 8 t
+    CHECK(solid.moments[1].damping == 0.0);
+    CHECK_FALSE(solid.moments[0].history);
     CHECK(solid.moments[0].body == 1);
     CHECK(solid.moments[0].moment[0] == 8.0);
     CHECK(solid.moments[0].damping == 9.0);
