@@ -6,8 +6,10 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -40,6 +42,34 @@ template <class Section>
     return key;
 }
 
+/// Whether a value asks for something: neither 0 nor false nor the default does.
+template <class Section>
+[[nodiscard]] bool asks_for_something(const Key<Section>& key, const Node& node) {
+    switch (node.type) {
+        case Node::Type::number:
+        case Node::Type::whole: {
+            const double value = node.type == Node::Type::whole ? static_cast<double>(node.whole) : node.number;
+            return value != 0.0 && fmt::format("{:g}", value) != key.by_default;
+        }
+        case Node::Type::truth:
+            return node.truth && key.by_default != "true";
+        case Node::Type::text:
+            return node.text != key.by_default;
+        default:
+            return true;
+    }
+}
+
+/// Sections that keep the keys that they are given have a member for them; values of others act whatever else a scene says.
+template <class Section>
+void keep(Section& section, const Key<Section>& key, const std::string& path, const Node& node, Reader& reader) {
+    if constexpr (requires { section.given; }) {
+        reader.given.push_back(
+            std::make_shared<GivenKey>(GivenKey{.path = path, .where = node.where, .asks = asks_for_something(key, node)}));
+        section.given.add(std::is_same_v<Section, Settings> ? path : key.name, reader.given.back());
+    }
+}
+
 template <class Section>
 [[nodiscard]] std::vector<std::string> names_of(const Keys<Section>& keys) {
     std::vector<std::string> names;
@@ -58,8 +88,10 @@ void read_table(Section& section, const Node& table, const std::string& path, co
         if (key == keys.end())
             reader.fault(table.items[i], fmt::format("{}{} is an unknown key.{}", in, table.names[i],
                                                      hint_of_key(table.names[i], names_of(keys))));
-        else
+        else {
+            keep(section, *key, in + key->name, table.items[i], reader);
             key->take(section, table.items[i], in + key->name, reader);
+        }
     }
     for (const auto& key : keys)
         if (key.required && !table.find(key.name))

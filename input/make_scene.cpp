@@ -199,10 +199,6 @@ void check_interference(const PairSettings& pair, std::vector<Fault>& faults) {
             {pair.where,
              "contact.pairs: interference = \"resolve\" needs interference_time, over which contact comes to act. "
              "Some ten times that in which a wave crosses the bodies keeps them from swinging."});
-    if (!resolves && pair.interference_time > 0.0)
-        faults.push_back({pair.where,
-                          "contact.pairs: interference_time has no effect without interference = \"resolve\". Give both, or "
-                          "leave it out."});
 }
 
 /// Pairs of bodies and obstacles that may overlap at the start.
@@ -282,10 +278,6 @@ void add_bonds(run::Scene<Dim>& scene, const Settings& settings, std::vector<Fau
             if (const auto number = names.body(name, bond.where, "bonds.bodies")) numbers.push_back(*number);
         for (const std::string& name : bond.groups)
             if (const auto number = sides.group(name, bond.where, "bonds.groups")) numbers.push_back(*number);
-        if (bond.fracture_energy > 0.0 && std::isinf(bond.strength))
-            faults.push_back({bond.where,
-                              "bonds: fracture_energy is what a bond takes as it opens, which it does from its strength on. "
-                              "Give strength, or leave it out."});
         if (numbers.size() == 2)
             scene.solid.bonds.push_back(
                 {.sides = {numbers[0], numbers[1]}, .strength = bond.strength, .fracture_energy = bond.fracture_energy});

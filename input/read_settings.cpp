@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "abut/input/key_readers.hpp"
 #include "abut/input/keys.hpp"
 #include "abut/input/make_body.hpp"
 #include "abut/input/nearest_word.hpp"
@@ -67,6 +68,10 @@ void read_varied(Section& section, const Node& table, const std::string& path, c
 }
 
 void read(MaterialSettings& material, const Node& table, const std::string& path, Reader& reader) {
+    material.table = std::make_shared<GivenKey>(GivenKey{.path = path, .where = table.where});
+    material.table->why = "without a body that is made of it";
+    material.table->remedy = "Give one this material, or leave it out.";
+    reader.given.push_back(material.table);
     read_table(material, table, path, material_keys(), reader);
 }
 
@@ -74,9 +79,12 @@ void read(MaterialSettings& material, const Node& table, const std::string& path
 void take_material(BodySettings& body, const Node& name, const std::string& path,
                    const std::vector<MaterialSettings>& materials, Reader& reader) {
     if (name.type != Node::Type::text) return;  // the key says so
+    for (const auto& key : material_keys()) body.given.remove(key.name);
     const auto found = std::ranges::find(materials, name.text, &MaterialSettings::name);
     if (found != materials.end()) {
         body.material = found->material;
+        body.given.add(found->given);
+        found->table->is_read = true;
         return;
     }
     if (const solid::KnownMaterial* known = solid::known_material(name.text)) {
@@ -432,9 +440,15 @@ void add_mirrors(Settings& settings) {
     }
 }
 
-ReadSettings settings_from(Node document, const std::filesystem::path& file, const Overrides& overrides) {
-    ReadSettings read{.settings = {.file = file, .set = overrides.set, .meshes = overrides.meshes}};
+/// Settings and the reader that has their faults and keys.
+struct ReadTables {
+    Settings settings;
     Reader reader;
+};
+
+ReadTables tables_from(Node document, const std::filesystem::path& file, const Overrides& overrides) {
+    ReadTables read{.settings = {.file = file, .set = overrides.set, .meshes = overrides.meshes}, .reader = {}};
+    Reader& reader = read.reader;
     merge_overrides(document, overrides.set, reader.faults());
     reader.dimension = dimension_of(document);
     read.settings.options.out = std::filesystem::path("out") / read.settings.file.stem();
@@ -450,9 +464,33 @@ ReadSettings settings_from(Node document, const std::filesystem::path& file, con
     check_numbers_used(overrides.set, reader);
     if (overrides.options) overrides.options(read.settings.options);
     take_self_contact(read.settings);
-    check_options(read.settings, reader.faults());
-    read.faults = std::move(reader.faults());
+    mark_keys_read(read.settings);
     return read;
+}
+
+/// Of keys that nothing reads. A key of the file that has no effect only because of what replaces others of it is in order: `set` and
+/// options of a command line are how a scene is tried.
+std::vector<Fault> unread_keys(const ReadTables& read, const Node& document, const Overrides& overrides) {
+    std::vector<Fault> faults = faults_of_unread(read.reader.given);
+    if (faults.empty() || (overrides.set.empty() && !overrides.options)) return faults;
+    const auto of_file =
+        faults_of_unread(tables_from(document, read.settings.file, {.meshes = overrides.meshes}).reader.given);
+    std::erase_if(faults, [&](const Fault& fault) {
+        return !fault.where.starts_with("--set") && std::ranges::find(of_file, fault.where, &Fault::where) == of_file.end();
+    });
+    return faults;
+}
+
+ReadSettings settings_from(const Node& document, const std::filesystem::path& file, const Overrides& overrides) {
+    ReadTables read = tables_from(document, file, overrides);
+    std::vector<Fault> faults = std::move(read.reader.faults());
+    std::vector<Fault> unread;
+    if (faults.empty()) unread = unread_keys(read, document, overrides);
+    if (unread.empty())
+        check_options(read.settings, faults);
+    else
+        faults = std::move(unread);
+    return {std::move(read.settings), std::move(faults)};
 }
 
 }  // namespace

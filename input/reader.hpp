@@ -1,6 +1,7 @@
 #pragma once
 // Private to the layer.
 #include <array>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -10,6 +11,7 @@
 #include "abut/base/unit.hpp"
 #include "abut/input/document.hpp"
 #include "abut/input/fault.hpp"
+#include "abut/input/given_keys.hpp"
 #include "abut/input/settings.hpp"
 
 namespace abut::input {
@@ -17,8 +19,9 @@ namespace abut::input {
 /// Takes values out of nodes; what cannot be taken becomes a fault and nothing. `key` is what messages call the node.
 class Reader {
 public:
-    int dimension = 0;                 ///< of vectors; 0: not known, 2 or 3
-    std::vector<NamedNumber> numbers;  ///< that formulas may use
+    int dimension = 0;                             ///< of vectors; 0: not known, 2 or 3
+    std::vector<NamedNumber> numbers;              ///< that formulas may use
+    std::vector<std::shared_ptr<GivenKey>> given;  ///< of all sections that keep them
 
     void fault(const Node& node, std::string text);
     [[nodiscard]] std::vector<Fault>& faults() { return faults_; }

@@ -11,6 +11,7 @@
 
 #include "abut/base/vector.hpp"
 #include "abut/input/formula.hpp"
+#include "abut/input/given_keys.hpp"
 #include "abut/input/given_meshes.hpp"
 #include "abut/mesh/mesh.hpp"
 #include "abut/run/options.hpp"
@@ -50,6 +51,8 @@ struct RefinementSettings {
 /// A material that bodies may share.
 struct MaterialSettings : Named {
     solid::Material material;
+    std::shared_ptr<GivenKey> table{};  ///< read where a body is made of it
+    GivenKeys given{};
 };
 
 struct BodySettings : Named {
@@ -90,6 +93,7 @@ struct BodySettings : Named {
     std::string pattern;                      ///< PatternSettings::path of that which made it; empty: none did
     std::string pattern_where;                ///< Fault::where
     double n_copies = 1.0;                    ///< that `pattern` makes
+    GivenKeys given{};                        ///< its own and those of its material
 };
 
 /// Copies of a body in a row, a grid, a ring or at places.
@@ -156,6 +160,7 @@ struct AnchorSettings {
     std::string body;                     ///< empty: the ground
     Vector<3> point = Vector<3>::Zero();  ///< [m]
     double radius = 0.0;                  ///< [m]
+    GivenKeys given{};
 };
 
 struct SpringSettings : Named {
@@ -190,6 +195,7 @@ struct PairSettings {
     bool has_friction = false;  ///< a law of its own is given
     Interference interference = Interference::refuse;
     double interference_time = 0.0;  ///< [s]; 0: not given
+    GivenKeys given{};
 };
 
 /// Two bodies or groups of boundary faces that are glued: `bodies` and `groups` together name two.
@@ -199,12 +205,14 @@ struct BondSettings {
     std::string where;                                          ///< Fault::where
     double strength = std::numeric_limits<double>::infinity();  ///< [Pa]
     double fracture_energy = 0.0;                               ///< [J/m^2]
+    GivenKeys given{};
 };
 
 struct ProbeSettings : Named {
     std::string body;
     std::optional<Vector<3>> point;  ///< [m]
     bool contact = false;
+    GivenKeys given{};
 };
 
 struct Settings {
@@ -236,6 +244,7 @@ struct Settings {
     run::FrameFields fields;
     std::optional<run::Preset> preset;  ///< in the options already
     run::RunOptions options;
+    GivenKeys given{};  ///< of no table, [run], [contact] and [output], by their paths: "contact.friction"
 };
 
 }  // namespace abut::input

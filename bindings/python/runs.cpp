@@ -98,13 +98,16 @@ py::object simulate(const mesh::Mesh<Dim>& mesh, const std::vector<solid::Materi
     return run_scene<Dim>(scene, options_of(given), "python", look);
 }
 
-/// A scene in TOML with the options of Python above its own. Without `out` it writes nothing, whatever the scene says.
-input::SceneFile scene_file(const SceneSource& source, const py::dict& given) {
+/// A scene in TOML with the options of Python above its own. Without `out` it writes nothing, whatever the scene says. `least_steps`: of
+/// one that does not say when it ends.
+input::SceneFile scene_file(const SceneSource& source, const py::dict& given, int least_steps) {
     const input::Overrides overrides{.set = source.set,
                                      .options =
                                          [&](run::RunOptions& options) {
                                              options.out.clear();
                                              take_options(given, options);
+                                             if (std::isnan(options.time))
+                                                 options.steps = std::max(options.steps, least_steps);
                                          },
                                      .meshes = source.meshes()};
     if (source.toml) return input::SceneFile(input::SceneText{*source.toml, source.file}, overrides);
@@ -122,7 +125,7 @@ py::object run_file(const input::SceneFile& file, const py::object& look) {
 }
 
 py::object run_source(const SceneSource& source, const py::object& look, const py::dict& given) {
-    const input::SceneFile file = scene_file(source, given);
+    const input::SceneFile file = scene_file(source, given, 0);
     return file.dimension() == 2 ? run_file<2>(file, look) : run_file<3>(file, look);
 }
 
@@ -299,7 +302,7 @@ py::object memm_of_file(const input::SceneFile& file, const std::vector<std::str
 
 py::object memm_of_source(const SceneSource& source, const std::vector<std::string>& outside, const py::dict& given) {
     require_of_memm(given);
-    const input::SceneFile file = scene_file(source, given);
+    const input::SceneFile file = scene_file(source, given, 1);  // whoever steps it says when it ends
     return file.dimension() == 2 ? memm_of_file<2>(file, outside) : memm_of_file<3>(file, outside);
 }
 

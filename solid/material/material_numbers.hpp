@@ -14,6 +14,14 @@ inline constexpr std::array<Word<MaterialLaw>, 5> material_law_words{
      {"j2", MaterialLaw::j2},
      {"orthotropic", MaterialLaw::orthotropic}}};
 
+/// What a number of a material acts by, beside the law that has it.
+enum class MaterialUse {
+    motion,       ///< of every body
+    deformation,  ///< of one that deforms
+    damping,      ///< of Capability::damping
+    temperature,  ///< of one with a temperature
+};
+
 /// A number of a Material, under its name in scenes and in Python.
 struct MaterialNumber {
     const char* name;
@@ -22,6 +30,7 @@ struct MaterialNumber {
     const char* help;
     bool required = false;
     std::optional<MaterialLaw> law{};  ///< the only one that reads it; others take 0 alone. None: all do
+    MaterialUse use = MaterialUse::motion;
 };
 
 /// All of them: the keys of scenes and the attributes in Python come from here.
@@ -43,7 +52,10 @@ inline constexpr std::array material_numbers{
     MaterialNumber{"eta",
                    &Material::eta,
                    {.unit = "Pa", .above = 0.0, .zero = true},
-                   "stabilisation of jumps between cells; 0: Young's modulus, of orthotropic its mean over directions"},
+                   "stabilisation of jumps between cells; 0: Young's modulus, of orthotropic its mean over directions",
+                   false,
+                   std::nullopt,
+                   MaterialUse::deformation},
     MaterialNumber{"second_share",
                    &Material::second_share,
                    {.above = 0.0, .below = 1.0, .closed = true, .zero = true, .remedy = "It is at most lambda/(2 mu)."},
@@ -175,34 +187,51 @@ inline constexpr std::array material_numbers{
     MaterialNumber{"thermal_expansion",
                    &Material::thermal_expansion,
                    {},
-                   "strain per kelvin of `temperature_rise`; of orthotropic along axis 1"},
+                   "strain per kelvin of `temperature_rise`; of orthotropic along axis 1",
+                   false,
+                   std::nullopt,
+                   MaterialUse::temperature},
     MaterialNumber{"thermal_expansion_2",
                    &Material::thermal_expansion_2,
                    {},
                    "of orthotropic: the same along axis 2",
                    false,
-                   MaterialLaw::orthotropic},
+                   MaterialLaw::orthotropic,
+                   MaterialUse::temperature},
     MaterialNumber{"thermal_expansion_3",
                    &Material::thermal_expansion_3,
                    {},
                    "of orthotropic: the same along axis 3",
                    false,
-                   MaterialLaw::orthotropic},
+                   MaterialLaw::orthotropic,
+                   MaterialUse::temperature},
     MaterialNumber{"mass_damping",
                    &Material::mass_damping,
                    {.unit = "1/s", .above = 0.0, .zero = true},
-                   "Rayleigh's alpha: a force alpha m v against all motion, that of the body as a whole as well"},
+                   "Rayleigh's alpha: a force alpha m v against all motion, that of the body as a whole as well",
+                   false,
+                   std::nullopt,
+                   MaterialUse::damping},
     MaterialNumber{"stiffness_damping",
                    &Material::stiffness_damping,
                    {.unit = "s", .above = 0.0, .zero = true},
-                   "Rayleigh's beta: a stress beta C : (rate of strain); it damps most what vibrates fast"},
+                   "Rayleigh's beta: a stress beta C : (rate of strain); it damps most what vibrates fast",
+                   false,
+                   std::nullopt,
+                   MaterialUse::damping},
     MaterialNumber{"linear_viscosity",
                    &Material::linear_viscosity,
                    {.above = 0.0, .zero = true},
-                   "of shocks: pressure over rho c h (rate of compression), h the size of a cell; 0.25 is usual"},
+                   "of shocks: pressure over rho c h (rate of compression), h the size of a cell; 0.25 is usual",
+                   false,
+                   std::nullopt,
+                   MaterialUse::damping},
     MaterialNumber{"quadratic_viscosity",
                    &Material::quadratic_viscosity,
                    {.above = 0.0, .zero = true},
-                   "of shocks: root of pressure over rho h^2 (rate of compression)^2; 2 is usual"}};
+                   "of shocks: root of pressure over rho h^2 (rate of compression)^2; 2 is usual",
+                   false,
+                   std::nullopt,
+                   MaterialUse::damping}};
 
 }  // namespace abut::solid

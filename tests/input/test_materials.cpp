@@ -93,7 +93,7 @@ TEST_CASE("a body takes the constants and axes of an orthotropic material, and a
         "0.45\n"
         "shear_12 = 5e9\nshear_13 = 5e9\nshear_23 = 3.4e9\ndensity = 1600\nthermal_expansion = -0.5e-6\nthermal_expansion_2 "
         "= 26e-6\n";
-    const solid::Material plane = of_block(ply + "axis_angle = \"30 deg\"");
+    const solid::Material plane = of_block(ply + "axis_angle = \"30 deg\"\ntemperature_rise = 1");
     CHECK(plane.law == solid::MaterialLaw::orthotropic);
     CHECK(plane.young_2 == 10e9);
     CHECK(plane.poisson_23 == 0.45);

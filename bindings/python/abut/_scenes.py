@@ -39,7 +39,7 @@ def memm(scene, set=None, outside=(), **options):
     True
     """
     file, toml, meshes, changes = _source(scene, set)
-    return built_solid().memm_toml(file, toml, meshes, ["run.steps=1", *changes], list(outside), options)
+    return built_solid().memm_toml(file, toml, meshes, changes, list(outside), options)
 
 
 def built_solid():
