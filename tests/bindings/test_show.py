@@ -1,4 +1,5 @@
 """Pictures of meshes and results."""
+import subprocess
 import sys
 import types
 import unittest
@@ -40,6 +41,12 @@ class Notebooks(unittest.TestCase):
 
 
 class Pictures(unittest.TestCase):
+    def test_the_mesh_of_a_result_has_its_methods_without_another_import(self):
+        code = ("import abut; block = dict(shape='structured_box', lower=[0, 0], upper=[1, 1], counts=[2, 2], young=1, density=1); "
+                "mesh = abut.run(dict(dim=2, run=dict(steps=1), bodies=dict(block=block))).mesh; "
+                "assert 'block' in mesh._repr_html_() and callable(mesh.show) and callable(mesh.to_pyvista)")
+        subprocess.run([sys.executable, "-c", code], check=True)
+
     def test_matplotlib_draws_bodies_where_they_are(self):
         matplotlib = self.needs("matplotlib")
         matplotlib.use("Agg")
@@ -51,6 +58,18 @@ class Pictures(unittest.TestCase):
         self.assertIn("speed [m/s], t = 1 s", figure.axes[0].get_title())
         with self.assertRaisesRegex(ValueError, "field is 'strain'; 'von_mises', 'speed'"):
             moved().show("strain")
+
+    def test_a_name_with_signs_of_formulas_stands_as_it_is(self):
+        matplotlib = self.needs("matplotlib")
+        matplotlib.use("Agg")
+        block = {"shape": "structured_box", "lower": [0, 0], "upper": [1, 1], "counts": [2, 2], "young": 1, "density": 1}
+        for title in ("$a_ $", "5 $ and 6 $", "one $ alone", "_plate_1_", r"a\_b"):
+            result = abut.run({"title": title, "dim": 2, "run": {"steps": 1}, "bodies": {"block": block}, "output": {"frames": 2}})
+            figure = result.show()
+            figure.canvas.draw()  # which is where a formula that is none would fail
+            drawn = figure.axes[-1].title.get_text()
+            self.assertFalse(matplotlib.cbook.is_math_text(drawn))
+            self.assertEqual(drawn.replace(r"\$", "$"), title)  # matplotlib takes the backslash away, as there is no formula
 
     def test_pyvista_gets_the_cells_of_vtk(self):
         class Grid:

@@ -45,6 +45,7 @@ def memm(scene, set=None, outside=(), **options):
 def built_solid():
     try:
         from . import _solid
+        from . import solid  # noqa: F401  it gives meshes their methods of Python
     except ImportError as error:
         if "_solid" not in str(error):
             raise

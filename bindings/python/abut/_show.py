@@ -114,7 +114,7 @@ def show_result(result, field="von_mises", frame=-1):
     energies = figure.add_subplot(122)
     for column in ("pseudo_energy", "energy", "kinetic", "potential"):
         energies.plot(result.ledger["time"], result.ledger[column], label=column.replace("_", "-"))
-    energies.set(xlabel="time [s]", ylabel="energy [J]", title=result.title or result.name)
+    energies.set(xlabel="time [s]", ylabel="energy [J]", title=_plain(result.title or result.name))
     energies.legend()
     figure.tight_layout()
     return figure
@@ -135,6 +135,11 @@ def to_pyvista(mesh, displacement=None, **fields):
     for name, values in {"body": mesh.body, **fields}.items():
         grid.cell_data[name] = np.asarray(values).reshape(len(mesh.body), -1).squeeze()
     return grid
+
+
+def _plain(text):
+    """A text for matplotlib that means itself: a name with two dollar signs is no formula."""
+    return text.replace("$", r"\$")
 
 
 def _paler(colour, share):
