@@ -70,7 +70,7 @@ void Detection::measure_distances() {
         result_.distances = contact::face_distances<3>(start_.view(), bodies_.surface.vertices, result_.overlaps);
     }
     const Stopwatch watch(seconds_nearest_);
-    result_.nearest = nearest_bodies(bodies_);
+    result_.neighbours = neighbours(bodies_);
 }
 
 BodyContacts contacts_of(const Bodies& bodies, const StepResult& result) {

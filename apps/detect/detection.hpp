@@ -35,7 +35,7 @@ struct StepResult {
     std::vector<contact::Overlap<3>> overlaps;  ///< -depth < gap <= distance, n_1 . n_2 < --facing
     /// Of the faces of each in space [m]: by `Detection::measure_distances` alone, empty before, as is what follows
     std::vector<double> distances;
-    std::vector<NearestBodies> nearest;
+    Neighbours neighbours;
 };
 
 /// Contact of two bodies.

@@ -9,6 +9,7 @@
 #include "abut/base/index.hpp"
 #include "abut/geometry/box.hpp"
 #include "abut/geometry/nearest/nearest_faces.hpp"
+#include "abut/geometry/nearest/winding_number.hpp"
 
 namespace abut::apps {
 namespace {
@@ -40,6 +41,20 @@ public:
         }
     }
 
+    /// Pairs whose boxes say that one could be inside of the other; every so many of its vertices stand for all.
+    std::vector<InsideBody> inside() {
+        std::vector<InsideBody> found;
+        const auto n = static_cast<std::int32_t>(bodies_.size());
+        for (std::int32_t inner = 0; inner < n; ++inner)
+            for (std::int32_t outer = 0; outer < n; ++outer) {
+                if (inner == outer || !is_within(bodies_[at(inner)].box, bodies_[at(outer)].box)) continue;
+                const double apart = measured(std::minmax(inner, outer)).points.distance;
+                if (apart > 0.0 && is_wholly_inside(bodies_[at(inner)], bodies_[at(outer)]))
+                    found.push_back({inner, outer, apart});
+            }
+        return found;
+    }
+
     std::vector<NearestBodies> all() {
         for (std::int32_t body = 0; at(body) < bodies_.size(); ++body) add_nearest_of(body);
         std::vector<NearestBodies> result;
@@ -48,6 +63,19 @@ public:
     }
 
 private:
+    static bool is_within(const Box& inner, const Box& outer) {
+        return !inner.empty() && !outer.empty() && (inner.lower.array() >= outer.lower.array()).all() &&
+               (inner.upper.array() <= outer.upper.array()).all();
+    }
+    [[nodiscard]] bool is_wholly_inside(const BodyFaces& inner, const BodyFaces& outer) const {
+        constexpr std::size_t most_points = 64;
+        const std::size_t stride = 1 + inner.corners.size() / most_points;
+        for (std::size_t i = 0; i < inner.corners.size(); i += stride)
+            if (!geometry::is_inside({vertices_, outer.offsets, outer.corners}, vertices_[at(inner.corners[i])]))
+                return false;
+        return true;
+    }
+
     void add_nearest_of(std::int32_t body) {
         std::vector<std::pair<double, std::int32_t>> others;
         for (std::int32_t other = 0; at(other) < bodies_.size(); ++other)
@@ -84,9 +112,12 @@ private:
 
 }  // namespace
 
-std::vector<NearestBodies> nearest_bodies(const Bodies& bodies) {
+Neighbours neighbours(const Bodies& bodies) {
     if (bodies.names.size() > most_nearest_bodies) return {};
-    return NearestSearch(bodies).all();
+    NearestSearch search(bodies);
+    Neighbours found{.nearest = search.all(), .inside = {}};
+    found.inside = search.inside();
+    return found;
 }
 
 }  // namespace abut::apps

@@ -232,7 +232,7 @@ void Output::add_contacts(const StepResult& result) {
 }
 
 void Output::add_nearest(const StepResult& result) {
-    for (const auto& [body_1, body_2, faces] : result.nearest) {
+    for (const auto& [body_1, body_2, faces] : result.neighbours.nearest) {
         const auto& [x_1, x_2, distance] = faces.points;
         nearest_.write(fmt::format("{},{},{},{},{},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g}\n", result.step,
                                    names_[at(body_1)], bodies_.face_label[at(faces.face_1)], names_[at(body_2)],

@@ -85,7 +85,7 @@ Json contacts_json(const DetectReport& report) {
 Json nearest_json(const DetectReport& report) {
     const auto point = [](const Vector<3>& x) { return Json{x[0], x[1], x[2]}; };
     Json nearest = Json::array();
-    for (const auto& [body_1, body_2, faces] : report.last.nearest)
+    for (const auto& [body_1, body_2, faces] : report.last.neighbours.nearest)
         nearest.push_back({{"body_1", body_1},
                            {"face_1", report.bodies.face_label[at(faces.face_1)]},
                            {"point_1", point(faces.points.point_1)},
@@ -94,6 +94,13 @@ Json nearest_json(const DetectReport& report) {
                            {"point_2", point(faces.points.point_2)},
                            {"distance", faces.points.distance}});
     return nearest;
+}
+
+Json inside_json(const DetectReport& report) {
+    Json inside = Json::array();
+    for (const auto& [inner, outer, distance] : report.last.neighbours.inside)
+        inside.push_back({{"inner", inner}, {"outer", outer}, {"distance", distance}});
+    return inside;
 }
 
 Json search_json(const DetectReport& report) {
@@ -192,7 +199,7 @@ std::string in_words(const Bodies& bodies, std::int32_t body, std::int32_t face,
 
 /// Bodies and the nearest to each, the nearest of all first.
 void print_nearest(const DetectReport& report) {
-    std::vector<NearestBodies> nearest = report.last.nearest;
+    std::vector<NearestBodies> nearest = report.last.neighbours.nearest;
     std::ranges::stable_sort(nearest, {}, [](const NearestBodies& pair) { return pair.faces.points.distance; });
     for (std::size_t i = 0; i < std::min(nearest.size(), most_lines); ++i) {
         const auto& [body_1, body_2, faces] = nearest[i];
@@ -204,6 +211,16 @@ void print_nearest(const DetectReport& report) {
     if (nearest.size() > most_lines) print_line("", fmt::format("and {} more pairs of bodies", nearest.size() - most_lines));
     if (const std::size_t n = report.bodies.names.size(); n > most_nearest_bodies)
         print_line("nearest bodies", fmt::format("not looked for: {} bodies, at most {}", n, most_nearest_bodies));
+}
+
+/// Surfaces that do not meet, and bodies that do.
+void print_inside(const DetectReport& report) {
+    const std::vector<InsideBody>& inside = report.last.neighbours.inside;
+    for (std::size_t i = 0; i < std::min(inside.size(), most_lines); ++i)
+        print_line(i == 0 ? "wholly inside of another body" : "",
+                   fmt::format("'{}' is inside of '{}', {:.6g} m from its surface", report.bodies.names[at(inside[i].inner)],
+                               report.bodies.names[at(inside[i].outer)], inside[i].distance));
+    if (inside.size() > most_lines) print_line("", fmt::format("and {} more bodies", inside.size() - most_lines));
 }
 
 void print_verification(const DetectReport& report) {
@@ -243,6 +260,7 @@ Json summary(const DetectReport& report, const DetectOptions& options) {
     json["overlaps_max"] = report.overlaps_max;
     json["contacts"] = contacts_json(report);
     json["nearest"] = nearest_json(report);
+    json["inside"] = inside_json(report);
     json["decided"] = {{"by_doubles", report.decided.by_doubles},
                        {"by_scalar_path", report.decided.by_scalar_path},
                        {"by_exact_arithmetic", report.decided.by_exact_arithmetic}};
@@ -265,6 +283,7 @@ void print(const DetectReport& report, const DetectOptions& options) {
     print_search(report);
     print_last(report);
     print_nearest(report);
+    print_inside(report);
     print_verification(report);
     print_costs(report);
     if (!options.no_files) print_line("files in", options.out.string());

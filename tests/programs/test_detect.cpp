@@ -139,6 +139,15 @@ TEST_CASE("detect: a sphere in a hollow sphere is in contact all over, at a gap 
     CHECK(outcome.out.find("inside out") != std::string::npos);  // the wall of a cavity, and it is said
 }
 
+TEST_CASE("detect: a ball wholly inside of another one is told, and one in a hollow that looks inwards is not",
+          "[programs][detect]") {
+    const bool is_hollow = GENERATE(false, true);
+    const auto outcome =
+        detect(fmt::format("sphere:n=80,radius=1 sphere:n=320,radius=3{} --no-files", is_hollow ? ",flip=1" : ""), "inside");
+    const bool is_told = outcome.out.find("wholly inside of another body") != std::string::npos;
+    CHECK(is_told == !is_hollow);
+}
+
 TEST_CASE("detect: interlocked tori are as near as 1 - r_1 - r_2, and far apart nothing is found", "[programs][detect]") {
     const auto near = detect("torus:n=16000 torus:n=16000,x=1,axis=1,tube=0.6 --distance 0.12", "tori");
     CHECK(last_step(near)["gap_min"].get<double>() == Approx(0.1).margin(0.05 * 0.05));
