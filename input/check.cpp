@@ -14,6 +14,7 @@
 #include "abut/base/stopwatch.hpp"
 #include "abut/input/make_scene.hpp"
 #include "abut/input/read_settings.hpp"
+#include "abut/run/bond_text.hpp"
 #include "abut/run/failure.hpp"
 #include "abut/run/simulation.hpp"
 #include "abut/run/warnings.hpp"
@@ -114,6 +115,7 @@ public:
         if (result.options.law != solid::ContactLaw::automatic)
             estimate_.law = word_of(solid::law_words, result.options.law);
         estimate_.inertia = text_of_inertia(scene, result);
+        estimate_.bonds = run::bonded_text<Dim>(result.bonds);
         estimate_.stable_dt = result.stable.dt;
         estimate_.dt = run::choose_step(options_, result.stable.dt);
         estimate_.steps = std::isnan(options_.time) ? options_.steps : run::steps_until(options_.time, estimate_.dt);
@@ -184,6 +186,7 @@ std::string text_of(const Estimate& estimate) {
     line("boundary faces", fmt::format("{}", estimate.boundary_faces));
     if (!estimate.law.empty()) line("law of contact", estimate.law);
     if (!estimate.inertia.empty()) line("inertia", estimate.inertia);
+    if (!estimate.bonds.empty()) line("bonded", estimate.bonds);
     line("stable step", fmt::format("{:.4g} s", estimate.stable_dt));
     if (!estimate.cell_of_step.empty()) line("  set by", estimate.cell_of_step);
     line("step", fmt::format("{:.4g} s", estimate.dt));

@@ -25,6 +25,7 @@
 #include "abut/run/value.hpp"
 #include "abut/solid/body_inertia.hpp"
 #include "abut/solid/body_motion.hpp"
+#include "abut/solid/boundary/bond_places.hpp"
 #include "abut/solid/solid.hpp"
 
 namespace abut::run {
@@ -99,6 +100,7 @@ struct RunResult {
     contact::ContactReport contact;
     std::int64_t inadmissible_overlaps_max = 0;            ///< largest number of `inadmissible_overlaps` at any record
     std::vector<double> overlaps;                          ///< at the start, of each of SolidOptions::interference [m]
+    std::vector<solid::BondCoverage> bonds;                ///< of each of SolidOptions::bonds
     std::vector<contact::BlindCorner<Dim>> blind_corners;  ///< too sharp for contact to see them
     std::optional<contact::EdgePair<Dim>> unseen_edges;    ///< that would cross without contact
     mesh::UnjoinedFaces unjoined;                          ///< within bodies, at the start; on several ranks known to rank 0

@@ -43,6 +43,18 @@ solid::SolidOptions<Dim> solid_options(const Scene<Dim>& scene, RunOptions optio
     return solid;
 }
 
+/// Parts of one piece are bonded by the faces that they have in common: nothing else of them is asked for.
+template <int Dim>
+std::vector<solid::BondCoverage> bond_coverage(const Scene<Dim>& scene, const solid::Solid<Dim>& solid) {
+    const auto coverage = solid.bonds().coverage();
+    std::vector<solid::BondCoverage> bonds(coverage.begin(), coverage.end());
+    const auto& pieces = scene.mesh.report.joined_bodies;
+    for (std::size_t i = 0; i < bonds.size(); ++i)
+        if (std::ranges::find(pieces, scene.solid.bonds[i].sides) != pieces.end())
+            bonds[i].opposite = bonds[i].smaller_side = bonds[i].area;
+    return bonds;
+}
+
 /// The kinetic energy at the start. Throws BadInput where there is none.
 double required_gauge(double kinetic) {
     if (kinetic > 0.0) return kinetic;
@@ -115,6 +127,7 @@ Start<Dim>::Start(const Scene<Dim>& of, const RunOptions& given, std::optional<P
     result.blind_corners = solid->contact().blind_corners();
     result.unseen_edges = solid->contact().unseen_edges();
     if (share.ranks.rank() == 0) result.unjoined = mesh::find_unjoined_faces(scene.mesh, bonded_faces(seen));
+    result.bonds = bond_coverage(scene, *solid);
     set_outside();
     set_state();
     if (options.settle) settle();

@@ -7,6 +7,7 @@
 
 #include "abut/contact/report.hpp"
 #include "abut/run/body_names.hpp"
+#include "abut/run/bond_text.hpp"
 #include "abut/run/json.hpp"
 #include "abut/run/option_table.hpp"
 #include "abut/run/scene.hpp"
@@ -219,11 +220,24 @@ Json material_json(const RunResult<Dim>& result) {
     return json;
 }
 
-/// Nothing where no bond broke.
+/// Nothing without bonds.
 template <int Dim>
-Json bond_json(const RunResult<Dim>& result) {
-    if (result.dissipated.in_bonds == 0.0) return Json::object();
-    return {{"bonds", {{"dissipated", result.dissipated.in_bonds}}}};
+Json bond_json(const Scene<Dim>& scene, const RunResult<Dim>& result) {
+    if (result.bonds.empty()) return Json::object();
+    Json made = Json::array();
+    for (std::size_t i = 0; i < result.bonds.size(); ++i) {
+        const solid::BondCoverage& coverage = result.bonds[i];
+        const auto& sides = scene.solid.bonds[i].sides;
+        made.push_back({{"sides", {quoted_side(scene, sides[0]), quoted_side(scene, sides[1])}},
+                        {"area", coverage.area},
+                        {"opposite_area", coverage.opposite},
+                        {"share", coverage.share()},
+                        {"share_of_smaller_side", coverage.share_of_side()},
+                        {"largest_gap", coverage.largest_gap}});
+    }
+    Json bonds = {{"made", std::move(made)}};
+    if (result.dissipated.in_bonds != 0.0) bonds["dissipated"] = result.dissipated.in_bonds;
+    return {{"bonds", std::move(bonds)}};
 }
 
 /// Nothing where no bodies overlap on purpose.
@@ -361,12 +375,14 @@ std::string material_lines(const RunResult<Dim>& result) {
     return text;
 }
 
-/// Nothing where no bond broke.
+/// Nothing without bonds.
 template <int Dim>
 std::string bond_lines(const RunResult<Dim>& result) {
-    if (result.dissipated.in_bonds == 0.0) return "";
-    return table_line(fmt::format("dissipated by bonds that broke, / {}", result.scale.name),
-                      fmt::format("{:.4g}", result.scale.over(result.dissipated.in_bonds)));
+    if (result.bonds.empty()) return "";
+    const auto text = table_line("bonded of what lies opposite", bonded_text<Dim>(result.bonds));
+    if (result.dissipated.in_bonds == 0.0) return text;
+    return text + table_line(fmt::format("dissipated by bonds that broke, / {}", result.scale.name),
+                             fmt::format("{:.4g}", result.scale.over(result.dissipated.in_bonds)));
 }
 
 template <int Dim>
@@ -406,7 +422,7 @@ std::string summary_json(const std::string& program, const Scene<Dim>& scene, co
     json.update(counts_json(result));
     json.update(friction_json(result));
     json.update(material_json(result));
-    json.update(bond_json(result));
+    json.update(bond_json(scene, result));
     json.update(interference_json(scene, result));
     for (const Finding& finding : result.findings) json[finding.key] = to_json(finding.value);
     if (result.pilot) json["pilot"] = pilot_json(*result.pilot);

@@ -168,6 +168,24 @@ void add_sightings(Counts& counts, const RunResult<Dim>& result) {
              ended.time, 0.0});
 }
 
+template <int Dim>
+void add_bonds(Counts& counts, const Scene<Dim>& scene, const RunResult<Dim>& result) {
+    for (std::size_t i = 0; i < result.bonds.size(); ++i) {
+        const solid::Bond& bond = scene.solid.bonds[i];
+        const solid::BondCoverage& coverage = result.bonds[i];
+        if (!(coverage.share() < enough_bond)) continue;
+        counts.warnings.push_back(
+            {WarningKind::missing_bond, Severity::warning,
+             fmt::format(
+                 "the bond of {} and {} holds {:.3g} of the {:.4g} {} where they lie opposite each other, {:g} is "
+                 "needed: faces farther apart than a tenth of the smaller one are not bonded, and the largest gap "
+                 "that is bonded is {:.3g} m. Move or turn the bodies together, or name by groups what is to be bonded",
+                 quoted_side(scene, bond.sides[0]), quoted_side(scene, bond.sides[1]), coverage.share(), coverage.opposite,
+                 Dim == 2 ? "m" : "m^2", enough_bond, coverage.largest_gap),
+             coverage.share(), enough_bond});
+    }
+}
+
 /// Warns that the mass of cells at their centroids leaves out a part of the inertia of a body that turns.
 template <int Dim>
 void add_inertia(Counts& counts, const Scene<Dim>& scene, const RunResult<Dim>& result) {
@@ -293,6 +311,7 @@ std::vector<Warning> warnings_before(const Scene<Dim>& scene, const RunResult<Di
     Counts counts;
     add_mesh(counts, scene.mesh.report, scene.contact);
     add_unjoined(counts, result);
+    add_bonds(counts, scene, result);
     add_inertia(counts, scene, result);
     const auto& stencils = result.stencils;
     counts.add(WarningKind::extrapolated_faces, Severity::note, stencils.extrapolated,

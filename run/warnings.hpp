@@ -57,6 +57,9 @@ inline constexpr double contact_from_afar = 0.25;
 /// note, since good impacts have 0.1.
 inline constexpr double high_sliding_pressure = 0.01;
 
+/// Bonded area over that where the sides of a bond lie opposite each other, below which glue is missing [-].
+inline constexpr double enough_bond = 0.99;
+
 enum class Severity {
     note,     ///< as it should be, and good to know
     warning,  ///< may spoil the result
@@ -71,6 +74,7 @@ enum class WarningKind {
     cut_cells,            ///< note: cells that were cut because of faces that are not planar
     coincident_vertices,  ///< note: vertices at the place of one of another body
     unjoined_faces,       ///< faces that lie on others of their body and are not joined to them
+    missing_bond,         ///< BondCoverage::share of a bond [-]; threshold: enough_bond
     missing_inertia,      ///< BodyInertia::least of a body that may turn [-]; threshold: enough_inertia
     extrapolated_faces,   ///< note: faces that extrapolate from the cells around them: the stable step is shorter
     blind_corners,        ///< corners too sharp for contact to see
@@ -109,7 +113,7 @@ struct Warning {
     std::string text;  ///< a sentence without its full stop: what, how much, how much is safe, what to do
     double value;      ///< see WarningKind; NaN: none
     double
-        threshold;  ///< above which (unseen_edges, missing_inertia, alternating_slip: below which) `value` is worth a word
+        threshold;  ///< above which (unseen_edges, missing_bond, missing_inertia, alternating_slip: below which) `value` is worth a word
 };
 
 /// Known once all is set up, before the first step: of the mesh, the reconstruction, the surface. For Observer::begin.

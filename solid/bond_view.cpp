@@ -12,6 +12,11 @@ std::span<const BondPlace<Dim>> BondView<Dim>::places() const {
 }
 
 template <int Dim>
+std::span<const BondCoverage> BondView<Dim>::coverage() const {
+    return solid_.bonds_->coverage();
+}
+
+template <int Dim>
 bool BondView<Dim>::is_broken(std::size_t place) const {
     return solid_.bonds_->is_broken(place);
 }

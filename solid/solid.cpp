@@ -62,7 +62,7 @@ std::unique_ptr<RankPart<Dim>> part_of_rank(const dynamics::Ranks& ranks, Bodies
     part->take_rest(bodies.rest());
     bodies.take_part(*part);
     FoundBonds<Dim> bonds = find_bond_places(bodies, *part);
-    bodies.take_bonds(std::move(bonds.places), bonds.joined);
+    bodies.take_bonds(std::move(bonds.places), std::move(bonds.coverage), bonds.joined);
     return part;
 }
 

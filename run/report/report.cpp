@@ -258,12 +258,18 @@ Markup damping_part(const Figures& figures) {
 template <int Dim>
 Markup bonds_part(const Figures& figures, const Scene<Dim>& scene) {
     std::vector<Markup> rows;
-    for (const solid::Bond& bond : scene.solid.bonds)
+    for (std::size_t i = 0; i < scene.solid.bonds.size(); ++i) {
+        const solid::Bond& bond = scene.solid.bonds[i];
+        const auto figure = [&](const char* key) { return figures.at(fmt::format("bonds.made.{}.{}", i, key)); };
         rows.push_back(row({quoted_side(scene, bond.sides[0]) + ", " + quoted_side(scene, bond.sides[1]),
-                            std::isfinite(bond.strength) ? fmt::format("{:g} Pa", bond.strength) : "for ever"}));
+                            std::isfinite(bond.strength) ? fmt::format("{:g} Pa", bond.strength) : "for ever",
+                            figure("area"), figure("share"), figure("share_of_smaller_side"), figure("largest_gap")}));
+    }
     if (rows.empty()) return {};
-    Markup bonds = table({"bond between", "holds up to"}, rows);
-    if (figures.summary().contains("bonds"))
+    Markup bonds = table({"bond between", "holds up to", Dim == 2 ? "bonded [m]" : "bonded [m^2]", "of what lies opposite",
+                          "of the smaller side", "largest gap [m]"},
+                         rows);
+    if (figures.summary().at("bonds").contains("dissipated"))
         bonds += table({"", ""}, {figure_row(figures, "dissipated by those that broke", "bonds.dissipated", "J")});
     return section("Bonds", bonds);
 }

@@ -113,8 +113,10 @@ SolidPoints<Dim> Bodies<Dim>::points() const {
 }
 
 template <int Dim>
-void Bodies<Dim>::take_bonds(std::vector<BondPlace<Dim>> places, std::span<const BoundaryFace> joined) {
+void Bodies<Dim>::take_bonds(std::vector<BondPlace<Dim>> places, std::vector<BondCoverage> coverage,
+                             std::span<const BoundaryFace> joined) {
     bond_places_ = std::move(places);
+    bond_coverage_ = std::move(coverage);
     for (const BoundaryFace b : joined) part_options_.boundary.joined_faces.push_back(mesh_face(deformable(), b));
 }
 

@@ -37,7 +37,8 @@ public:
     void take_part(const RankPart<Dim>& part) { rank_part_ = &part; }
     /// Where bodies are bonded, and which boundary faces of `deformable` are joined by that; to be called before anything is made of
     /// `deformable`.
-    void take_bonds(std::vector<BondPlace<Dim>> places, std::span<const BoundaryFace> joined);
+    void take_bonds(std::vector<BondPlace<Dim>> places, std::vector<BondCoverage> coverage,
+                    std::span<const BoundaryFace> joined);
 
     [[nodiscard]] const mesh::Mesh<Dim>& mesh() const { return mesh_; }
     /// Of the bodies that deform: `mesh` itself where all do, and none is floating.
@@ -60,6 +61,7 @@ public:
     [[nodiscard]] const SolidOptions<Dim>& deformable_options() const { return part_options_; }
     /// Of SolidOptions::bonds, once `take_bonds` was called.
     [[nodiscard]] const std::vector<BondPlace<Dim>>& bond_places() const { return bond_places_; }
+    [[nodiscard]] const std::vector<BondCoverage>& bond_coverage() const { return bond_coverage_; }  ///< of each bond
     [[nodiscard]] const RigidBodies<Dim>& rigid() const { return *rigid_; }
     [[nodiscard]] RigidBodies<Dim>& rigid() { return *rigid_; }
     [[nodiscard]] bool any_rigid() const { return rigid_->size() > 0; }
@@ -154,6 +156,7 @@ private:
     const RankPart<Dim>* rank_part_ = nullptr;                 // null until `take_part`
 
     std::vector<BondPlace<Dim>> bond_places_;
+    std::vector<BondCoverage> bond_coverage_;
     SolidOptions<Dim> part_options_;
     std::vector<std::int32_t> deformable_bodies_;
     std::optional<RigidBodies<Dim>> rigid_;

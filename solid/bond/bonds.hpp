@@ -45,6 +45,7 @@ public:
 
     [[nodiscard]] bool any() const { return !places_.empty(); }
     [[nodiscard]] std::span<const BondPlace<Dim>> places() const { return places_; }
+    [[nodiscard]] std::span<const BondCoverage> coverage() const { return bodies_.bond_coverage(); }
     [[nodiscard]] bool is_broken(std::size_t place) const { return share_[place] == 0.0; }
     /// Whether one has a strength.
     [[nodiscard]] bool any_breaks() const;

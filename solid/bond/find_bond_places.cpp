@@ -14,8 +14,11 @@
 namespace abut::solid {
 namespace {
 
-constexpr double facing = -0.7;       // n_1 . n_2 of faces that may be bonded is below it
-constexpr double largest_gap = 0.1;   // between them, of the size of the smaller one
+constexpr double facing = -0.7;      // n_1 . n_2 of faces that may be bonded is below it
+constexpr double largest_gap = 0.1;  // between them, of the size of the smaller one
+constexpr double whole =
+    0.9;  // bonded part of a face from which on nothing else of it is asked for: faces of curves lie askew
+constexpr double farthest = 1.0;      // gap up to which faces lie opposite each other, of the size of the larger one
 constexpr double least_share = 1e-9;  // of the smaller face: a smaller overlap is rounding
 
 template <int Dim>
@@ -126,11 +129,15 @@ struct Sides {
 
 private:
     void append(const Side<Dim>& face, std::size_t side) {
-        geometry::Box<Dim> box;
-        for (const Vector<Dim>& corner : face.corners) box.extend(corner);
         surface.append(face.corners, face.depth, 1.0, static_cast<std::int32_t>(side));
+        const double size = size_of<Dim>(face.measure);
+        geometry::Box<Dim> box;
+        for (const Vector<Dim>& corner : face.corners) {
+            box.extend(corner);
+            box.extend(corner + farthest * size * surface.normal.back());
+        }
         faces[side].push_back(&face);
-        boxes[side].push_back(box.grown(largest_gap * size_of<Dim>(face.measure)));
+        boxes[side].push_back(box.grown(largest_gap * size));
     }
 };
 
@@ -195,12 +202,25 @@ private:
         const std::vector<Vector<Dim>> at_rest(static_cast<std::size_t>(surface.size()), Vector<Dim>::Zero());
         const contact::SurfaceView<Dim> view = surface.view();
         const std::size_t before = found_.places.size();
+        BondCoverage& coverage = found_.coverage.emplace_back();
+        std::vector<contact::Overlap<Dim>> apart;
+        std::vector<double> bonded(static_cast<std::size_t>(surface.size()), 0.0);  // area of each face
         for (const contact::Overlap<Dim>& overlap : contact::find_overlaps<Dim>(view, at_rest, pairs).found) {
             const Side<Dim>&face_1 = sides.face(overlap.face_1), &face_2 = sides.face(overlap.face_2);
-            const double smaller = std::min(surface.area[static_cast<std::size_t>(overlap.face_1)],
-                                            surface.area[static_cast<std::size_t>(overlap.face_2)]);
-            if (overlap.area <= least_share * smaller || std::abs(overlap.gap) > largest_gap * size_of<Dim>(smaller))
+            const auto [smaller, larger] = std::minmax({surface.area[static_cast<std::size_t>(overlap.face_1)],
+                                                        surface.area[static_cast<std::size_t>(overlap.face_2)]});
+            const double allowed = largest_gap * size_of<Dim>(smaller);
+            if (overlap.area <= least_share * smaller || overlap.gap < -allowed ||
+                overlap.gap > farthest * size_of<Dim>(larger))
                 continue;
+            if (overlap.gap > allowed) {
+                apart.push_back(overlap);
+                continue;
+            }
+            coverage.area += overlap.area;
+            for (const std::int32_t face : {overlap.face_1, overlap.face_2})
+                bonded[static_cast<std::size_t>(face)] += overlap.area;
+            coverage.largest_gap = std::max(coverage.largest_gap, std::abs(overlap.gap));
             const auto corners = contact::overlap_polygon<Dim>(view, at_rest, {overlap.face_1, overlap.face_2});
             found_.places.push_back({number_of_bond,
                                      {face_here(face_1.number), face_here(face_2.number)},
@@ -216,6 +236,32 @@ private:
                 side_in_words(mesh_, bond.sides[1], options_.obstacles.size()) +
                 " are to be bonded, but no face of one lies on one of the other: facing it, and not farther than " +
                 number(largest_gap) + " of the smaller face's size. Move them together, or leave the bond out.");
+        coverage.opposite = coverage.area;
+        for (const contact::Overlap<Dim>& overlap : apart) {
+            const auto left = [&](std::int32_t face) {
+                const double area = surface.area[static_cast<std::size_t>(face)],
+                             done = bonded[static_cast<std::size_t>(face)];
+                return done < whole * area ? area - done : 0.0;
+            };
+            coverage.opposite += std::min({overlap.area, left(overlap.face_1), left(overlap.face_2)});
+        }
+        coverage.smaller_side = std::min(asked_of_side(sides, 0, before), asked_of_side(sides, 1, before));
+    }
+
+    /// The area of a side that may be bonded: of a group all of it, of a body what looks along the bond as its faces that are bonded do.
+    [[nodiscard]] double asked_of_side(const Sides<Dim>& sides, std::size_t side, std::size_t first_place) const {
+        const std::size_t bond = found_.coverage.size() - 1;
+        const bool is_body = options_.bonds[bond].sides[side] < mesh_.n_bodies();
+        Vector<Dim> mean = Vector<Dim>::Zero();  // outwards
+        for (std::size_t p = first_place; p < found_.places.size(); ++p)
+            mean += (side == 0 ? 1.0 : -1.0) * found_.places[p].area * found_.places[p].normal;
+        double all = 0.0;
+        for (std::size_t i = 0; i < sides.faces[side].size(); ++i) {
+            const std::size_t face = side == 0 ? i : sides.faces[0].size() + i;
+            const bool looks_along = mean.dot(sides.surface.normal[face]) > -facing * mean.norm();
+            if (!is_body || looks_along) all += sides.surface.area[face];
+        }
+        return all;
     }
 
     /// In the mesh of all bodies.

@@ -12,6 +12,7 @@ template <int Dim>
 struct FoundBonds {
     /// Of all bonds, each in the order of its first faces, then of its second ones.
     std::vector<BondPlace<Dim>> places;
+    std::vector<BondCoverage> coverage;  ///< of each bond
     /// Boundary faces here of bodies that deform, increasing, which are small, not of triangles or tetrahedra, and lie on one face
     /// alone, all of it, without being able to part from it.
     std::vector<BoundaryFace> joined;

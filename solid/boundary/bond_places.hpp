@@ -22,4 +22,17 @@ struct BondPlace {
     Vector<Dim> normal;                  ///< from the first face into the second
 };
 
+/// How much of the two sides of a bond holds on to each other at rest.
+struct BondCoverage {
+    double area = 0.0;      ///< of its places [m^(Dim-1)]
+    double opposite = 0.0;  ///< where faces of both sides lie opposite each other, not farther than the larger one is wide
+    double smaller_side = 0.0;  ///< of the side that has less: of a group all of it, of a body what looks at the other side
+    double largest_gap = 0.0;   ///< of a place, apart or inside each other, >= 0 [m]
+
+    /// Bonded area over what was asked for, which is where the sides lie opposite each other [-].
+    [[nodiscard]] double share() const { return opposite > 0.0 ? area / opposite : 1.0; }
+    /// Bonded area over that of the smaller side, at most 1 [-]
+    [[nodiscard]] double share_of_side() const { return smaller_side > area ? area / smaller_side : 1.0; }
+};
+
 }  // namespace abut::solid
