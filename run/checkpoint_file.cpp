@@ -92,10 +92,17 @@ void write(H5::H5File& file, const char* name, const std::vector<T>& values) {
     file.createDataSet(name, type_of<T>(), H5::DataSpace(1, &size)).write(values.data(), type_of<T>());
 }
 
+/// Memory is taken for what is there, not for what is promised.
 template <class T>
 std::vector<T> read(const H5::H5File& file, const char* name) {
     const H5::DataSet set = file.openDataSet(name);
-    std::vector<T> values(static_cast<std::size_t>(set.getSpace().getSimpleExtentNpoints()));
+    const hssize_t n = set.getSpace().getSimpleExtentNpoints();
+    const hsize_t n_bytes = file.getFileSize(), n_stored = set.getStorageSize();
+    if (n < 0 || static_cast<hsize_t>(n) > n_bytes / sizeof(T) || static_cast<hsize_t>(n) * sizeof(T) != n_stored)
+        throw BadInput(
+            fmt::format("its part '{}' promises {} numbers of {} bytes, and {} of its {} bytes are theirs: damaged.", name,
+                        n, sizeof(T), n_stored, n_bytes));
+    std::vector<T> values(static_cast<std::size_t>(n));
     set.read(values.data(), type_of<T>());
     return values;
 }
@@ -200,6 +207,8 @@ Checkpoint read_checkpoint(const fs::path& path) {
         return unpacked(content);
     } catch (const H5::Exception& error) {
         throw BadInput(fmt::format("{}: cannot be read: {}.", path.string(), error.getDetailMsg()));
+    } catch (const BadInput& error) {
+        throw BadInput(fmt::format("{}: {}", path.string(), error.what()));
     } catch (const std::out_of_range&) {
         throw BadInput(fmt::format("{}: numbers are missing. Go on with the Abut that has written it.", path.string()));
     }

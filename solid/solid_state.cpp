@@ -112,8 +112,9 @@ void Solid<Dim>::restore(std::span<const std::byte> bytes, std::span<const doubl
         const auto u = state_here(q);
         frames_->stand_at(of_cells(u));
         contact_->restore(state.get_all<std::byte>(), u, time_);
-        std::vector<BodyImpulse<Dim>> impulses(static_cast<std::size_t>(state.get<std::int32_t>()));
-        for (BodyImpulse<Dim>& pair : impulses) {
+        std::vector<BodyImpulse<Dim>> impulses;
+        for (auto n = state.get<std::int32_t>(); n > 0; --n) {  // `get` refuses to read past the end, whatever n claims
+            BodyImpulse<Dim>& pair = impulses.emplace_back();
             pair.body_1 = state.get<std::int32_t>();
             pair.body_2 = state.get<std::int32_t>();
             take(state, pair.impulse);

@@ -1,13 +1,18 @@
 // A run that is stopped and goes on leaves the files of the run that was not.
+#include <H5Cpp.h>
 #include <hdf5.h>
 
 #include <catch2/catch.hpp>
+#include <iomanip>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <random>
+#include <span>
+#include <sstream>
 #include <string>
 
 #include "abut/base/error.hpp"
+#include "abut/base/state_bytes.hpp"
 #include "abut/run/checkpoint_file.hpp"
 #include "abut/run/report/result_files.hpp"
 #include "abut/run/simulation.hpp"
@@ -148,6 +153,35 @@ TEST_CASE("a damaged checkpoint is refused, and the one before it is taken", "[r
     test::write_text(before, "nothing");
     CHECK_THROWS_WITH(run::CheckpointFolder(checkpoints).last(),
                       Catch::Contains("step_000000000028.h5") && Catch::Contains("no checkpoint of Abut"));
+}
+
+TEST_CASE("a checkpoint whose parts promise more numbers than its file has bytes is refused before memory is taken",
+          "[run][checkpoint][errors]") {
+    const Folder folder;
+    static_cast<void>(run_block({.steps = 40, .out = folder.path(), .frames = 0, .checkpoint_steps = 4}, 30));
+    const fs::path path = folder.path() / "checkpoints" / "step_000000000030.h5";
+    const std::string good = test::read_text(path);
+    // 2^45 numbers, of which none is stored: a sound file of HDF5 of some hundred bytes
+    const fs::path forged = folder.path() / "forged.h5";
+    {
+        H5::H5File file(forged.string(), H5F_ACC_TRUNC);
+        const hsize_t size = hsize_t{1} << 45, chunk = 1024;
+        H5::DSetCreatPropList in_chunks;
+        in_chunks.setChunk(1, &chunk);
+        file.createDataSet("q", H5::PredType::NATIVE_DOUBLE, H5::DataSpace(1, &size), in_chunks);
+    }
+    const std::string content = test::read_text(forged);
+    Checksum checksum;
+    checksum.add(std::as_bytes(std::span(content)));
+    const std::string version = good.substr(0, good.find("checksum"));
+    std::ostringstream text;
+    text << version << "checksum " << std::hex << std::setw(16) << std::setfill('0') << checksum.value() << std::dec
+         << " of " << content.size() << " bytes after the first 512\n";
+    std::string head = text.str();
+    head.resize(512, ' ');
+    test::write_text(path, head + content);
+    CHECK_THROWS_WITH(run::read_checkpoint(path), Catch::Contains("step_000000000030.h5") &&
+                                                      Catch::Contains("'q' promises 35184372088832 numbers of 8 bytes"));
 }
 
 TEST_CASE("what was being written when a run was killed goes with the next checkpoint, and at the end",
