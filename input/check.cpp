@@ -109,6 +109,7 @@ public:
     Rehearsal(const run::RunOptions& options, CheckedScene& checked) : options_(options), checked_(checked) {}
 
     void begin(const run::Scene<Dim>& scene, const run::RunResult<Dim>& result) override {
+        has_begun_ = true;
         estimate_ = {.bodies = scene.mesh.n_bodies(),
                      .cells = scene.mesh.n_cells(),
                      .boundary_faces = static_cast<std::int64_t>(scene.mesh.boundary_faces.size())};
@@ -130,7 +131,8 @@ public:
         const double evaluations = static_cast<double>(estimate_.steps) * (1.0 + 1.0 / interval_);
         estimate_.seconds = evaluations * seconds_of_force(solid);
     }
-    [[nodiscard]] bool asks_to_stop() const override { return true; }
+    /// Not while bodies come to rest: whether they do is known only then.
+    [[nodiscard]] bool asks_to_stop() const override { return has_begun_; }
 
     [[nodiscard]] Estimate estimate() const {
         Estimate estimate = estimate_;
@@ -143,6 +145,7 @@ private:
     CheckedScene& checked_;
     Estimate estimate_;
     int interval_ = 1;
+    bool has_begun_ = false;
 };
 
 /// What only a run knows, where nothing else is wrong: one that ends before its first step, under the kinematics of the scene

@@ -10,6 +10,11 @@
 namespace abut::run {
 
 template <int Dim>
+void Observers<Dim>::settling(std::int64_t step, double speed) {
+    for (Observer<Dim>& observer : observers_) observer.settling(step, speed);
+}
+
+template <int Dim>
 void Observers<Dim>::begin(const Scene<Dim>& scene, const RunResult<Dim>& result) {
     for (Observer<Dim>& observer : observers_) observer.begin(scene, result);
 }

@@ -16,6 +16,9 @@ template <int Dim>
 class Observer {
 public:
     virtual ~Observer() = default;
+    /// While bodies are brought to rest (RunOptions::settle), before `begin`: steps so far and the largest speed of a body's points
+    /// [m/s], now and then. `asks_to_stop` is asked with it: true ends the run by an error, as there is nothing to go on from.
+    virtual void settling(std::int64_t /*step*/, double /*speed*/) {}
     /// All is set up, no step is taken.
     virtual void begin(const Scene<Dim>&, const RunResult<Dim>&) {}
     /// An entry of the ledger: at the start, every `interval` steps and at the end. It is in `result.ledger` already.
@@ -62,6 +65,7 @@ public:
     Observers(std::initializer_list<std::reference_wrapper<Observer<Dim>>> observers) : observers_(observers) {}
     void add(Observer<Dim>& observer) { observers_.push_back(observer); }
 
+    void settling(std::int64_t step, double speed) override;
     void begin(const Scene<Dim>& scene, const RunResult<Dim>& result) override;
     void record(const dynamics::LedgerEntry<Dim>& entry, const RunResult<Dim>& result) override;
     void look(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) override;

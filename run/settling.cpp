@@ -1,17 +1,21 @@
 #include "abut/run/settling.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <span>
+#include <stdexcept>
+#include <string>
 #include <utility>
 
 #include "abut/base/error.hpp"
 #include "abut/base/throw_again.hpp"
 #include "abut/dynamics/memm.hpp"
 #include "abut/run/body_names.hpp"
+#include "abut/run/of_all_ranks.hpp"
 #include "abut/solid/contact_view.hpp"
 
 namespace abut::run {
@@ -22,6 +26,7 @@ constexpr double settled = 1e-12;     // of the largest peak of the kinetic ener
 constexpr std::int64_t window = 500;  // steps: where peaks do not fall by a tenth from one to the next, no more is to be had
 constexpr std::int64_t most_rise = 20'000;  // steps without a peak: the bodies fall or slide
 constexpr std::int64_t most_steps = 200'000;
+constexpr std::int64_t between_looks = 50;  // steps
 
 /// Loads and obstacles that stay as they are at t = 0.
 template <int Dim>
@@ -31,13 +36,13 @@ solid::SolidOptions<Dim> frozen(solid::SolidOptions<Dim> options) {
     };
     for (auto& condition : options.boundary.dirichlet) freeze(condition.history);
     for (auto& condition : options.boundary.traction) freeze(condition.history);
+    for (solid::BodyMoment<Dim>& moment : options.moments)
+        if (moment.history) moment.moment = std::exchange(moment.history, {})(0.0);
     for (contact::RigidObstacle<Dim>& obstacle : options.obstacles) {
         if (obstacle.path) obstacle.path = [at = obstacle.path(0.0)](double) { return at; };
         if (obstacle.placement) obstacle.placement = [at = obstacle.placement(0.0)](double) { return at; };
     }
     return options;
-    for (solid::BodyMoment<Dim>& moment : options.moments)
-        if (moment.history) moment.moment = std::exchange(moment.history, {})(0.0);
 }
 
 /// Peaks of the kinetic energy, and whether they have come down as far as they can. Single ones say little: a fast vibration
@@ -75,23 +80,131 @@ std::vector<double> speeds(const solid::Solid<Dim>& solid, std::span<const doubl
     return of_body;
 }
 
+/// Sums over the points of a body, of all ranks: what its motion as a whole is made of.
 template <int Dim>
-[[noreturn]] void refuse(const Scene<Dim>& scene, const std::vector<double>& speeds, std::int64_t steps) {
-    const auto fastest = std::ranges::max_element(speeds) - speeds.begin();
+struct Whole {
+    double mass = 0.0;                                    // [kg]
+    Vector<Dim> first = Vector<Dim>::Zero();              // sum m x [kg m]
+    Matrix<Dim> second = Matrix<Dim>::Zero();             // sum m x x^T [kg m^2]
+    Vector<Dim> momentum = Vector<Dim>::Zero();           // [kg m/s]
+    AxialVector<Dim> angular = AxialVector<Dim>::Zero();  // about the origin [kg m^2/s]
+
+    [[nodiscard]] Vector<Dim> velocity() const { return momentum / mass; }
+    /// Of the outermost points, about the centre, as of a disc or a ball [m/s]
+    [[nodiscard]] double speed_of_rim() const {
+        const Vector<Dim> centre = first / mass;
+        const Matrix<Dim> about = second - mass * centre * centre.transpose();
+        const AxialVector<Dim> spin = angular - moment<Dim>(centre, momentum);
+        const double inertia = about.trace();
+        return inertia > 0.0 ? spin.norm() / inertia * std::sqrt(2.0 * inertia / mass) : 0.0;
+    }
+};
+
+template <int Dim>
+Whole<Dim> whole_of(const solid::Solid<Dim>& solid, std::span<const double> q, std::span<const double> momentum,
+                    std::size_t body) {
+    Whole<Dim> whole;
+    const auto u = as_vectors<Dim>(q), p = as_vectors<Dim>(momentum);
+    for (std::size_t i = 0; i < solid.masses().size(); ++i) {
+        if (static_cast<std::size_t>(solid.body_of_points()[i]) != body) continue;
+        const Vector<Dim> x = solid.rest_positions()[i] + u[i];
+        whole.mass += solid.masses()[i];
+        whole.first += solid.masses()[i] * x;
+        whole.second += solid.masses()[i] * x * x.transpose();
+        whole.momentum += p[i];
+        whole.angular += moment<Dim>(x, Vector<Dim>(p[i]));
+    }
+    if (solid.ranks().is_one()) return whole;
+    std::vector<double> mine{whole.mass};
+    const auto each = [&](const auto& visit) {
+        visit(whole.first);
+        visit(whole.second);
+        visit(whole.momentum);
+        visit(whole.angular);
+    };
+    each([&](const auto& values) { mine.insert(mine.end(), values.data(), values.data() + values.size()); });
+    const std::vector<double> all = solid.ranks().gather(mine);
+    whole = {};
+    for (std::size_t begin = 0; begin < all.size(); begin += mine.size()) {
+        const double* next = all.data() + begin;
+        whole.mass += *next++;
+        each([&](auto& values) {
+            for (double& value : std::span(values.data(), static_cast<std::size_t>(values.size()))) value += *next++;
+        });
+    }
+    return whole;
+}
+
+/// "along x", "along (0.6, 0.8)"
+template <int Dim>
+std::string along(const Vector<Dim>& direction) {
+    constexpr double nearly = 0.99;
+    const Vector<Dim> unit = direction.normalized();
+    for (int i = 0; i < Dim; ++i)
+        if (std::abs(unit[i]) > nearly) return fmt::format("along {}{}", unit[i] < 0.0 ? "-" : "", "xyz"[i]);
+    return fmt::format("along ({:.2g})", fmt::join(unit, ", "));
+}
+
+/// How a body moves, why nothing brings it to rest, and what would.
+struct Way {
+    std::string motion, remedy;
+};
+template <int Dim>
+Way way_of(const Scene<Dim>& scene, const solid::SolidOptions<Dim>& options, const Whole<Dim>& whole, double speed,
+           std::size_t body) {
+    constexpr double most = 0.5;  // of the speed: it is most of the motion
+    const Vector<Dim> velocity = whole.velocity();
+    const bool travels = velocity.norm() > most * speed, turns = whole.speed_of_rim() > most * speed;
+    const bool rubs = scene.contact && options.has_friction();
+    const Vector<Dim> pull = options.acceleration.empty() ? Vector<Dim>(Vector<Dim>::Zero()) : options.acceleration[body];
+    if (travels && pull.dot(velocity) > 0.9 * pull.norm() * velocity.norm() && !pull.isZero(0.0))
+        return {"falls " + along<Dim>(velocity),
+                "hold it by supports or springs, put it nearer to where it rests, or give it something to rest on"};
+    if (travels && turns)
+        return {"rolls " + along<Dim>(velocity), "hold it by supports or springs, or let it begin where it does not roll"};
+    if (travels && !rubs)
+        return {"slides " + along<Dim>(velocity) + " without friction",
+                "give it friction (contact.friction), or hold it by supports or springs"};
+    if (travels) return {"slides " + along<Dim>(velocity), "give it more friction, or hold it by supports or springs"};
+    if (turns) return {"turns", "hold it by supports or springs, or give it a wider base"};
+    return {"vibrates", "look whether a face of it opens and closes again and again, or whether its load has a rest at all"};
+}
+
+template <int Dim>
+[[noreturn]] void refuse(const Scene<Dim>& scene, const solid::Solid<Dim>& solid,
+                         const dynamics::Memm<solid::Solid<Dim>>& motion) {
+    const std::vector<double> of_body = speeds(solid, motion.p_after());
+    const auto fastest = static_cast<std::size_t>(std::ranges::max_element(of_body) - of_body.begin());
+    const Way way =
+        way_of(scene, solid.options(), whole_of(solid, motion.q(), motion.p_after(), fastest), of_body[fastest], fastest);
     throw BadInput(
-        fmt::format(
-            "--settle: bodies do not come to rest under the loads of t = 0: after {} steps {} still moves with {:.3g} "
-            "m/s. It falls, slides or rolls: hold it by supports, springs or friction, put it nearer to where it "
-            "rests, or leave --settle out.",
-            steps, quoted_name(scene, static_cast<std::int32_t>(fastest)), speeds[static_cast<std::size_t>(fastest)]),
-        {.value = speeds[static_cast<std::size_t>(fastest)], .allowed = 0.0});
+        fmt::format("--settle: bodies do not come to rest under the loads of t = 0: after {} steps {} {} with {:.3g} "
+                    "m/s, and nothing brings it to rest. To begin at rest {}; else leave --settle out.",
+                    motion.steps(), quoted_name(scene, static_cast<std::int32_t>(fastest)), way.motion, of_body[fastest],
+                    way.remedy),
+        {.value = of_body[fastest], .allowed = 0.0});
+}
+
+/// Tells rank 0 how far it is, and whether that wants to go on.
+template <int Dim>
+void show(const solid::Solid<Dim>& solid, const dynamics::Memm<solid::Solid<Dim>>& motion, Observer<Dim>& observer) {
+    const double speed = std::ranges::max(speeds(solid, motion.p_after()));
+    const bool stops = first_says(solid.ranks(), [&] {
+                           observer.settling(motion.steps(), speed);
+                           return int{observer.asks_to_stop()};
+                       }) != 0;
+    if (stops)
+        throw std::runtime_error(
+            fmt::format("--settle: asked to stop after {} steps to rest, before the run began: there is nothing to go on "
+                        "from. Start it again.",
+                        motion.steps()));
 }
 
 }  // namespace
 
 template <int Dim>
 Settled settle(const Scene<Dim>& scene, const solid::SolidOptions<Dim>& options, const Share<Dim>& share,
-               std::vector<double> q, double stable_dt) {
+               std::vector<double> q, double stable_dt, Observer<Dim>& observer) {
     Settled result;
     solid::Solid<Dim> solid(share.part, frozen(options), share.ranks);
     const std::vector<double> at_rest(q.size(), 0.0);
@@ -106,9 +219,9 @@ Settled settle(const Scene<Dim>& scene, const solid::SolidOptions<Dim>& options,
             throw_again(error, fmt::format("--settle: step {} to rest under the loads of t = 0: {}", motion.steps() + 1,
                                            error.what()));
         }
+        if (motion.steps() % between_looks == 0) show(solid, motion, observer);
         const double now = motion.kinetic_energy(), kinetic = 0.5 * (now + std::exchange(last, now));
-        if (motion.steps() > most_steps || motion.steps() - peak_at > most_rise)
-            refuse(scene, speeds(solid, motion.p_after()), motion.steps());
+        if (motion.steps() > most_steps || motion.steps() - peak_at > most_rise) refuse(scene, solid, motion);
         if (kinetic > before) {
             before = kinetic;
             continue;
@@ -128,7 +241,9 @@ Settled settle(const Scene<Dim>& scene, const solid::SolidOptions<Dim>& options,
     return result;
 }
 
-template Settled settle<2>(const Scene<2>&, const solid::SolidOptions<2>&, const Share<2>&, std::vector<double>, double);
-template Settled settle<3>(const Scene<3>&, const solid::SolidOptions<3>&, const Share<3>&, std::vector<double>, double);
+template Settled settle<2>(const Scene<2>&, const solid::SolidOptions<2>&, const Share<2>&, std::vector<double>, double,
+                           Observer<2>&);
+template Settled settle<3>(const Scene<3>&, const solid::SolidOptions<3>&, const Share<3>&, std::vector<double>, double,
+                           Observer<3>&);
 
 }  // namespace abut::run

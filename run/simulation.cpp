@@ -49,7 +49,7 @@ RunResult<Dim> simulated(const Scene<Dim>& scene, const RunOptions& given, Obser
             });
             std::optional<PilotReport> pilot;
             if (options.kinematics == BodyKinematics::automatic) pilot = choose_kinematics(scene, options);
-            start.emplace(scene, options, std::move(pilot), share);
+            start.emplace(scene, options, std::move(pilot), share, observer);
         }
         RunResult<Dim>& result = start->result;
         if (options.interval == 0 && from && options.other_end) options.interval = recorded_interval(from->run);

@@ -102,7 +102,8 @@ void check_for_ranks(const dynamics::Ranks& ranks, const Scene<Dim>& scene, cons
 }
 
 template <int Dim>
-Start<Dim>::Start(const Scene<Dim>& of, const RunOptions& given, std::optional<PilotReport> pilot, const Share<Dim>& share)
+Start<Dim>::Start(const Scene<Dim>& of, const RunOptions& given, std::optional<PilotReport> pilot, const Share<Dim>& share,
+                  Observer<Dim>& observer)
     : scene(of), options(given), first_share(share) {
     solid.emplace(share.part, solid_options<Dim>(scene, options, pilot), share.ranks);
     result.pilot = std::move(pilot);
@@ -130,7 +131,7 @@ Start<Dim>::Start(const Scene<Dim>& of, const RunOptions& given, std::optional<P
     result.bonds = bond_coverage(scene, *solid);
     set_outside();
     set_state();
-    if (options.settle) settle();
+    if (options.settle) settle(observer);
 }
 
 /// What changes momentum and angular momentum.
@@ -178,7 +179,7 @@ void Start<Dim>::set_state() {
 
 /// Where it begins is looked at before: later bodies are pressed together, and the look could not tell why.
 template <int Dim>
-void Start<Dim>::settle() {
+void Start<Dim>::settle(Observer<Dim>& observer) {
     const dynamics::Ranks& ranks = solid->ranks();
     const auto is_any = [](const auto& values) {
         return std::ranges::any_of(values, [](const auto& value) { return !value.isZero(0.0); });
@@ -197,7 +198,7 @@ void Start<Dim>::settle() {
                 check_start_contact<Dim>(scene, whole ? *whole : *solid, all.q, std::max(kinetic, scene.energy_scale.value),
                                          result.rest_energy);
             });
-        Settled settled = run::settle(scene, solid->options(), first_share, q, result.stable.dt);
+        Settled settled = run::settle(scene, solid->options(), first_share, q, result.stable.dt, observer);
         q = std::move(settled.q);
         solid->restore(settled.solid, q);
         result.settling = settled.report;

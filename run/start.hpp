@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "abut/dynamics/memm_async.hpp"
+#include "abut/run/observer.hpp"
 #include "abut/run/options.hpp"
 #include "abut/run/scene.hpp"
 #include "abut/run/share.hpp"
@@ -24,8 +25,9 @@ template <int Dim>
 /// What a run begins from, whatever its integrator.
 template <int Dim>
 struct Start {
-    /// All arguments but `pilot` must outlive it.
-    Start(const Scene<Dim>& scene, const RunOptions& options, std::optional<PilotReport> pilot, const Share<Dim>& share);
+    /// All arguments but `pilot` and `observer`, who is told how bodies come to rest, must outlive it.
+    Start(const Scene<Dim>& scene, const RunOptions& options, std::optional<PilotReport> pilot, const Share<Dim>& share,
+          Observer<Dim>& observer);
 
     /// The solid, q and momentum of another part, at the start of the run again: everything that refers to the solid now refers
     /// to this one.
@@ -43,7 +45,7 @@ struct Start {
 
 private:
     void set_state();
-    void settle();
+    void settle(Observer<Dim>& observer);
     void set_outside();
     void set_local_steps();
 };

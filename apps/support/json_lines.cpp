@@ -41,6 +41,14 @@ template <int Dim>
 JsonLines<Dim>::JsonLines(std::string program) : program_(std::move(program)) {}
 
 template <int Dim>
+void JsonLines<Dim>::settling(std::int64_t step, double speed) {
+    const auto now = Clock::now();
+    if (now - last_ < between_lines) return;
+    last_ = now;
+    print_line({{"event", "settling"}, {"step", step}, {"speed", json_number(speed)}});
+}
+
+template <int Dim>
 void JsonLines<Dim>::begin(const run::Scene<Dim>& scene, const run::RunResult<Dim>& result) {
     scene_ = &scene;
     n_steps_ = result.steps;

@@ -16,6 +16,8 @@ class JsonLines : public run::Observer<Dim> {
 public:
     explicit JsonLines(std::string program);
 
+    /// "settling", twice a second at most.
+    void settling(std::int64_t step, double speed) override;
     /// "start", and a "warning" for each that is known by then, notes included.
     void begin(const run::Scene<Dim>& scene, const run::RunResult<Dim>& result) override;
     /// "record": an entry of the ledger, in the names of energy.csv.

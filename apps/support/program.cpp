@@ -27,9 +27,11 @@ namespace {
 int report(const Program& program, const std::exception& error) {
     const std::string text = as_utf8(fmt::format("{}: error: {}", program.name, run::in_user_words(error.what())));
     std::fputs((for_terminal(text, STDERR_FILENO) + "\n").c_str(), stderr);
-    if (program.messages == Messages::json) json_error(error, 1);
+    const int exit_code =
+        noted_signal() == 0 ? 1 : exit_code_of(noted_signal());  // a run that was asked to stop before it began
+    if (program.messages == Messages::json) json_error(error, exit_code);
     leave_ranks(text);
-    return 1;
+    return exit_code;
 }
 
 /// Calls body(), whose exit code it returns; 1, with a message, where that throws anything.

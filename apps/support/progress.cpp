@@ -15,6 +15,7 @@ namespace abut::apps {
 namespace {
 
 constexpr std::chrono::milliseconds between_updates{100};
+constexpr std::chrono::milliseconds between_log_lines{2000};  // where nobody knows what a tenth is
 
 /// The first step after `step` that ends a tenth of all.
 std::int64_t next_tenth(std::int64_t step, std::int64_t n_steps) {
@@ -54,8 +55,34 @@ void Progress::show(std::int64_t step, double time, double drift) {
     std::fflush(stdout);
 }
 
+SettlingLine::SettlingLine() : terminal_(isatty(STDOUT_FILENO) == 1) {}
+
+SettlingLine::~SettlingLine() {
+    if (!line_open_) return;
+    std::fputs("\n", stdout);
+    std::fflush(stdout);
+}
+
+void SettlingLine::show(std::int64_t step, double speed) {
+    const auto now = Clock::now();
+    if (now - last_ < (terminal_ ? between_updates : between_log_lines)) return;
+    last_ = now;
+    const std::string line = fmt::format("coming to rest: step {}  largest speed {:.2e} m/s", step, speed);
+    if (!terminal_) return spdlog::info("{}", line);
+    line_open_ = true;
+    say(fmt::format("\r{}\033[K", line));
+    std::fflush(stdout);
+}
+
+template <int Dim>
+void ShowProgress<Dim>::settling(std::int64_t step, double speed) {
+    if (!settling_) settling_.emplace();
+    settling_->show(step, speed);
+}
+
 template <int Dim>
 void ShowProgress<Dim>::begin(const run::Scene<Dim>&, const run::RunResult<Dim>& result) {
+    settling_.reset();
     progress_.emplace(result.steps);
 }
 

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <string>
@@ -106,7 +107,44 @@ TEST_CASE("a block on 10 degrees sticks from the start: no face slides, friction
 TEST_CASE("a block that slides under the loads of the start is refused, with its name", "[run][settling]") {
     const run::Scene<2> scene = block(Kinematics::floating, 30.0);
     CHECK_THROWS_WITH(run::simulate<2>(scene, settling(0.3)),
-                      Catch::Contains("'block'") && Catch::Contains("do not come to rest"));
+                      Catch::Contains("'block' slides along x with") && Catch::Contains("do not come to rest"));
+}
+
+TEST_CASE("what does not come to rest is told by its motion: without friction a block slides, without a plane it falls",
+          "[run][settling]") {
+    run::Scene<2> scene = block(Kinematics::rigid, 10.0);
+    // The plane is level, and the pull along it is g sin 10 deg.
+    CHECK_THROWS_WITH(run::simulate<2>(scene, settling(0.0)), Catch::Contains("'block' slides along x without friction") &&
+                                                                  Catch::Contains("give it friction (contact.friction)"));
+    scene.solid.obstacles.clear();
+    scene.solid.acceleration = {Vector<2>(0.0, -g)};
+    CHECK_THROWS_WITH(run::simulate<2>(scene, settling(0.0)),
+                      Catch::Contains("'block' falls along -y") && Catch::Contains("supports or springs"));
+}
+
+TEST_CASE("whoever watches is told how bodies come to rest, and can end it", "[run][settling]") {
+    struct Watch final : run::Observer<2> {
+        void settling(std::int64_t step, double speed) override {
+            steps.push_back(step);
+            speeds.push_back(speed);
+        }
+        [[nodiscard]] bool asks_to_stop() const override { return steps.size() >= most; }
+        bool wants_look(std::int64_t) const override { return false; }
+        std::vector<std::int64_t> steps;
+        std::vector<double> speeds;
+        std::size_t most = 1000000;
+    };
+    const run::Scene<2> scene = block(Kinematics::small, 0.0);
+    Watch all;
+    const run::RunResult<2> result = run::simulate<2>(scene, settling(0.0), all);
+    REQUIRE(result.settling);
+    CHECK(std::ssize(all.steps) == result.settling->steps / 50);
+    CHECK(std::ranges::is_sorted(all.steps));
+    CHECK(*std::ranges::max_element(all.speeds) > 0.0);
+    Watch impatient;
+    impatient.most = 2;
+    CHECK_THROWS_WITH(run::simulate<2>(scene, settling(0.0), impatient),
+                      Catch::Contains("asked to stop after 100 steps to rest") && Catch::Contains("nothing to go on from"));
 }
 
 TEST_CASE("velocities at the start act after the bodies have come to rest", "[run][settling]") {
