@@ -169,7 +169,7 @@ bool agree(PointsView<3> rest, std::span<const std::int32_t> corners, const Halv
 Halves halves_of(PointsView<3> rest, std::int32_t face, std::span<const std::int32_t> corners) {
     Halves shorter{FacetCorners{0, 1, 2}, FacetCorners{0, 2, 3}}, longer{FacetCorners{0, 1, 3}, FacetCorners{1, 2, 3}};
     const double first = (rest[corners[2]] - rest[corners[0]]).norm(), second = (rest[corners[3]] - rest[corners[1]]).norm();
-    if (first > second * (1.0 + 1e-12)) std::swap(shorter, longer);
+    if (first > second * (1.0 + 1e-9)) std::swap(shorter, longer);
     if (agree(rest, corners, shorter)) return shorter;
     if (agree(rest, corners, longer)) return longer;
     refuse_face(face,

@@ -39,7 +39,7 @@ PictureMarks::SpringEnd end_of(const mesh::Mesh<Dim>& mesh, const solid::Anchor<
     double least = std::numeric_limits<double>::infinity();
     for (std::int32_t cell = 0; cell < mesh.n_cells(); ++cell) {
         const double distance = (mesh.cell_centroid[at(cell)] - anchor.position).squaredNorm();
-        if (mesh.cell_body[at(cell)] != anchor.body || distance >= least) continue;
+        if (mesh.cell_body[at(cell)] != anchor.body || distance >= (1.0 - 1e-9) * least) continue;
         nearest = cell;
         least = distance;
     }

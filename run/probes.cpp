@@ -19,6 +19,7 @@ namespace abut::run {
 namespace {
 
 constexpr double allowed_distance = 0.5;  // of a place from its cell, over the size of that
+constexpr double at_border = 1e-9;        // likewise: it is in the cell
 
 /// In the order of the columns.
 template <int Dim>
@@ -69,8 +70,8 @@ std::int32_t cell_at(const mesh::Mesh<Dim>& mesh, std::int32_t body, const Vecto
         // A place can be beyond no face by much and still be far along it.
         const double beside =
             std::max(distance_beside(mesh, cell, position), (position - mesh.cell_centroid[cell]).norm() - 3.0 * size);
+        if (beside <= at_border * size) return cell;  // the first of those that share the place: rounding does not choose
         if (beside < least) std::tie(least, nearest) = std::pair(beside, cell);
-        if (least <= 0.0) return nearest;
     }
     if (nearest >= 0) {
         const double allowed = allowed_distance * std::pow(mesh.cell_measure[nearest], 1.0 / Dim);

@@ -1,7 +1,11 @@
 #include "abut/solid/body/bodies.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
+#include <functional>
+#include <map>
 #include <numeric>
 #include <string>
 #include <utility>
@@ -20,6 +24,49 @@ namespace {
 
 /// dt omega of the hardest bounce is at most 0.34: it takes nine steps, and fewer feed the alternating mode.
 constexpr double frequency_margin = 5.0;
+
+/// Area of the faces of a body by their normals, which are one where rounding alone sets them apart.
+template <int Dim>
+class FacesByNormal {
+public:
+    void add(const Vector<Dim>& normal, double area) {
+        constexpr double resolution = 1e-6;
+        std::array<std::int64_t, Dim> key;
+        for (int d = 0; d < Dim; ++d) key[static_cast<std::size_t>(d)] = std::llround(normal[d] / resolution);
+        const auto [place, is_new] = index_.try_emplace(key, sides_.size());
+        if (is_new) sides_.push_back({normal, 0.0});
+        sides_[place->second].area += area;
+    }
+    /// The largest area that the body shows to a plane on which one of its faces lies [m^(Dim-1)]: a body that is turned shows what
+    /// it did. Of bodies that are rounder than the number of directions tells the largest faces stand for the others.
+    [[nodiscard]] double largest_silhouette() const {
+        constexpr std::size_t most_directions = 2000;
+        double least_area = 0.0;
+        if (sides_.size() > most_directions) {
+            std::vector<double> areas;
+            for (const Side& side : sides_) areas.push_back(side.area);
+            const auto last = areas.begin() + most_directions;
+            std::ranges::nth_element(areas, last, std::greater<>{});
+            least_area = (1.0 - 1e-9) * *last;  // faces of one size are taken together
+        }
+        double largest = 0.0;
+        for (const Side& along : sides_) {
+            if (along.area < least_area) continue;
+            double silhouette = 0.0;
+            for (const Side& side : sides_) silhouette += 0.5 * side.area * std::abs(side.normal.dot(along.normal));
+            largest = std::max(largest, silhouette);
+        }
+        return largest;
+    }
+
+private:
+    struct Side {
+        Vector<Dim> normal;
+        double area;
+    };
+    std::map<std::array<std::int64_t, Dim>, std::size_t> index_;
+    std::vector<Side> sides_;
+};
 
 /// One value per body that is chosen; none where none are given.
 template <class Value>
@@ -241,21 +288,21 @@ std::vector<Vector<Dim>> Bodies<Dim>::rigid_forces() const {
     return forces;
 }
 
-/// The skin of one side as a spring: k of its stiffest face over the largest silhouette; a corner has at most 4 times the
+/// The skin of one side as a spring: k of its stiffest face over the largest area that lies on a plane; a corner has at most 4 times the
 /// inverse mass of the whole.
 template <int Dim>
 std::vector<double> Bodies<Dim>::rigid_stiffness() const {
     std::vector<double> stiffness(rest_.size(), 0.0);
     for (std::size_t i = 0; options_.contact && i < rigid_->size(); ++i) {
         double skin = 0.0;
-        Vector<Dim> silhouette = Vector<Dim>::Zero();
+        FacesByNormal<Dim> faces;
         for (const std::int32_t f : mesh_.boundary_faces) {
             const std::int32_t cell = mesh_.face_cells[f][0];
             if (mesh_.cell_body[cell] != rigid_->mesh_body(i)) continue;
             skin = std::max(skin, rigid_skin(i) * mesh_.face_measure[f] / mesh_.cell_measure[cell]);
-            silhouette += 0.5 * mesh_.face_measure[f] * mesh_.face_normal[f].cwiseAbs();
+            faces.add(mesh_.face_normal[f], mesh_.face_measure[f]);
         }
-        const double square = 4.0 * skin * silhouette.maxCoeff() / rigid_->mass(i);
+        const double square = 4.0 * skin * faces.largest_silhouette() / rigid_->mass(i);
         for (int k = 0; k < RigidBodies<Dim>::points_per_body; ++k) {
             const auto point = static_cast<std::size_t>(rigid_->first_point(i) + k);
             stiffness[point] = frequency_margin * frequency_margin * square * masses_[point];

@@ -13,6 +13,7 @@ namespace {
 
 constexpr double least_width = 1e-3;      // of a cloud of points: its least second moment over the largest
 constexpr std::size_t first_choice = 32;  // cells that are sorted by distance at first
+constexpr double as_far = 1.0 + 1e-9;     // distances within this differ by rounding
 
 }  // namespace
 
@@ -69,7 +70,8 @@ HeldPlace<Dim> HeldPlaces<Dim>::held_by(const Points& points, std::span<const st
     return place;
 }
 
-/// The cells that are near enough, and as many of the next ones as it takes to span all directions.
+/// The cells that are near enough, and as many of the next ones as it takes to span all directions. Of cells that are as far as each
+/// other all are taken or none: rounding must not choose between them.
 template <int Dim>
 std::vector<std::size_t> HeldPlaces<Dim>::cells_around(const Points& points, const Anchor<Dim>& anchor) const {
     std::vector<double> distance;
@@ -77,14 +79,15 @@ std::vector<std::size_t> HeldPlaces<Dim>::cells_around(const Points& points, con
     const auto nearer = [&](std::size_t i, std::size_t j) { return std::pair(distance[i], i) < std::pair(distance[j], j); };
     std::vector<std::size_t> cells(distance.size());
     std::iota(cells.begin(), cells.end(), std::size_t{0});
-    const auto n_near =
-        static_cast<std::size_t>(std::ranges::count_if(distance, [&](double of_cell) { return of_cell <= anchor.radius; }));
+    const auto n_near = static_cast<std::size_t>(
+        std::ranges::count_if(distance, [&](double of_cell) { return of_cell <= as_far * anchor.radius; }));
     std::size_t sorted = 0;
     for (std::size_t n = std::max<std::size_t>(n_near, Dim + 1); n <= cells.size(); ++n) {
-        if (n > sorted) {
+        if (n >= sorted && sorted < cells.size()) {
             sorted = std::min(cells.size(), std::max(first_choice, 2 * n));
             std::ranges::partial_sort(cells, cells.begin() + static_cast<std::ptrdiff_t>(sorted), nearer);
         }
+        if (n < cells.size() && distance[cells[n]] <= as_far * distance[cells[n - 1]]) continue;
         const std::span<const std::size_t> nearest = std::span(cells).first(n);
         if (!Cloud(points, nearest).is_wide()) continue;
         cells.resize(n);
