@@ -102,6 +102,26 @@ std::string cell_of_step(const run::Scene<Dim>& scene, const run::RunOptions& op
                        run::name_of_cell(scene.mesh, least.second), least.first, least.first / middle->first);
 }
 
+/// A body that deforms and rubs, and is not damped, vibrates, and its faces feel less than their limit: docs/friction.md. The damping
+/// of stiffness that leaves 0.9 of the step: sqrt(1 + z^2) - z = 0.9 with z = beta omega/2.
+template <int Dim>
+std::string damping_of_friction(const run::Scene<Dim>& scene, const run::RunResult<Dim>& result) {
+    constexpr double part_of_step = 0.9, z = (1.0 - part_of_step * part_of_step) / (2.0 * part_of_step);
+    const run::RunOptions& options = result.options;
+    if (!scene.contact || !run::has_friction(scene, options) || !(result.stable.omega_max > 0.0)) return "";
+    const auto of_all = run::kinematics_of_all(options.kinematics);
+    bool any_deforms = false;
+    for (std::size_t body = 0; body < scene.solid.materials.size(); ++body) {
+        if (!solid::properties_of(of_all.value_or(scene.solid.kinematics[body])).deforms) continue;
+        if (scene.solid.materials[body].is_damped()) return "";
+        any_deforms = true;
+    }
+    if (!any_deforms) return "";
+    return fmt::format("none where bodies rub: take stiffness_damping = {:.2g} for them ({:g} of this step){}",
+                       2.0 * z / result.stable.omega_max, part_of_step,
+                       options.settle ? "" : ", and settle = true in [run] if they begin at rest");
+}
+
 /// Looks at a run that ends before its first step.
 template <int Dim>
 class Rehearsal : public run::Observer<Dim> {
@@ -122,6 +142,7 @@ public:
         estimate_.steps = std::isnan(options_.time) ? options_.steps : run::steps_until(options_.time, estimate_.dt);
         estimate_.end = static_cast<double>(estimate_.steps) * estimate_.dt;
         estimate_.cell_of_step = cell_of_step(scene, options_);
+        estimate_.damping = damping_of_friction(scene, result);
         interval_ = result.options.interval;
         for (const run::Warning& warning : run::without_notes(run::warnings_before(scene, result)))
             checked_.warnings.push_back(warning.text);
@@ -193,6 +214,7 @@ std::string text_of(const Estimate& estimate) {
     line("stable step", fmt::format("{:.4g} s", estimate.stable_dt));
     if (!estimate.cell_of_step.empty()) line("  set by", estimate.cell_of_step);
     line("step", fmt::format("{:.4g} s", estimate.dt));
+    if (!estimate.damping.empty()) line("damping", estimate.damping);
     line("steps", fmt::format("{}", estimate.steps));
     line("end", fmt::format("{:.4g} s", estimate.end));
     line("takes", fmt::format("about {}, contact and frames not counted", duration(estimate.seconds)));

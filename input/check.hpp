@@ -21,6 +21,8 @@ struct Estimate {
     std::string cell_of_step{};
     double dt = 0.0;  ///< [s], of memm_async before its levels
     std::int64_t steps = 0;
+    /// What to damp bodies with that rub, "stiffness_damping = 1e-05, ..."; empty where nothing rubs, or anything is damped
+    std::string damping{};
     std::string law;       ///< of contact, that which acts: "pair_potential"; empty without contact
     double end = 0.0;      ///< of the run [s]
     double seconds = 0.0;  ///< that it takes about: steps and records as long as the state at the start takes to evaluate

@@ -24,6 +24,7 @@ young = 1e6              # [Pa]
 poisson = 0.3
 kinematics = "small"     # "floating" where it turns, "finite" where it bends, "rigid" where it does not deform
 velocity = [0, -1]       # [m/s] at the start; spin = 3 [rad/s] turns it
+# stiffness_damping = 1e-5 # [s] where it rubs: abut check says how much, for this mesh
 
 [bodies.block]
 shape = "structured_box"
@@ -52,8 +53,10 @@ normal = [0, 1]          # the side where bodies are
 time = 0.3               # [s] or steps = 1000
 cfl = 0.9                # step over the stable step
 # filter = "neutral"
+# settle = true          # bodies that stand begin at rest under their weight; give it where they rub
 
 # [contact]
+# friction = 0.3         # with it bodies that vibrate need stiffness_damping, see above
 # law = "reconstruction" # automatic: "pair_potential"; this one for bodies that do not turn alone
 
 [output]
