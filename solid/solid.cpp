@@ -7,6 +7,7 @@
 #include "abut/base/error.hpp"
 #include "abut/solid/body/bodies.hpp"
 #include "abut/solid/body/body_rotation.hpp"
+#include "abut/solid/body/thick_parts.hpp"
 #include "abut/solid/body/trapezoid_closure.hpp"
 #include "abut/solid/body/turning_tractions.hpp"
 #include "abut/solid/bond/bonds.hpp"
@@ -54,6 +55,16 @@ std::unique_ptr<Bodies<Dim>> bodies_of(const mesh::Mesh<Dim>& mesh, const SolidO
     return dynamics::agreed(ranks, [&] { return std::make_unique<Bodies<Dim>>(mesh, options, std::move(holds)); });
 }
 
+/// By what contact acts on them, if there is anything that a body could touch.
+template <int Dim>
+FreeFaces free_faces_of(const Bodies<Dim>& bodies) {
+    const SolidOptions<Dim>& options = bodies.options();
+    const bool has_partner = bodies.mesh().n_bodies() > 1 || !options.obstacles.empty();
+    const bool may_touch = options.contact && (has_partner || options.contact->search.self_contact);
+    if (!may_touch) return FreeFaces::stay_alone;
+    return acting_law(bodies) == ContactLaw::reconstruction ? FreeFaces::are_moved : FreeFaces::are_pushed;
+}
+
 /// The points of cells are placed once ranks can be brought together.
 template <int Dim>
 std::unique_ptr<RankPart<Dim>> part_of_rank(const dynamics::Ranks& ranks, Bodies<Dim>& bodies) {
@@ -63,16 +74,8 @@ std::unique_ptr<RankPart<Dim>> part_of_rank(const dynamics::Ranks& ranks, Bodies
     bodies.take_part(*part);
     FoundBonds<Dim> bonds = find_bond_places(bodies, *part);
     bodies.take_bonds(std::move(bonds.places), std::move(bonds.coverage), bonds.joined);
+    if (free_faces_of(bodies) == FreeFaces::are_pushed) bodies.take_thick_cells(thick_cells(bodies, *part));
     return part;
-}
-
-/// By what contact acts on them, if there is anything that a body could touch.
-template <int Dim>
-FreeFaces free_faces_of(const mesh::Mesh<Dim>& mesh, const SolidOptions<Dim>& options, const Bodies<Dim>& bodies) {
-    const bool has_partner = mesh.n_bodies() > 1 || !options.obstacles.empty();
-    const bool may_touch = options.contact && (has_partner || options.contact->search.self_contact);
-    if (!may_touch) return FreeFaces::stay_alone;
-    return acting_law(bodies) == ContactLaw::reconstruction ? FreeFaces::are_moved : FreeFaces::are_pushed;
 }
 
 }  // namespace
@@ -88,8 +91,7 @@ Solid<Dim>::Solid(const mesh::Mesh<Dim>& mesh, SolidOptions<Dim> options, const 
                                 const SolidOptions<Dim>& deformable = bodies_->deformable_options();
                                 return Ccg<Dim>(bodies_->deformable(), deformable.materials, deformable.boundary,
                                                 deformable.kinematics, CellForm::automatic, deformable.precision,
-                                                deformable.device, deformable.finite,
-                                                free_faces_of(mesh_, options_, *bodies_));
+                                                deformable.device, deformable.finite, free_faces_of(*bodies_));
                             })),
       rotation_(std::make_unique<BodyRotation<Dim>>(part_->rest(), part_->masses(), part_->body_begin(), part_->ranks())),
       frames_(std::make_unique<BodyFrames<Dim>>(bodies_->frames(*part_))),

@@ -39,6 +39,8 @@ public:
     /// `deformable`.
     void take_bonds(std::vector<BondPlace<Dim>> places, std::vector<BondCoverage> coverage,
                     std::span<const BoundaryFace> joined);
+    /// BoundaryConditions::thick_cells of `deformable`, increasing; the same.
+    void take_thick_cells(std::vector<std::int32_t> cells) { part_options_.boundary.thick_cells = std::move(cells); }
 
     [[nodiscard]] const mesh::Mesh<Dim>& mesh() const { return mesh_; }
     /// Of the bodies that deform: `mesh` itself where all do, and none is floating.

@@ -8,6 +8,9 @@ namespace abut::solid {
 namespace {
 
 constexpr std::size_t nowhere = std::numeric_limits<std::size_t>::max();
+// Of the spring over that of a half cell, where faces are affine and do not give way to what pulls at them: as stiff as it may be without
+// a shorter step.
+constexpr double affine_stiffness = 2.0;
 
 }  // namespace
 
@@ -33,7 +36,8 @@ BondSprings<Dim>::BondSprings(const Bodies<Dim>& bodies, Ccg<Dim>& ccg, const Bo
         double compliance = 0.0;
         for (std::size_t side = 0; side < 2; ++side) {
             const std::size_t face = faces_.position_of(places[place], side);
-            compliance += 1.0 / stiffness[face];
+            const bool is_affine = bodies.is_finite(places[place].bodies[side]);
+            compliance += 1.0 / ((is_affine ? affine_stiffness : 1.0) * stiffness[face]);
             spring.ends[side] = {face, places[place].position - centroid[face], places[place].position,
                                  static_cast<std::size_t>(bodies.deformable_body(places[place].bodies[side]))};
         }

@@ -7,6 +7,7 @@
 
 #include "abut/base/error.hpp"
 #include "abut/base/messages.hpp"
+#include "abut/base/sort_unique.hpp"
 #include "abut/contact/overlaps.hpp"
 #include "abut/geometry/polygon.hpp"
 #include "abut/solid/part/value_reader.hpp"
@@ -270,7 +271,8 @@ private:
         return in_mesh_[static_cast<std::size_t>(here_[number])];
     }
 
-    /// Triangles and tetrahedra have the gradient of their faces, which would be loose where no face of the cell is balanced.
+    /// Those of small bodies that hold for ever and lie on each other as a whole; of finite ones all. Triangles and tetrahedra of small bodies
+    /// have the gradient of their faces, which would be loose where no face of the cell is balanced.
     void find_joined() {
         std::vector<int> n_places(part_.n_all_faces(), 0);
         for (const BondPlace<Dim>& place : found_.places)
@@ -286,7 +288,11 @@ private:
             if (std::isinf(options_.bonds[place.bond].strength) && fills(place, 0) && fills(place, 1))
                 for (const std::size_t face : place.numbers)
                     if (here_[face] != no_face) found_.joined.push_back(here_[face]);
-        std::ranges::sort(found_.joined);
+        for (const BondPlace<Dim>& place : found_.places)
+            for (std::size_t side = 0; side < 2; ++side)
+                if (bodies_.is_finite(place.bodies[side]) && here_[place.numbers[side]] != no_face)
+                    found_.joined.push_back(here_[place.numbers[side]]);
+        sort_unique(found_.joined);
     }
 
     const Bodies<Dim>& bodies_;

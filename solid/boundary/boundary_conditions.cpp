@@ -46,6 +46,8 @@ FaceConditions<Dim> sort_to_faces(const mesh::Mesh<Dim>& mesh, const BoundaryCon
     for (const std::int32_t face : conditions.joined_faces)
         sorted.joined[static_cast<BoundaryFace>(std::ranges::lower_bound(mesh.boundary_faces, face) -
                                                 mesh.boundary_faces.begin())] = 1;
+    if (!conditions.thick_cells.empty()) sorted.is_thick.assign(static_cast<std::size_t>(mesh.n_cells()), 0);
+    for (const std::int32_t cell : conditions.thick_cells) sorted.is_thick[static_cast<std::size_t>(cell)] = 1;
     for (const DirichletCondition<Dim>& condition : conditions.dirichlet) {
         auto& faces = sorted.dirichlet.emplace_back();
         for (const BoundaryFace b : boundary_faces_of(mesh, condition.group)) {

@@ -31,8 +31,7 @@ enum class CornerRule {
 enum class FreeFaces {
     stay_alone,
     are_moved,  ///< contact by the modified reconstruction: what it moves a face by is in the stress of the cell and in its traces
-    are_pushed,  ///< contact by the pair potential: its forces are not in the stress of the cell, and the traces do without the
-                 ///< balance of these faces (CcgArrays::affine)
+    are_pushed,  ///< contact by the pair potential: its forces are not in the stress of the cell
 };
 
 /// A vector that may depend on time and position.
@@ -79,6 +78,9 @@ struct BoundaryConditions {
     /// around: they are bonded face to face for ever, or a traction pulls at their extrapolated centroids (a dead one on a floating
     /// body). Read by operators alone: a solid finds them by itself
     std::vector<std::int32_t> joined_faces = {};
+    /// Cells of thick parts, increasing, where contact pushes free faces by the pair potential: their traces do without the balance of these
+    /// (BoundaryReconstruction::affine). Read by operators alone: a solid finds them by itself
+    std::vector<std::int32_t> thick_cells = {};
 };
 
 /// The conditions sorted to the boundary faces of a mesh.
@@ -86,6 +88,7 @@ template <int Dim>
 struct FaceConditions {
     IdVector<BoundaryFace, Matrix<Dim>> prescribed;  ///< P_f, projector onto all prescribed directions (n_boundary)
     IdVector<BoundaryFace, char> joined;             ///< BoundaryConditions::joined_faces (n_boundary)
+    std::vector<char> is_thick;                      ///< BoundaryConditions::thick_cells (n_cells); empty: none is
     /// A boundary face of a Dirichlet condition and the directions that this condition prescribes there.
     struct Prescribed {
         BoundaryFace face;

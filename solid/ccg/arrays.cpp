@@ -40,13 +40,13 @@ std::array<double, Dim> to_array(const Vector<Dim>& v) {
 template <int Dim>
 CcgArrays<Dim>::CcgArrays(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials,
                           const FaceConditions<Dim>& conditions, FreeFaceRule rule, CornerRule corner_rule,
-                          std::span<const Kinematics> kinematics, CellForm form, FreeFaces free_faces) {
+                          std::span<const Kinematics> kinematics, CellForm form) {
     set_faces(mesh, materials);
     set_cells(mesh, materials);
     if (form == CellForm::automatic) simplices = Simplices<Dim>(mesh, materials, conditions, rule, kinematics);
     set_shares(kinematics);
     directed = DirectedCells<Dim>(mesh, materials);
-    set_boundary(mesh, materials, conditions, rule, corner_rule, kinematics, free_faces);
+    set_boundary(mesh, materials, conditions, rule, corner_rule, kinematics);
 }
 
 template <int Dim>
@@ -140,8 +140,8 @@ void CcgArrays<Dim>::set_shares(std::span<const Kinematics> kinematics) {
 template <int Dim>
 void CcgArrays<Dim>::set_boundary(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials,
                                   const FaceConditions<Dim>& conditions, FreeFaceRule rule, CornerRule corner_rule,
-                                  std::span<const Kinematics> kinematics, FreeFaces free_faces) {
-    boundary = reconstruct_boundary<Dim>(mesh, stencils, materials, conditions, rule, corner_rule, kinematics, free_faces);
+                                  std::span<const Kinematics> kinematics) {
+    boundary = reconstruct_boundary<Dim>(mesh, stencils, materials, conditions, rule, corner_rule, kinematics);
     set_affine();
     for (const Matrix<Dim>& weight : boundary.weights) boundary_weights.push_back(load_packed<Dim>(weight));
     for (const BoundaryFace b : all_ids<BoundaryFace>(n_boundary())) {

@@ -60,7 +60,7 @@ struct CcgArrays : CcgCoefficients<Dim, double> {
 
     CcgArrays(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials, const FaceConditions<Dim>& conditions,
               FreeFaceRule rule, CornerRule corner_rule, std::span<const Kinematics> kinematics = {},
-              CellForm form = CellForm::automatic, FreeFaces free_faces = FreeFaces::stay_alone);
+              CellForm form = CellForm::automatic);
 
     [[nodiscard]] std::int32_t n_cells() const { return static_cast<std::int32_t>(cells.size()); }
     [[nodiscard]] std::int32_t n_faces() const { return static_cast<std::int32_t>(face_cells.size()); }
@@ -120,7 +120,7 @@ private:
     void set_shares(std::span<const Kinematics> kinematics);
     void set_boundary(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials,
                       const FaceConditions<Dim>& conditions, FreeFaceRule rule, CornerRule corner_rule,
-                      std::span<const Kinematics> kinematics, FreeFaces free_faces);
+                      std::span<const Kinematics> kinematics);
     void set_affine();
     void set_affine_occurrences();
 };

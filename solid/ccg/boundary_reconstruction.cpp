@@ -18,10 +18,8 @@ inline constexpr double no_stiffness = 1e-10;  // of the largest eigenvalue: bel
 // together, and a plate of one cell would give way altogether.
 inline constexpr double largest_corner_cosine = 0.6;  // |n_f . n_g|: between 53 and 127 degrees
 inline constexpr double rounding = 1e-9;              // of cosines
-inline constexpr int depth_of_thick = 4;          // cells from free faces: parts of seven cells across have one that deep
-inline constexpr int near_thick = 6;              // cells: from such a one to corners of simplices on the skew
-inline constexpr double least_free_part = 1e-12;  // of a unit normal: below it a face cannot move along its normal
-inline constexpr double least_stiffness = 0.5;    // that must be left to the face, of Young's modulus |f|/|c|
+inline constexpr double least_free_part = 1e-12;      // of a unit normal: below it a face cannot move along its normal
+inline constexpr double least_stiffness = 0.5;        // that must be left to the face, of Young's modulus |f|/|c|
 
 /// One boundary face's displacement as a sum over cells, prescribed displacements and tractions.
 template <int Dim>
@@ -56,7 +54,7 @@ class Builder {
 public:
     Builder(const mesh::Mesh<Dim>& mesh, std::span<const FaceStencil<Dim>> interior, std::span<const Material> materials,
             const FaceConditions<Dim>& conditions, FreeFaceRule rule, CornerRule corner_rule,
-            std::span<const Kinematics> kinematics, FreeFaces free_faces)
+            std::span<const Kinematics> kinematics)
         : mesh_(mesh),
           interior_(interior),
           materials_(materials),
@@ -65,7 +63,6 @@ public:
           rule_(rule),
           corner_rule_(corner_rule),
           kinematics_(kinematics),
-          free_faces_(free_faces),
           index_(static_cast<std::size_t>(mesh.n_faces()), no_face),
           affine_(mesh.boundary_faces.size()),
           rows_(mesh.boundary_faces.size()) {
@@ -73,7 +70,6 @@ public:
     }
 
     BoundaryReconstruction<Dim> build() {
-        find_thick_parts();
         select_affine_stencils();
         for (std::int32_t cell = 0; cell < mesh_.n_cells(); ++cell) reconstruct(cell);
         return pack();
@@ -119,57 +115,15 @@ private:
         return finite ? FreeFaceRule::extrapolate : rule_;
     }
 
-    /// Whether the traces of a cell could do without the balance of its free faces: one of them has no support. Jumps of metal stay as
-    /// they are.
-    bool may_have_affine_traces(std::int32_t cell) const {
-        if (free_faces_ != FreeFaces::are_pushed || rule_of(cell) != FreeFaceRule::local_equilibrium) return false;
-        if (materials_[mesh_.cell_body[cell]].law == MaterialLaw::j2) return false;
-        return std::ranges::any_of(mesh_.cell_faces[cell], [&](std::int32_t face) { return is_without_support(face); });
-    }
-
-    bool is_without_support(std::int32_t face) const {
-        const BoundaryFace b = index_[face];
-        return b != no_face && conditions_.prescribed[b].isZero(0.0) && !is_joined(b);
-    }
-
-    /// Whether they do: in parts that are not thin. Between free faces that balance on both sides jumps alone keep cells together; affine ones
-    /// let a plate of two layers change its thickness at no cost, and the lowest mode of a square of 4, 6, 8, 16 bricks across lose 54,
-    /// 19, 6 and 0.6 % of the square of its frequency.
+    /// Whether the traces of a cell do without the balance of its free faces: one of them has no support. Jumps of metal stay as they are.
     bool has_affine_traces(std::int32_t cell) const {
-        return may_have_affine_traces(cell) && is_thick_[static_cast<std::size_t>(cell)] != 0;
-    }
-
-    /// Cells at most `near_thick` others away from one that is the fourth from all free faces, or farther.
-    void find_thick_parts() {
-        if (free_faces_ != FreeFaces::are_pushed) return;
-        std::vector<char> on_face(mesh_.vertices.size(), 0);
-        for (const std::int32_t face : mesh_.boundary_faces)
-            if (is_without_support(face))
-                for (const std::int32_t vertex : mesh_.face_vertices[face]) on_face[static_cast<std::size_t>(vertex)] = 1;
-        std::vector<char> near_face = cells_at(on_face);
-        for (int depth = 2; depth < depth_of_thick; ++depth) near_face = around(near_face);
-        for (const char is_near : near_face) is_thick_.push_back(is_near != 0 ? 0 : 1);
-        for (int away = 0; away < near_thick; ++away) is_thick_ = around(is_thick_);
-    }
-
-    /// The cells that have one of the marked vertices.
-    std::vector<char> cells_at(const std::vector<char>& vertices) const {
-        std::vector<char> cells;
-        for (std::int32_t cell = 0; cell < mesh_.n_cells(); ++cell)
-            cells.push_back(std::ranges::any_of(mesh_.cell_vertices[cell],
-                                                [&](std::int32_t v) { return vertices[static_cast<std::size_t>(v)] != 0; })
-                                ? 1
-                                : 0);
-        return cells;
-    }
-
-    /// The marked cells, and all that have a vertex in common with one.
-    std::vector<char> around(const std::vector<char>& cells) const {
-        std::vector<char> vertices(mesh_.vertices.size(), 0);
-        for (std::int32_t cell = 0; cell < mesh_.n_cells(); ++cell)
-            if (cells[static_cast<std::size_t>(cell)] != 0)
-                for (const std::int32_t vertex : mesh_.cell_vertices[cell]) vertices[static_cast<std::size_t>(vertex)] = 1;
-        return cells_at(vertices);
+        if (conditions_.is_thick.empty() || conditions_.is_thick[static_cast<std::size_t>(cell)] == 0) return false;
+        if (rule_of(cell) != FreeFaceRule::local_equilibrium || materials_[mesh_.cell_body[cell]].law == MaterialLaw::j2)
+            return false;
+        return std::ranges::any_of(mesh_.cell_faces[cell], [&](std::int32_t face) {
+            const BoundaryFace b = index_[face];
+            return b != no_face && conditions_.prescribed[b].isZero(0.0) && !is_joined(b);
+        });
     }
 
     /// An affine extrapolation is wanted where the equilibrium of the cell alone may not fix the faces, and where traces ask for it.
@@ -277,7 +231,7 @@ private:
     Eigen::MatrixXd compliance_of(std::int32_t cell, const std::vector<BoundaryFace>& faces, const Eigen::MatrixXd& among) {
         std::vector<FreeFaceOfCell<Dim>> free;
         for (const BoundaryFace b : faces) free.push_back({normal_of(b), free_part(b)});
-        Eigen::MatrixXd b = balancing_combinations<Dim>(free);  // of û, which is |c|/|f| z
+        Eigen::MatrixXd b = balancing_combinations<Dim>(free);                // of û, which is |c|/|f| z
         if (b.cols() == 0) return Eigen::MatrixXd::Zero(b.rows(), b.rows());  // all is held
         for (std::size_t i = 0; i < faces.size(); ++i)
             b.middleRows<Dim>(first_row(i)) *= mesh_.cell_measure[cell] / mesh_.face_measure[mesh_face(mesh_, faces[i])];
@@ -382,8 +336,6 @@ private:
     FreeFaceRule rule_;
     CornerRule corner_rule_;
     std::span<const Kinematics> kinematics_;
-    FreeFaces free_faces_;
-    std::vector<char> is_thick_;                       // by cell; empty where nothing pushes free faces
     std::vector<BoundaryFace> index_;                  // by face; none inside
     IdVector<BoundaryFace, FaceStencil<Dim>> affine_;  // where wanted
     IdVector<BoundaryFace, Row<Dim>> rows_;
@@ -404,15 +356,15 @@ template <int Dim>
 BoundaryReconstruction<Dim> reconstruct_boundary(const mesh::Mesh<Dim>& mesh, std::span<const FaceStencil<Dim>> interior,
                                                  std::span<const Material> materials, const FaceConditions<Dim>& conditions,
                                                  FreeFaceRule rule, CornerRule corner_rule,
-                                                 std::span<const Kinematics> kinematics, FreeFaces free_faces) {
-    return Builder<Dim>(mesh, interior, materials, conditions, rule, corner_rule, kinematics, free_faces).build();
+                                                 std::span<const Kinematics> kinematics) {
+    return Builder<Dim>(mesh, interior, materials, conditions, rule, corner_rule, kinematics).build();
 }
 
 #define ABUT_INSTANTIATE(Dim)                                                                                             \
     template Matrix<Dim> face_stiffness<Dim>(double, double, double, const Vector<Dim>&, const Vector<Dim>&);             \
     template BoundaryReconstruction<Dim> reconstruct_boundary<Dim>(                                                       \
         const mesh::Mesh<Dim>&, std::span<const FaceStencil<Dim>>, std::span<const Material>, const FaceConditions<Dim>&, \
-        FreeFaceRule, CornerRule, std::span<const Kinematics>, FreeFaces);
+        FreeFaceRule, CornerRule, std::span<const Kinematics>);
 ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)
 #undef ABUT_INSTANTIATE

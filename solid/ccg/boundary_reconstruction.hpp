@@ -38,7 +38,7 @@ struct BoundaryReconstruction {
     /// k_f = n . A_ff n / |f|, what the answers leave of it, stabilisation left out (n_boundary); infinity: the displacement
     /// along the normal is prescribed [Pa/m]
     std::vector<double> normal_stiffness;
-    std::vector<AffineFace<Dim>> affine;  ///< cell by cell, increasing; of FreeFaces::are_pushed
+    std::vector<AffineFace<Dim>> affine;  ///< cell by cell, increasing: FaceConditions::is_thick
     StencilReport report;                 ///< of the affine extrapolations that were needed
 
     [[nodiscard]] std::int32_t size() const { return static_cast<std::int32_t>(offsets.size()) - 1; }
@@ -53,10 +53,12 @@ struct BoundaryReconstruction {
 /// `interior` holds a stencil for every interior face, by face number. Free faces of bodies of Kinematics::finite (one per
 /// body; empty: none) are extrapolated, whatever the rule: FreeCell says what they do beside that.
 template <int Dim>
-[[nodiscard]] BoundaryReconstruction<Dim> reconstruct_boundary(
-    const mesh::Mesh<Dim>& mesh, std::span<const FaceStencil<Dim>> interior, std::span<const Material> materials,
-    const FaceConditions<Dim>& conditions, FreeFaceRule rule, CornerRule corner_rule, std::span<const Kinematics> kinematics,
-    FreeFaces free_faces = FreeFaces::stay_alone);
+[[nodiscard]] BoundaryReconstruction<Dim> reconstruct_boundary(const mesh::Mesh<Dim>& mesh,
+                                                               std::span<const FaceStencil<Dim>> interior,
+                                                               std::span<const Material> materials,
+                                                               const FaceConditions<Dim>& conditions, FreeFaceRule rule,
+                                                               CornerRule corner_rule,
+                                                               std::span<const Kinematics> kinematics);
 
 /// A_fg of a cell: the answer of dV/dũ_f to a displacement of g, stabilisation left out; the area
 /// vectors |f| n_f and |g| n_g point out of the cell. docs/method.md, Space.

@@ -75,7 +75,7 @@ Ccg<Dim>::Impl::Impl(const mesh::Mesh<Dim>& mesh, std::span<const Material> mate
     : conditions(boundary_conditions),
       face_conditions(sort_to_faces(mesh, boundary_conditions)),
       arrays(mesh, checked(mesh, materials), face_conditions, conditions.free_face_rule, conditions.corner_rule, kinematics,
-             form, free_faces),
+             form),
       finite(mesh, face_conditions, kinematics, finite_options),
       viscous(mesh, materials),
       plastic(mesh, materials, kinematics, face_conditions, conditions.free_face_rule, free_faces, arrays),

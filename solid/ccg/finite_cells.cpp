@@ -52,10 +52,10 @@ FiniteCells<Dim>::FiniteCells(const mesh::Mesh<Dim>& mesh, const FaceConditions<
     for (std::int32_t c = 0; c < mesh.n_cells(); ++c)
         if (properties_of(kinematics[static_cast<std::size_t>(mesh.cell_body[c])]).finite_strains) position_[c] = inside;
     std::vector<std::vector<FreeFace<Dim>>> faces(position_.size());
-    const auto is_loaded = conditions.are_loaded();  // what is behind these bears it
+    const auto is_loaded = conditions.are_loaded();  // what is behind these bears it, as it does a bond
     for (const BoundaryFace b : boundary_faces(mesh)) {
         const std::int32_t cell = cell_of(mesh, b), face = mesh_face(mesh, b);
-        if (!contains(cell) || !conditions.prescribed[b].isZero(0.0) || is_loaded[b]) continue;
+        if (!contains(cell) || !conditions.prescribed[b].isZero(0.0) || is_loaded[b] || conditions.joined[b]) continue;
         faces[cell].push_back({mesh.face_normal[face], mesh.face_measure[face]});
     }
     for (std::int32_t c = 0; c < mesh.n_cells(); ++c) {

@@ -318,3 +318,40 @@ TEST_CASE("a finite triangle bears a stretch along two free faces that turn by l
     }
     CHECK(n_roofs == 4);
 }
+
+TEMPLATE_TEST_CASE_SIG("a bond of finite blocks bears a uniform tension, in their edges and corners, too", "[solid][patch]",
+                       ((int Dim), Dim), 2, 3) {
+    // Meshes that do not match; the bond opens by t (d_1 + d_2)/2 of the wave modulus, d being |c|/|f| of the cells behind it.
+    const CellShape shape = GENERATE(Dim == 2 ? CellShape::quadrangle : CellShape::hexahedron, CellShape::triangle);
+    if (Dim == 3 && shape == CellShape::triangle) return;
+    const solid::Material material{.young = 1.0, .poisson = 0.3, .density = 1.0};
+    const Patch<Dim> patch{Side::dead, Side::free, Kinematics::finite, material, 0.0};
+    const Matrix<Dim> gradient = gradient_of(patch), first = first_stress(patch, gradient);
+    const Vector<Dim> lower = Vector<Dim>::Zero(), upper = Vector<Dim>::Ones(), along = Vector<Dim>::UnitX();
+    const auto counts = [](std::int32_t nx, std::int32_t n) {
+        std::array<std::int32_t, Dim> all;
+        all.fill(n);
+        all[0] = nx;
+        return all;
+    };
+    const auto mesh = together(mesh::structured_box<Dim>(lower - along, upper - along, counts(4, 3), shape, "a"),
+                               mesh::structured_box<Dim>(lower, upper, counts(5, 4), shape, "b"));
+    auto options = finite_of<Dim>(material, 2);
+    options.contact.reset();
+    options.bonds = {{.sides = {0, 1}, .strength = 1.0}};
+    const Vector<Dim> traction = first * along;
+    options.boundary.traction = {{.group = "a.xmin", .value = -traction}, {.group = "b.xmax", .value = traction}};
+    solid::Solid<Dim> solid(mesh, options);
+    const double depth = (1.0 / 4 + 1.0 / 5) * (shape == CellShape::triangle ? 0.5 : 1.0);
+    const Vector<Dim> opening = 0.5 * depth / material.wave_modulus() * traction;
+    std::vector<double> q, force(solid.size());
+    for (const Vector<Dim>& x : solid.rest_positions()) {
+        const Vector<Dim> u = gradient * x + (x[0] > 0.0 ? opening : Vector<Dim>(Vector<Dim>::Zero()));
+        q.insert(q.end(), u.begin(), u.end());
+    }
+    solid.mean_force(q, q, 0.0, 0.01, force);
+    CHECK(largest(force) <= 1e-13);
+    const Matrix<Dim> stretch = Matrix<Dim>::Identity() + gradient;
+    const Matrix<Dim> stress = first * stretch.transpose() / stretch.determinant();
+    for (std::int32_t c = 0; c < mesh.n_cells(); ++c) CHECK((solid.cells().stress(c) - stress).norm() <= 1e-13);
+}
