@@ -30,6 +30,7 @@ private:
 };
 
 /// Two blocks of two cells 0.5 m apart; `more` goes behind.
+/// For three steps, unless `more` has a time.
 inline std::string two_blocks(const std::string& more = "") {
     return R"toml(dim = 2
 [bodies.left]
@@ -48,8 +49,7 @@ counts = [3, 3]
 young = 1
 density = 1
 [run]
-steps = 3
-)toml" + more;
+)toml" + (("\n" + more).find("\ntime =") == std::string::npos ? "steps = 3\n" + more : more);
 }
 
 }  // namespace abut::test

@@ -24,9 +24,9 @@ class PairScene {
 public:
     explicit PairScene(const std::string& tables)
         : written_(
-              "dim = 2\nrun.steps = 1\nenergy_scale = 1\n[materials.lead]\nyoung = 7\ndensity = 8\n[bodies.pair]\nmesh = "
-              "\"pair.msh\"\n" +
-              tables) {
+              "dim = 2\nrun.steps = 1\nenergy_scale = 1\n" +
+              (tables.find("lead") == std::string::npos ? std::string() : "[materials.lead]\nyoung = 7\ndensity = 8\n") +
+              "[bodies.pair]\nmesh = \"pair.msh\"\n" + tables) {
         std::ofstream(written_.path().parent_path() / "pair.msh") << pair_msh;
     }
     [[nodiscard]] run::Scene<2> scene() const { return input::SceneFile(written_.path()).scene<2>(); }

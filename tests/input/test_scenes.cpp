@@ -192,12 +192,12 @@ turn = "pi/6"
 young = 3
 poisson = 0.2
 density = 4
-eta = 5
 kinematics = "rigid"
 velocity = [0, -2]
 spin = 6
 )toml"));
-    const input::SceneFile file(written.path(), {.set = {"gravity=[0, -10]", "energy_scale=8", "bodies.left.young=7"}});
+    const input::SceneFile file(written.path(),
+                                {.set = {"gravity=[0, -10]", "energy_scale=8", "bodies.left.young=7", "bodies.left.eta=5"}});
     const run::Scene<2> scene = file.scene<2>();
     CHECK(scene.mesh.body_names == std::vector<std::string>{"left", "right", "round"});
     REQUIRE(scene.solid.materials.size() == 3);
@@ -206,7 +206,7 @@ spin = 6
     CHECK(material.young == 3.0);
     CHECK(material.poisson == 0.2);
     CHECK(material.density == 4.0);
-    CHECK(material.eta == 5.0);
+    CHECK(scene.solid.materials[0].eta == 5.0);
     CHECK(scene.solid.kinematics ==
           std::vector{solid::Kinematics::small, solid::Kinematics::small, solid::Kinematics::rigid});
     CHECK(scene.velocity[0] == Vector<2>(1.0, 0.0));

@@ -239,7 +239,7 @@ TEST_CASE("cells that swing with an energy that never was there end as diverged"
         static_cast<void>(run::simulate<2>(scene, file.options()));
         FAIL("H - H~ is more than all energy that was there");
     } catch (const Diverged& error) {
-        CHECK_THAT(error.what(), Catch::Contains("H - H~") && Catch::Contains("'block'"));
+        CHECK_THAT(error.what(), Catch::Contains("H - H~") && Catch::Contains(" of body '"));
         CHECK(error.facts().value > error.facts().allowed);
     }
 }

@@ -23,7 +23,7 @@ run::Scene<2> block(Kinematics kinematics, double degrees) {
     scene.mesh = mesh::structured_box<2>({0.0, 0.0}, {width, height}, {8, 4}, mesh::CellShape::quadrangle, "block");
     scene.solid.materials = {{.young = 1e7, .poisson = 0.3, .density = 1000.0}};
     scene.solid.kinematics = {kinematics};
-    scene.solid.obstacles = {contact::plane_obstacle<2>(Vector<2>::Zero(), Vector<2>::UnitY(), 10.0)};
+    scene.solid.obstacles = {contact::plane_obstacle<2>(Vector<2>::Zero(), Vector<2>::UnitY(), 1e4)};
     const double angle = degrees * M_PI / 180.0;
     scene.solid.acceleration = {g * Vector<2>(std::sin(angle), -std::cos(angle))};
     scene.velocity = {Vector<2>::Zero()};
