@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "abut/base/error.hpp"
 #include "abut/base/ids.hpp"
@@ -14,11 +13,9 @@
 namespace abut::contact {
 namespace {
 
-/// By how much a facet of this least height turns, at most, while no corner moves by more than `reach` [rad]; infinite: by any angle.
-double largest_turn(double height, double reach) {
-    const double tilted = 2.0 * reach / height;
-    return tilted < 0.5 ? tilted / (1.0 - tilted) : std::numeric_limits<double>::infinity();
-}
+// Of two facets of one body: by how much n_1 . n_2 changes while a list is valid, and by how much n turns [rad].
+constexpr double turns_at_most = 0.1;
+constexpr double turns_in_all = 0.2;
 
 /// Of each body.
 template <int Dim>
@@ -42,6 +39,7 @@ NodeLaw<Dim>::NodeLaw(BevelledSurface<Dim> surface, const NodalOptions& options,
       inside_(acting().facets().view(), touches_itself(acting(), options_.search)),
       pairs_(options_.facing, options_.friction, options_.interference, sharing),
       ramps_(options_.interference),
+      looks_away_(std::cos(std::acos(std::clamp(options_.facing.none, -1.0, 1.0)) - turns_in_all)),
       law_(options_.events, options_.friction, sharing) {
     const Surface<Dim>& facets = surface_.host().facets();
     for (std::int32_t facet = 0; facet < facets.size(); ++facet)
@@ -61,11 +59,11 @@ template <int Dim>
 void NodeLaw<Dim>::search(CandidateSearch<Dim>& candidates, State x_0, State x_1) {
     geometry::PairFilter within;
     if (options_.search.self_contact) {
+        place_facets(x_0);
         const double in_step = std::sqrt(
             largest(n_watched(), [&](std::ptrdiff_t i) { return (position(x_1, i) - position(x_0, i)).squaredNorm(); }));
-        const double reach = std::max(0.5 * candidates.next_skin(), in_step);
-        place_facets(x_0, reach);
-        within = [this, reach](std::int32_t facet_1, std::int32_t facet_2) {
+        within = [this, reach = std::max(0.5 * candidates.next_skin(), in_step)](std::int32_t facet_1,
+                                                                                 std::int32_t facet_2) {
             return may_come_together({Facet{std::min(facet_1, facet_2)}, Facet{std::max(facet_1, facet_2)}}, reach);
         };
     }
@@ -84,61 +82,47 @@ void NodeLaw<Dim>::search(CandidateSearch<Dim>& candidates, State x_0, State x_1
 }
 
 template <int Dim>
-void NodeLaw<Dim>::place_facets(State x, double reach) {
+void NodeLaw<Dim>::place_facets(State x) {
     const std::int32_t n = facets().size();
-    placed_.resize(static_cast<std::size_t>(n));
+    middle_.resize(static_cast<std::size_t>(n));
+    normal_.resize(middle_.size());
+    if (radius_.empty())
+        for (std::int32_t facet = 0; facet < n; ++facet) radius_.push_back(circumradius(facets(), facet));
     parallel_each(
         n,
         [&](std::ptrdiff_t facet) {
             const auto corners = facets().vertices_of(static_cast<std::int32_t>(facet));
-            PlacedFacet& placed = placed_[static_cast<std::size_t>(facet)];
-            double height = 0.0;
             if constexpr (Dim == 2) {
                 const Vector<2> along = x[corners[1]] - x[corners[0]];
-                placed.middle = 0.5 * (x[corners[0]] + x[corners[1]]);
-                placed.normal = Vector<2>(along[1], -along[0]).normalized();
-                height = along.norm();
+                middle_[facet] = 0.5 * (x[corners[0]] + x[corners[1]]);
+                normal_[facet] = Vector<2>(along[1], -along[0]).normalized();
             } else {
                 const Vector<3> a = x[corners[0]], b = x[corners[1]], c = x[corners[2]];
-                placed.middle = (a + b + c) / 3.0;
-                const Vector<3> twice_area = moment<3>(b - a, c - a);
-                placed.normal = twice_area.normalized();
-                height = twice_area.norm() / std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()});
+                middle_[facet] = (a + b + c) / 3.0;
+                normal_[facet] = moment<3>(b - a, c - a).normalized();
             }
-            placed.radius = 0.0;
-            for (const std::int32_t corner : corners)
-                placed.radius = std::max(placed.radius, (x[corner] - placed.middle).norm());
-            placed.turn = largest_turn(height, reach);
-            placed.weight = Dim == 2 ? facets().area[facet] : 1.0;
-            placed.depth = facets().cell_depth[facet];
         },
         1024);
 }
 
-/// Of two facets of one body, while no corner moves by more than `reach`. They are neighbours on its surface, and turn little
-/// against each other in that time: those that look too much the same way, and those that are far above, behind or beside
+/// Of two facets of one body, when no corner moves by more than `reach`. They are neighbours on its surface, and turn little
+/// against each other while a list is valid: those that look too much the same way, and those that are far above, behind or beside
 /// each other seen along n, come together after the next search at the earliest. What has a mark comes out only if it is shallow
 /// and the facets look at each other.
 template <int Dim>
 bool NodeLaw<Dim>::may_come_together(FacetPair pair, double reach) const {
-    const PlacedFacet &facet_1 = placed_[static_cast<std::size_t>(pair.facet_1)],
-                      &facet_2 = placed_[static_cast<std::size_t>(pair.facet_2)];
-    const double turn = facet_1.turn + facet_2.turn;  // of one against the other
-    if (facet_1.normal.dot(facet_2.normal) > options_.facing.none + turn) return false;
-    const double turn_of_n = std::min(1.0, 1.5 * turn);
-    const Vector<Dim> n = (facet_1.weight * facet_1.normal - facet_2.weight * facet_2.normal).normalized();
-    const Vector<Dim> between = facet_2.middle - facet_1.middle;
-    const double height = between.dot(n), distance = between.norm();
-    const auto depth_along_n = [&](const PlacedFacet& facet) {
-        const double cosine = facet.normal.dot(n);
-        return std::min(1.0, std::sqrt(std::max(0.0, 1.0 - cosine * cosine)) + turn_of_n) * facet.radius;
-    };
-    const double slack = 2.0 * reach + depth_along_n(facet_1) + depth_along_n(facet_2) + turn_of_n * distance;
-    if (height > slack) return false;
-    const double aside = 2.0 * reach + facet_1.radius + facet_2.radius + turn_of_n * distance;
+    const auto facet_1 = static_cast<std::size_t>(pair.facet_1), facet_2 = static_cast<std::size_t>(pair.facet_2);
+    const double facing = normal_[facet_1].dot(normal_[facet_2]);
+    if (facing > looks_away_) return false;
+    const Vector<Dim> between = middle_[facet_2] - middle_[facet_1];
+    const double height = between.dot((normal_[facet_1] - normal_[facet_2]).normalized()), distance = between.norm();
+    const double sizes = radius_[facet_1] + radius_[facet_2], turned = turns_in_all * distance;
+    const double tilt = std::sqrt(std::max(0.0, 0.5 * (1.0 + facing))), slack = 2.0 * reach + tilt * sizes;
+    if (height > slack + turned) return false;
+    const double aside = 2.0 * reach + sizes + turned;
     if (distance * distance - height * height > aside * aside) return false;
-    if (inside_.has(pair)) return height >= -slack;
-    return height >= -(slack + facet_1.depth + facet_2.depth);
+    if (inside_.has(pair)) return height >= -slack && facing <= options_.facing.none + turns_at_most;
+    return height >= -(slack + turned + facets().cell_depth[facet_1] + facets().cell_depth[facet_2]);
 }
 
 /// Whether a pair has come out of its body: the facets look at each other, and none is behind the other one.

@@ -92,16 +92,7 @@ private:
         if (step.nodes.size() != listed_nodes().size()) step.nodes = listed_nodes();
     }
     void fold(NodalStep<Dim>& step) const { surface_.fold(step.nodes, step.gradient); }
-    /// A facet where a search begins, while no corner moves by more than a reach.
-    struct PlacedFacet {
-        Vector<Dim> middle, normal;
-        double radius;  // of its corners about the middle [m]
-        double turn;    // that it makes at most [rad]
-        double weight;  // of its normal in that of a pair
-        double depth;   // of the cell behind it [m]
-    };
-
-    void place_facets(State x, double reach);
+    void place_facets(State x);
     [[nodiscard]] bool may_come_together(FacetPair pair, double reach) const;
     [[nodiscard]] bool is_seen_from_outside(const NodalPair<Dim>& pair, State x) const;
     void set_inside_pairs_apart(std::vector<FacetPair>& pairs, State x_0);
@@ -114,10 +105,12 @@ private:
     Sharing* sharing_;
     SideOutlines<Dim> sides_;
     InsidePairs<Dim> inside_;
-    std::vector<NodalPair<Dim>> watched_;  // of these, that may be seen from outside while the list is valid
-    std::vector<PlacedFacet> placed_;      // of a body that touches itself
+    std::vector<NodalPair<Dim>> watched_;       // of these, that may be seen from outside while the list is valid
+    std::vector<Vector<Dim>> middle_, normal_;  // of each facet where a search begins
+    std::vector<double> radius_;                // and at rest
     NodalPairs<Dim> pairs_;
     InterferenceRamps ramps_;
+    double looks_away_;  // n_1 . n_2 of two facets of one body that have no weight for as long as a list is valid
     PairPotential<Dim> law_;
     std::int32_t least_force_size_ = 0;  // nodes up to the last one of a deformable face
 };

@@ -3,10 +3,8 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <functional>
-#include <memory>
 #include <numbers>
 #include <set>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -343,57 +341,6 @@ TEMPLATE_TEST_CASE_SIG("a strip of one layer that rolls up touches itself with i
     CHECK(compared.true_pairs > 1000);
     CHECK(compared.missed == 0);
     CHECK(compared.wrong == 0);
-}
-
-/// Two arms on a foot close like a book, each with one face along it: that turns by half a right angle and more while no corner moves
-/// by more than a skin that is as large as the arms.
-TEST_CASE("what a body touches of itself depends neither on the skin nor on when its list was made nor on a restart",
-          "[contact][nodal][self]") {
-    const auto book = [](double angle) {
-        const auto turned = [](const Vector<2>& point, const Vector<2>& about, double by) -> Vector<2> {
-            const Vector<2> arm = point - about;
-            return about +
-                   Vector<2>(std::cos(by) * arm[0] - std::sin(by) * arm[1], std::sin(by) * arm[0] + std::cos(by) * arm[1]);
-        };
-        const Vector<2> left(0.2, 0.0), right(0.8, 0.0);
-        return std::vector<Vector<2>>{{0.0, -0.3},
-                                      {1.0, -0.3},
-                                      turned({1.0, 0.0}, right, -angle),
-                                      turned({1.0, 1.0}, right, -angle),
-                                      turned({0.8, 1.0}, right, -angle),
-                                      right,
-                                      left,
-                                      turned({0.2, 1.0}, left, angle),
-                                      turned({0.0, 1.0}, left, angle),
-                                      turned({0.0, 0.0}, left, angle)};
-    };
-    const auto [from, to, steps] = GENERATE(std::tuple(0.9, -0.45, 30), std::tuple(0.9, -0.45, 300),
-                                            std::tuple(0.5, -0.45, 100), std::tuple(0.2, -0.4, 100));
-    const auto energies = [&, from = from, to = to, steps = steps](double skin, int restart_every) {
-        NodalScene<2> scene;
-        scene.rest = book(from);
-        scene.faces.stiffness.push_back(1.0);
-        for (std::int32_t i = 0; i < 10; ++i) scene.faces.append_face(std::array{i, (i + 1) % 10}, 0.2, 0);
-        contact::NodalOptions options = touching_itself();
-        options.search.skin = skin;
-        options.compression_limit = 1e9;
-        auto contact = std::make_unique<NodalContact<2>>(scene.surface(), options);
-        std::vector<double> result;
-        for (int i = 0; i < steps; ++i) {
-            result.push_back(
-                contact->step(1e-3, book(from + (to - from) * i / steps), book(from + (to - from) * (i + 1) / steps))
-                    .energy);
-            if (restart_every == 0 || i % restart_every != 0) continue;
-            const auto state = contact->state();
-            contact = std::make_unique<NodalContact<2>>(scene.surface(), options);
-            contact->restore(state);
-        }
-        return result;
-    };
-    const std::vector<double> of_one = energies(0.0, 0);
-    CHECK(of_one.back() > 0.0);
-    for (const double skin : {1e-3, 0.05, 0.5, 2.0, 10.0})
-        for (const int restart_every : {0, 7}) CHECK(energies(skin, restart_every) == of_one);
 }
 
 TEMPLATE_TEST_CASE_SIG("a body that touches itself goes on from its state with the same bits", "[contact][nodal][self]",
