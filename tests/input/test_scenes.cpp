@@ -84,7 +84,8 @@ TEST_CASE("the estimate of a check is what the run takes", "[input][check]") {
 }
 
 TEST_CASE("every key of [run], [contact] and [output] reaches its option", "[input][scenes]") {
-    const WrittenScene written(two_blocks(R"toml(time = 2
+    const WrittenScene written(two_blocks(R"toml(steps = 3
+time = 2
 cfl = 0.5
 dt = 1e-3
 allow_unstable = true
