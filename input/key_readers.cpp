@@ -219,8 +219,6 @@ void read_output(const Settings& settings) {
     given.read("output.probes");
     given.read_with(settings.contact, "output.forces", with_contact);
     given.read_with(settings.options.frames != 0, "output.fields", "output.frames");
-    given.read_with(settings.forces || !settings.probes.empty(), "output.sample_interval",
-                    "output.forces or output.probes, whose rows it counts");
 }
 
 }  // namespace

@@ -57,7 +57,7 @@ ViscousCells<Dim>::ViscousCells(const mesh::Mesh<Dim>& mesh, std::span<const Mat
         const double measure = mesh.cell_measure[c];
         const bool is_simplex = mesh.cell_faces[c].size() == Dim + 1;
         const double size = std::pow((is_simplex ? simplices_in_a_cube<Dim> : 1.0) * measure, 1.0 / Dim);
-        cells_.push_back({.material = &material, .measure = measure, .size = size});
+        cells_.push_back({&material, measure, size, {}, {}, {}, {}});
     }
 }
 
@@ -107,12 +107,8 @@ template <int Dim>
 Vector<Dim> ViscousCells<Dim>::drag(std::ptrdiff_t cell, double mass, const Vector<Dim>& motion, double dt) {
     Cell& of = at(cell);
     of.of_drag = {};
-    if (!(of.material->mass_damping > 0.0)) return Vector<Dim>::Zero();
-    if (dt != of.dt) {
-        of.dt = dt;
-        of.drag = -std::expm1(-of.material->mass_damping * dt) / dt;  // velocities fall by exp(-alpha dt) in a step
-    }
-    const double damping = of.drag * mass;
+    const double damping = of.material->mass_damping * mass;
+    if (!(damping > 0.0)) return Vector<Dim>::Zero();
     of.now.velocity = motion / dt;
     of.now.moves_known = true;
     const Vector<Dim> before = of.before.moves_known ? of.before.velocity : of.now.velocity;
@@ -142,7 +138,7 @@ template <int Dim>
 void ViscousCells<Dim>::bring_to_rest() {
     for (Cell& cell : cells_) {
         cell.before = {};
-        cell.before.deforms_known = true;  // bodies may fly on
+        cell.before.deforms_known = cell.before.moves_known = true;
     }
 }
 

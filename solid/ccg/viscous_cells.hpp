@@ -37,7 +37,7 @@ public:
     [[nodiscard]] dynamics::Losses loss(std::ptrdiff_t cell) const;
     /// The next step begins where this one ends.
     void end_step();
-    /// The next step begins with strains that do not change.
+    /// The next step begins with rates of 0.
     void bring_to_rest();
 
     /// The largest Material::damping_ratio of a mode with this frequency [rad/s].
@@ -61,7 +61,6 @@ private:
     struct Cell {
         const Material* material;
         double measure, size;
-        double dt = 0.0, drag = 0.0;  // of the last step, and the part of the velocity that the drag takes in a second [1/s]
         Rates before, now;
         dynamics::Losses of_stress, of_drag;
     };

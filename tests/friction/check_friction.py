@@ -163,7 +163,7 @@ def shaken_table(programs):
 def a_slip_that_alternates_is_said(programs):
     """In the end the faces of a shaken block slide back and forth in each step: the balance holds, and D is more than W."""
     table = keys(bodies__block__velocity="[0, 0]", obstacles__floor__path='["0.5/(4*pi)*(1 - cos(4*pi*t))", "0"]',
-                 run__time=22)
+                 run__time=20)
     done = run(programs, "block.toml", *table, "--filter", "neutral", "--restart", "0").require_end()
     last = done.rows()[-1]
     require(last["dissipated"] > last["work"], "the run is not lost: this scene shows nothing")
@@ -175,7 +175,7 @@ def a_slip_that_alternates_is_said(programs):
 def a_slip_that_alternates_in_a_part_of_a_run_is_said(programs):
     """At half the step the shaken block is lost after half of its time: the mean over the whole run hides it."""
     table = keys(bodies__block__velocity="[0, 0]", obstacles__floor__path='["0.5/(4*pi)*(1 - cos(4*pi*t))", "0"]',
-                 run__time=22)
+                 run__time=20)
     done = run(programs, "block.toml", *table, "--cfl", "0.45", "--filter", "neutral", "--restart", "0").require_end()
     friction = done.summary["friction"]
     require(friction["sliding_share"] > 0.6, f"the whole run has {friction['sliding_share']:.2g}: this scene shows nothing of parts")

@@ -306,17 +306,5 @@ frames = 0
     require(max(steps) / min(steps) - 1 <= 1e-9, f"steps are {steps}")
 
 
-@claim
-def a_drag_takes_its_exponential(programs):
-    """exp(-alpha t) of the momentum, and exp(-2 alpha t) of the energy, of a body that flies freely, at any step."""
-    for dt in (0.05, 0.02):
-        scene = Scene({"a": (block((0, 0), (1, 1), (8, 8)), {"mass_damping": 0.1, "velocity": [0.01, 0.02]})}, dt=dt, steps=round(8 / dt))
-        own = results(programs, scene, Image())
-        left = math.exp(-0.1 * 8)
-        for at in (-2, -1):
-            start = own["a.velocity"][at + 2]
-            require(abs(own["a.velocity"][at] / start / left - 1) <= 1e-9, f"dt {dt}: {own['a.velocity'][at] / start} is left, {left} is right")
-
-
 if __name__ == "__main__":
     sys.exit(main(CLAIMS))

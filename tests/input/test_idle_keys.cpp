@@ -81,7 +81,6 @@ TEST_CASE("a key that nothing reads is refused by its name, and those beside it 
         {"mean_force = \"trapezoid\"", {}, {"run.mean_force"}},
         {"rebalance_above = 2", {}, {"run.rebalance_above"}},
         {"[output]\nframes = 0\nformat = \"xdmf\"\nfields = [\"stress\"]", {}, {"output.format", "output.fields"}},
-        {"[output]\nsample_interval = 3", {}, {"output.sample_interval"}},
         // of bonds and springs
         {"[[bonds]]\nbodies = [\"left\", \"right\"]\nfracture_energy = 1",
          {"bodies.right.place=[-0.5, 0]"},
