@@ -217,6 +217,7 @@ void read_contact(const Settings& settings) {
 void read_output(const Settings& settings) {
     const GivenKeys& given = settings.given;
     given.read("output.probes");
+    given.read("output.sample_interval");  // in memory there are always rows to take
     given.read_with(settings.contact, "output.forces", with_contact);
     given.read_with(settings.options.frames != 0, "output.fields", "output.frames");
 }
