@@ -229,12 +229,14 @@ private:
         return {std::move(among), std::move(with_b)};
     }
 
-    /// (n_faces Dim)^2, of balancing combinations of free faces alone: B (B^T A B)^-1 B^T, A the stiffness among them [m/N].
+    /// (n_faces Dim)^2, of balancing combinations of free faces alone: B (B^T A B)^-1 B^T, A the stiffness among what is free of them
+    /// [m/N]. Where these are all that strains the cell it is the pseudo-inverse of A.
     Eigen::MatrixXd compliance_of(std::int32_t cell, const std::vector<BoundaryFace>& faces, const Eigen::MatrixXd& among) {
         std::vector<FreeFaceOfCell<Dim>> free;
         for (const BoundaryFace b : faces) free.push_back({normal_of(b), free_part(b)});
-        Eigen::MatrixXd b = balancing_combinations<Dim>(free);                // of û, which is |c|/|f| z
-        if (b.cols() == 0) return Eigen::MatrixXd::Zero(b.rows(), b.rows());  // all is held
+        BalancingCombinations kept = balancing_combinations<Dim>(free);
+        if (!kept.leaves_strains) return pseudo_inverse(among, no_stiffness);
+        Eigen::MatrixXd& b = kept.of_faces;  // of û, which is |c|/|f| z
         for (std::size_t i = 0; i < faces.size(); ++i)
             b.middleRows<Dim>(first_row(i)) *= mesh_.cell_measure[cell] / mesh_.face_measure[mesh_face(mesh_, faces[i])];
         return b * pseudo_inverse(b.transpose() * among * b, no_stiffness) * b.transpose();
@@ -273,7 +275,7 @@ private:
             for (std::size_t j = 0; j < boundary.size(); ++j)
                 block(a, i, j) = stiffness(cell, mesh_face(mesh_, boundary[i]), mesh_face(mesh_, boundary[j]));
         }
-        Eigen::MatrixXd compliance = compliance_of(cell, boundary, a);
+        Eigen::MatrixXd compliance = free * compliance_of(cell, boundary, free * a * free) * free;
         Eigen::MatrixXd undetermined = free - compliance * a * free;
         Eigen::MatrixXd from_prescribed = -compliance * a;
 

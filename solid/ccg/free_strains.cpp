@@ -37,20 +37,23 @@ bool are_sharp(std::span<const FreeFaceOfCell<Dim>> faces) {
 }  // namespace
 
 template <int Dim>
-Eigen::MatrixXd balancing_combinations(std::span<const FreeFaceOfCell<Dim>> faces) {
-    if (faces.size() == 1 && faces.front().free_part.isIdentity(0.0)) return Eigen::MatrixXd::Identity(Dim, Dim);
+BalancingCombinations balancing_combinations(std::span<const FreeFaceOfCell<Dim>> faces) {
+    if (faces.size() == 1 && faces.front().free_part.isIdentity(0.0)) return {Eigen::MatrixXd::Identity(Dim, Dim)};
     Eigen::MatrixXd strains(Dim * (Dim + 1) / 2, std::ssize(faces) * Dim);
     for (std::size_t i = 0; i < faces.size(); ++i)
         for (int j = 0; j < Dim; ++j)
             strains.col(static_cast<Eigen::Index>(i) * Dim + j) =
                 mandel<Dim>(faces[i].free_part.col(j) * faces[i].normal.transpose());
     const auto [squares, combinations] = symmetric_eigen(Eigen::MatrixXd(strains.transpose() * strains));
-    const double kept = are_sharp<Dim>(faces) ? no_strain : least_strain;
-    const double least = kept * kept * squares[squares.size() - 1];
-    return combinations.rightCols(std::ranges::count_if(squares, [&](double square) { return square > least; }));
+    const double largest = squares[squares.size() - 1];
+    const auto n_above = [&](double strain) {
+        return std::ranges::count_if(squares, [&](double square) { return square > strain * strain * largest; });
+    };
+    const auto n_kept = n_above(are_sharp<Dim>(faces) ? no_strain : least_strain);
+    return {combinations.rightCols(n_kept), n_kept < n_above(no_strain)};
 }
 
-template Eigen::MatrixXd balancing_combinations<2>(std::span<const FreeFaceOfCell<2>> faces);
-template Eigen::MatrixXd balancing_combinations<3>(std::span<const FreeFaceOfCell<3>> faces);
+template BalancingCombinations balancing_combinations<2>(std::span<const FreeFaceOfCell<2>> faces);
+template BalancingCombinations balancing_combinations<3>(std::span<const FreeFaceOfCell<3>> faces);
 
 }  // namespace abut::solid

@@ -21,8 +21,12 @@ struct FreeFaceOfCell {
 /// differ by the chord of a curve, or a normal and a support by little from a right angle. To balance such a pair takes
 /// displacements that are as large as the angle is small, and leaves the cell without stress. No material and no size enters. At the tip of
 /// a wedge of less than 60 degrees all that strains is kept.
+struct BalancingCombinations {
+    Eigen::MatrixXd of_faces;
+    bool leaves_strains = false;  ///< whether another combination strains the cell, too
+};
 template <int Dim>
-[[nodiscard]] Eigen::MatrixXd balancing_combinations(std::span<const FreeFaceOfCell<Dim>> faces);
+[[nodiscard]] BalancingCombinations balancing_combinations(std::span<const FreeFaceOfCell<Dim>> faces);
 
 /// With anything between 0.1 and 0.45 quarter models of rings are the same; below 0.05 cells at their holes bear nothing.
 inline constexpr double least_strain = 0.25;

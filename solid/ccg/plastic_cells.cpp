@@ -77,7 +77,7 @@ auto PlasticCells<Dim>::response_of(const Material& material, std::span<const Fr
             for (int j = 0; j < Dim; ++j)
                 strains.col(static_cast<Eigen::Index>(i) * Dim + j) =
                     packed(free[i].free_part.col(j) * free[i].normal.transpose());
-        strains *= balancing_combinations<Dim>(free);
+        strains *= balancing_combinations<Dim>(free).of_faces;
         const Eigen::MatrixXd stresses = stiffness * strains;
         const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(strains.transpose() * stresses);
         for (Eigen::Index i = 0; i < solver.eigenvalues().size(); ++i) {
