@@ -203,11 +203,17 @@ static void glued_pieces_are_one_until_they_part(void) {
         if (error.status != ABUT_OK) printf("%s\n", error.message);
         abut_solid_state start = ABUT_SOLID_STATE_INIT, state = ABUT_SOLID_STATE_INIT;
         CHECK(abut_solid_get_state(solid, &start, &error) == ABUT_OK);
-        double traction[2][2] = {{pressure, 0.0}, {pressure, 0.0}}, speed[3][2] = {{0.0}};
+        double traction[2][2] = {{pressure, 0.0}, {pressure, 0.0}}, speed[3][2] = {{0.0}}, mean = 0.0;
+        int n_steps = 0;
         if (!parts) CHECK(abut_solid_set_traction(solid, "first.xmin", packed(traction, 2), &error) == ABUT_OK);
         for (state = start; state.time < (parts ? 1.0 : 2.6);) {
             CHECK(abut_solid_step(solid, &error) == ABUT_OK);
             CHECK(abut_solid_get_state(solid, &state, &error) == ABUT_OK);
+            if (parts || state.time < 2.2) continue;
+            abut_solid_face_arrays at_end = ABUT_SOLID_FACE_ARRAYS_INIT;
+            at_end.n_faces = 3, at_end.velocity = packed(speed, 3);
+            CHECK(abut_solid_faces(solid, "second.xmax", &at_end, &error) == ABUT_OK);
+            mean += speed[1][0], ++n_steps;
         }
         const double scale = parts ? start.kinetic : state.work_steps;
         CHECK(fabs(state.pseudo_energy + state.work_held + state.dissipated - start.pseudo_energy - state.work_steps -
@@ -216,8 +222,8 @@ static void glued_pieces_are_one_until_they_part(void) {
         abut_solid_face_arrays faces = ABUT_SOLID_FACE_ARRAYS_INIT;
         faces.n_faces = 3, faces.velocity = packed(speed, 3);
         CHECK(abut_solid_faces(solid, "second.xmax", &faces, &error) == ABUT_OK);
-        /* a wave that comes to a free end moves it with 2 p/(rho c), c = 1 */
-        if (!parts) CHECK(fabs(speed[1][0] - 2.0 * pressure) < 0.05 * pressure);
+        /* a wave that comes to a free end moves it with 2 p/(rho c), c = 1, on the mean of what rings behind its front */
+        if (!parts) CHECK(fabs(mean / n_steps - 2.0 * pressure) < 0.05 * pressure);
         abut_solid_destroy(solid);
     }
     abut_error error = ABUT_ERROR_INIT;
