@@ -163,7 +163,7 @@ def shaken_table(programs):
 def a_slip_that_alternates_is_said(programs):
     """In the end the faces of a shaken block slide back and forth in each step: the balance holds, and D is more than W."""
     table = keys(bodies__block__velocity="[0, 0]", obstacles__floor__path='["0.5/(4*pi)*(1 - cos(4*pi*t))", "0"]',
-                 run__time=20)
+                 run__time=22)
     done = run(programs, "block.toml", *table, "--filter", "neutral", "--restart", "0").require_end()
     last = done.rows()[-1]
     require(last["dissipated"] > last["work"], "the run is not lost: this scene shows nothing")
