@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "abut/input/key_readers.hpp"
@@ -365,12 +366,36 @@ void apply_preset(const Node& document, run::RunOptions& options) {
         if (preset->text == word) run::apply(choice, options);
 }
 
+/// Keys of [run] of which one alone is read.
+constexpr std::array<std::array<const char*, 2>, 2> alternatives{{{"steps", "time"}, {"cfl", "dt"}}};
+
+const Node* of_run(const Node& document, const std::string& key) {
+    const Node* run = document.find("run");
+    return run ? run->find(key) : nullptr;
+}
+
+void erase_of_run(Node& document, const std::string& key) {
+    const auto run = std::ranges::find(document.names, "run");
+    if (!of_run(document, key)) return;
+    Node& table = document.items[static_cast<std::size_t>(run - document.names.begin())];
+    const auto at = std::ranges::find(table.names, key) - table.names.begin();
+    table.names.erase(table.names.begin() + at);
+    table.items.erase(table.items.begin() + at);
+}
+
+/// A key that is set takes the place of its alternative in the file.
 void merge_overrides(Node& document, const std::vector<std::string>& set, std::vector<Fault>& faults) {
+    std::vector<Node> given;
     for (const std::string& text : set) try {
-            merge(document, read_override(text));
+            given.push_back(read_override(text));
         } catch (const SceneError& error) {
             faults.insert(faults.end(), error.faults().begin(), error.faults().end());
         }
+    for (const auto& keys : alternatives)
+        for (const std::size_t i : {0, 1})
+            if (std::ranges::any_of(given, [&](const Node& node) { return of_run(node, keys[i]) != nullptr; }))
+                erase_of_run(document, keys[1 - i]);
+    for (const Node& node : given) merge(document, node);
 }
 
 /// The first body or obstacle that may turn, as the file calls it; empty: none.
@@ -468,15 +493,19 @@ ReadTables tables_from(Node document, const std::filesystem::path& file, const O
     return read;
 }
 
-/// Of keys that nothing reads. A key of the file that has no effect only because of what replaces others of it is in order: `set` and
-/// options of a command line are how a scene is tried.
+/// Of keys that nothing reads. A key of the file that has no effect only because of what replaces others of it is in order, and so is one
+/// of `set` beside an option: `set` and options of a command line are how a scene is tried.
 std::vector<Fault> unread_keys(const ReadTables& read, const Node& document, const Overrides& overrides) {
     std::vector<Fault> faults = faults_of_unread(read.reader.given);
     if (faults.empty() || (overrides.set.empty() && !overrides.options)) return faults;
-    const auto of_file =
-        faults_of_unread(tables_from(document, read.settings.file, {.meshes = overrides.meshes}).reader.given);
+    const auto unread_with = [&](const std::vector<std::string>& set) {
+        return faults_of_unread(
+            tables_from(document, read.settings.file, {.set = set, .meshes = overrides.meshes}).reader.given);
+    };
+    const auto of_file = unread_with({}), of_set = unread_with(overrides.set);
     std::erase_if(faults, [&](const Fault& fault) {
-        return !fault.where.starts_with("--set") && std::ranges::find(of_file, fault.where, &Fault::where) == of_file.end();
+        const std::vector<Fault>& without_others = fault.where.starts_with("--set") ? of_set : of_file;
+        return std::ranges::find(without_others, fault.where, &Fault::where) == without_others.end();
     });
     return faults;
 }

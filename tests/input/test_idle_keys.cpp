@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -136,12 +137,34 @@ TEST_CASE("a key of the file may be idle by what replaces others of it, and a ke
     const std::string rubs = "[contact]\nfriction = 0.3";
     CHECK(faults_of(rubs, {"contact.enabled=false"}).empty());
     CHECK(faults_of("cfl = 0.5", {"run.dt=1e-3"}).empty());
+    CHECK(faults_of("cfl = 0.5", {"run.dt=1e-3", "run.cfl=0.4"}).size() == 1);
     CHECK(faults_of(rubs, {"contact.enabled=false", "contact.skin=1"}).size() == 1);
     // One that is idle in the file itself stays so.
     CHECK(faults_of("[contact]\nrelaxation_time = 1", {"run.cfl=0.5"}).size() == 1);
     const auto ends_later = [](run::RunOptions& options) { options.cfl = 0.4; };
     CHECK(faults_of("[contact]\nrelaxation_time = 1", {}, ends_later).size() == 1);
     CHECK(faults_of("[output]\nformat = \"xdmf\"", {}, [](run::RunOptions& options) { options.frames = 0; }).empty());
+}
+
+TEST_CASE("a key that is set takes the place of its alternative in the file: steps of time, cfl of dt, and back",
+          "[input][idle]") {
+    const auto options_of = [](const std::string& more, const std::vector<std::string>& set) {
+        const WrittenScene file(two_blocks(more));
+        const input::ReadSettings read = input::read_settings(file.path(), {.set = set});
+        CAPTURE(input::text_of(read.faults));
+        CHECK(read.faults.empty());
+        return read.settings.options;
+    };
+    const run::RunOptions steps = options_of("time = 2", {"run.steps=7"}), time = options_of("", {"run.time=2"});
+    CHECK(steps.steps == 7);
+    CHECK(std::isnan(steps.time));
+    CHECK(time.steps == 0);
+    CHECK(time.time == 2.0);
+    const run::RunOptions cfl = options_of("dt = 1e-3", {"run.cfl=0.4"}), dt = options_of("cfl = 0.4", {"run.dt=1e-3"});
+    CHECK(cfl.cfl == 0.4);
+    CHECK(std::isnan(cfl.dt));
+    CHECK(dt.dt == 1e-3);
+    CHECK(dt.cfl == run::RunOptions{}.cfl);
 }
 
 TEST_CASE("all scenes that Abut brings along have no key that nothing reads", "[input][idle]") {

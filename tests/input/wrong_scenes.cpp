@@ -165,7 +165,7 @@ const std::vector<WrongScene>& wrong_scenes() {
          {},
          ".toml:21:1",
          {"contact.decay_speed has no effect without contact.sliding_friction", "Give both"}},
-        {"[output]\nsample_interval = 5", {}, ".toml:20:1", {"output.sample_interval has no effect", "output.forces"}},
+        {"[output]\nframes = 0\nfields = [\"stress\"]", {}, ".toml:21:1", {"output.fields has no effect", "output.frames"}},
         {"", {"bodies.left.thermal_expansion=1e-5"}, "--set", {"has no effect without temperature_rise"}},
         {"[materials.brass]\nyoung = 1\ndensity = 1", {}, ".toml:19:12", {"materials.brass has no effect", "made of it"}},
         {"dt = 10", {}, ".toml", {"--dt", "above the stable step"}},

@@ -167,14 +167,14 @@ TEST_CASE("a scene that was edited since is named key by key by a restart, and r
     const fs::path mine = home.path() / "mine.toml";
     fs::copy_file(scene("slipping_cylinders"), mine);
     run_until_checkpoint(results.path(), mine.string(), SIGKILL);
-    std::ofstream(mine, std::ios::app) << "[materials.new]\nyoung = 1\ndensity = 1\n";
+    std::ofstream(mine, std::ios::app) << "[obstacles.far]\nshape = \"plane\"\npoint = [-100, 0]\nnormal = [1, 0]\n";
     const auto resumed = run_program(
         "abut", fmt::format("run '{}' --resume {} --out '{}'", mine.string(), moderate, results.path().string()), "");
     CHECK(resumed.exit_code == 1);
-    for (const char* word : {"has changed since the run began", "materials is new", "abut restart"})
+    for (const char* word : {"has changed since the run began", "obstacles is new", "abut restart"})
         CHECK(resumed.error.find(word) != std::string::npos);
     const auto rest = run_program("abut", fmt::format("restart '{}'", results.path().string()), "");
     CHECK(rest.exit_code == 0);
-    for (const char* word : {"has changed since the run began", "materials is new", "as it was"})
+    for (const char* word : {"has changed since the run began", "obstacles is new", "as it was"})
         CHECK(rest.out.find(word) != std::string::npos);
 }
