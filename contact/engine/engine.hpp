@@ -50,7 +50,6 @@ struct CompressionLimits {
 ///   step: the list does not have it; `seen_from_outside`, `set_seen_from_outside`: all that have come out; `lies_inside`;
 /// - `end_step`: the last step has happened; `saved_interference`, `set_interference`: what it remembers of overlaps at the start;
 /// - `stored_energy`: what the memory of facets holds [J];
-/// - `forget_step`: no later call depends on the last step, which is refused;
 /// - `clear`: a result without a step; `step`: admission and forces of a step, gives the number of pairs that are pressed in
 ///   without being contacts; `evaluate`: forces of one state.
 template <class Law>
@@ -280,7 +279,6 @@ private:
     }
 
     [[noreturn]] void refuse_depth() {
-        law_.forget_step();
         const auto& pair = step_.pairs[static_cast<std::size_t>(step_.report.most_compressed)];
         throw too_deep(law_.face_name(pair.face_1), law_.face_name(pair.face_2), pair, limits_.limit);
     }

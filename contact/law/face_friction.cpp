@@ -1,22 +1,10 @@
 #include "abut/contact/law/face_friction.hpp"
 
-#include <algorithm>
-
 #include "abut/base/ids.hpp"
 #include "abut/contact/nodal_surface.hpp"
 #include "abut/geometry/plane_frame.hpp"
 
 namespace abut::contact {
-namespace {
-
-/// Index of a face in a sorted list; -1: it is not there.
-std::int32_t index_of_face(std::span<const Face> listed, Face face) {
-    const auto at = std::ranges::lower_bound(listed, face);
-    return at != listed.end() && *at == face ? static_cast<std::int32_t>(at - listed.begin()) : -1;
-}
-
-}  // namespace
-
 template <int Dim>
 geometry::Tangents<Dim> FaceFrictionLaw<Dim>::tangents(const SurfaceView<Dim>& surface, const Pair& pair, std::size_t side) {
     const Vector<Dim> normal = side == 0 ? pair.normal : Vector<Dim>(-pair.normal);
@@ -31,17 +19,17 @@ template <class SlipOf>
 void FaceFrictionLaw<Dim>::take_pairs(const SurfaceView<Dim>& surface, const PairList<Dim>& list,
                                       const ActivePairs<Dim>& active, const SlipOf& slip_of, ContactStep<Dim>& step) {
     halves_.clear();
-    last_.clear();
+    pairs_.clear();
     for (std::int32_t a = 0; a < active.size(); ++a) {
         const ContactPair<Dim>& pair = list[active.pairs[static_cast<std::size_t>(a)]];
         PairStep<Dim>& of_step = step.pairs[static_cast<std::size_t>(a)];
         const Pressing pressing{of_step.normal_force, of_step.area, of_step.active_share};
         if (pair.friction < 0 || !pressing.acts()) continue;
-        last_.push_back({.facets = {.facet = {Facet{pair.face_1}, Facet{pair.face_2}}},
-                         .normal = of_step.normal,
-                         .in_step = a,
-                         .listed = {pair.listed_1, pair.listed_2}});
-        Pair& sliding = last_.back();
+        pairs_.push_back({.facets = {.facet = {Facet{pair.face_1}, Facet{pair.face_2}}},
+                          .normal = of_step.normal,
+                          .in_step = a,
+                          .listed = {pair.listed_1, pair.listed_2}});
+        Pair& sliding = pairs_.back();
         append_halves<Dim>(
             surface, options_.laws[static_cast<std::size_t>(pair.friction)], pressing, slip_of(pair, of_step),
             [&](std::size_t side) { return tangents(surface, sliding, side); }, sliding.facets, halves_);
@@ -52,7 +40,6 @@ template <int Dim>
 void FaceFrictionLaw<Dim>::apply(const SurfaceView<Dim>& surface, const PairList<Dim>& list, const ActivePairs<Dim>& active,
                                  double dt, std::span<const Vector<Dim>> u_0, std::span<const Vector<Dim>> u_1,
                                  TakenForce take, FacetStore& facets, ContactStep<Dim>& step) {
-    has_stepped_ = true;
     const auto slip_of = [&](const ContactPair<Dim>& pair, PairStep<Dim>& of_step) {
         const auto motion_of = [&](std::int32_t listed) -> Vector<Dim> { return u_1[listed] - u_0[listed]; };
         const Vector<Dim> relative = motion_of(pair.listed_2) - motion_of(pair.listed_1);
@@ -62,7 +49,7 @@ void FaceFrictionLaw<Dim>::apply(const SurfaceView<Dim>& surface, const PairList
     };
     take_pairs(surface, list, active, slip_of, step);
     pass_.apply(dt, take, halves_, facets, step.report.friction, step.friction);
-    for (Pair& pair : last_) {
+    for (Pair& pair : pairs_) {
         take_weights<n_tangents>(halves_, pair.facets);
         const Vector<Dim> force = force_on_second<Dim>(
             halves_, [&](std::size_t side) { return tangents(surface, pair, side); }, pair.facets);
@@ -74,33 +61,20 @@ template <int Dim>
 void FaceFrictionLaw<Dim>::evaluate(const SurfaceView<Dim>& surface, const PairList<Dim>& list,
                                     const ActivePairs<Dim>& active, const FacetStore& facets, ContactStep<Dim>& step) {
     step.report.friction.energy = stick_energy<n_tangents>(facets);
-    if (!has_stepped_ && !facets.used().empty()) {
-        const auto none = [](const ContactPair<Dim>&, const PairStep<Dim>&) -> Vector<Dim> { return Vector<Dim>::Zero(); };
-        take_pairs(surface, list, active, none, step);
-        pass_.weigh(halves_);
-        for (Pair& pair : last_) take_weights<n_tangents>(halves_, pair.facets);
-    }
-    for (const Pair& pair : last_) {
+    const auto none = [](const ContactPair<Dim>&, const PairStep<Dim>&) -> Vector<Dim> { return Vector<Dim>::Zero(); };
+    take_pairs(surface, list, active, none, step);
+    pass_.weigh(halves_);
+    for (Pair& pair : pairs_) {
+        take_weights<n_tangents>(halves_, pair.facets);
         const Vector<Dim> force = spring_force_on_second<Dim>(
             facets, [&](std::size_t side) { return tangents(surface, pair, side); }, pair.facets);
-        Pair in_step = pair;
-        const auto key = [](const PairStep<Dim>& of) { return std::pair(of.face_1, of.face_2); };
-        const std::pair wanted(Face{number_of(pair.facets.facet[0])}, Face{number_of(pair.facets.facet[1])});
-        const auto at = std::ranges::lower_bound(step.pairs, wanted, {}, key);
-        in_step.in_step =
-            at != step.pairs.end() && key(*at) == wanted ? static_cast<std::int32_t>(at - step.pairs.begin()) : -1;
-        for (std::size_t side = 0; side < 2; ++side)
-            in_step.listed[side] = index_of_face(step.faces, Face{number_of(pair.facets.facet[side])});
-        add_force(in_step, force, step);
+        add_force(pair, force, step);
     }
 }
 
 template <int Dim>
 void FaceFrictionLaw<Dim>::add_force(const Pair& pair, const Vector<Dim>& force, ContactStep<Dim>& step) {
-    for (std::size_t side = 0; side < 2; ++side) {
-        if (pair.listed[side] >= 0) step.mean_gradient[ListedFace{pair.listed[side]}] -= sign_of(side) * force;
-    }
-    if (pair.in_step < 0) return;
+    for (std::size_t side = 0; side < 2; ++side) step.mean_gradient[ListedFace{pair.listed[side]}] -= sign_of(side) * force;
     PairStep<Dim>& of_step = step.pairs[static_cast<std::size_t>(pair.in_step)];
     of_step.force += force;
     of_step.friction += force;

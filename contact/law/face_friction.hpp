@@ -37,14 +37,9 @@ public:
                std::span<const Vector<Dim>> u_0, std::span<const Vector<Dim>> u_1, TakenForce take, FacetStore& facets,
                ContactStep<Dim>& step);
 
-    /// The forces of the springs as they are, with the weights of the last step; before the first one, and after `forget`, with
-    /// those of `step`, an evaluation with these active pairs.
+    /// The forces of the springs as they are, shared out as the `active` pairs of `step`, an evaluation of one state, press.
     void evaluate(const SurfaceView<Dim>& surface, const PairList<Dim>& list, const ActivePairs<Dim>& active,
                   const FacetStore& facets, ContactStep<Dim>& step);
-    void forget() {
-        last_.clear();
-        has_stepped_ = false;
-    }
 
 private:
     static constexpr int n_tangents = Dim - 1;
@@ -53,8 +48,8 @@ private:
     struct Pair {
         FrictionPair facets;
         Vector<Dim> normal;
-        std::int32_t in_step = -1;                   // its index in the pairs of the step; -1: it is not among them
-        std::array<std::int32_t, 2> listed{-1, -1};  // of its faces in those of the step; -1: it is not among them
+        std::int32_t in_step;                // its index in the pairs of the step
+        std::array<std::int32_t, 2> listed;  // of its faces in those of the step
     };
 
     /// Finds the pairs that press, and their halves. `slip_of(pair, of_step)`: of a pair with friction, across its normal.
@@ -68,9 +63,8 @@ private:
 
     FrictionOptions options_;
     FrictionPass<n_tangents> pass_;
-    bool has_stepped_ = false;
     std::vector<Half> halves_;
-    std::vector<Pair> last_;  // with friction, in the last step
+    std::vector<Pair> pairs_;  // with friction
 };
 
 }  // namespace abut::contact

@@ -48,11 +48,7 @@ public:
     [[nodiscard]] bool is_wanted(FacetPair) const { return true; }
     void list(std::span<const FacetPair> pairs, std::span<const FacetPair> in_contact, State u_0, State u_1, double reach);
     void list_remembered(std::span<const FacetPair> pairs);
-    void drop_list() {
-        faces_.clear();
-        forget_step();
-    }
-    void forget_step() { friction_.forget(); }
+    void drop_list() { faces_.clear(); }
     [[nodiscard]] bool is_pressed_in(std::size_t pair, State u) const;
     [[nodiscard]] FirstAdmission decide_first(std::size_t pair, State u, bool run_begins) const;
     // Of one body, faces that share a corner or are near on the surface are left out instead.

@@ -36,60 +36,40 @@ public:
              double area, double active_share);
     void apply(const NodalSurface<Dim>& surface, FacetStore& facets, NodalStep<Dim>& step);
 
-    /// Whether the pairs that the springs act on are those of the last step. Before the first one and after `forget` they are
-    /// those of the state that is evaluated: `begin`, with that state at both ends, `add`, `weigh`, then `evaluate`.
-    [[nodiscard]] bool has_stepped() const { return has_stepped_; }
-    void weigh();
-    /// The forces of the springs as they are, at x, with the weights of the last step, or of `weigh`: those that an evaluation
-    /// adds to the normal forces. `active`: facets of `step.pairs`, in their order.
-    void evaluate(const NodalSurface<Dim>& surface, const FacetStore& facets, PointsView<Dim> x,
-                  std::span<const FacetPair> active, NodalStep<Dim>& step) const;
-    void forget() {
-        last_.clear();
-        has_stepped_ = false;
-    }
+    /// A state: `begin` with it at both ends, `add`, then the forces of the springs as they are, which it adds to the normal forces.
+    void evaluate(const FacetStore& facets, NodalStep<Dim>& step);
 
 private:
     static constexpr int n_tangents = Dim - 1;
     using Half = FrictionHalf<n_tangents>;
     using Corners = geometry::PairCorners<Dim>;
 
-    /// Indices in a step of all that the forces on a pair are added to; -1: the step does not have it.
-    struct Indices {
-        std::array<std::int32_t, 2 * Dim> listed;  // of each corner
+    /// Two facets that press and rub: their corners, where they press, their part in the friction of both, and the indices in the step
+    /// of all that its forces are added to.
+    struct Pair {
+        std::array<std::int32_t, 2 * Dim> node;
+        std::array<std::int32_t, 2 * Dim> listed;
         std::array<std::int32_t, 2> body;
         std::int32_t body_pair;
-        std::int32_t pair;
-        bool bodies_in_order;
-    };
-    struct Sliding {
-        geometry::PairSlip<Dim> slip;
-        Indices indices;
-    };
-    /// Pair of the last step: its corners, where it pressed, and its part in the friction of both facets.
-    struct Last {
-        std::array<std::int32_t, 2 * Dim> node;
-        FrictionPair facets;
+        std::int32_t in_step;
         geometry::PairPressure<Dim> pressure;
+        geometry::PairSlip<Dim> slip;
+        FrictionPair facets;
     };
 
-    [[nodiscard]] static Corners corners(const Last& last, PointsView<Dim> x);
-    [[nodiscard]] static Indices indices_in(const NodalStep<Dim>& step, const NodalSurface<Dim>& surface,
-                                            std::span<const FacetPair> active, const Last& last);
+    [[nodiscard]] Corners at_end(const Pair& pair) const;
     /// `force`: on face 2.
-    static void add_force(const Last& last, const Indices& indices, const geometry::PairSlip<Dim>& slip,
-                          const Vector<Dim>& force, PointsView<Dim> x_0, PointsView<Dim> x_1, NodalStep<Dim>& step);
+    static void add_force(const Pair& pair, const geometry::PairSlip<Dim>& slip, const Vector<Dim>& force,
+                          PointsView<Dim> x_0, PointsView<Dim> x_1, NodalStep<Dim>& step);
 
     FrictionOptions options_;
     FrictionPass<n_tangents> pass_;
     double dt_ = 0.0;
     PointsView<Dim> x_0_, x_1_;
     TakenForce take_ = TakenForce::mean;
-    bool has_stepped_ = false;
-    std::int32_t n_pairs_ = 0;  // of the step so far
+    std::int32_t n_pairs_ = 0;  // so far
     std::vector<Half> halves_;
-    std::vector<Sliding> sliding_;  // pairs with friction
-    std::vector<Last> last_;        // of the same, in the same order
+    std::vector<Pair> pairs_;  // with friction
 };
 
 }  // namespace abut::contact

@@ -59,9 +59,7 @@ public:
     void drop_list() {
         watched_.clear();
         pairs_.assign(surface_, {});
-        forget_step();
     }
-    void forget_step() { law_.forget_friction(); }
     [[nodiscard]] bool is_pressed_in(std::size_t pair, State x) const;
     [[nodiscard]] FirstAdmission decide_first(std::size_t pair, State x, bool run_begins) const;
     [[nodiscard]] std::vector<FacetPair> seen_from_outside() const { return inside_.seen(); }

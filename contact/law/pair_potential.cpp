@@ -222,15 +222,9 @@ void PairPotential<Dim>::evaluate(const NodalSurface<Dim>& surface, const NodalP
         [](std::size_t) {});
     add_up(surface, listed, pairs, x, x, step);
     if (friction_.any()) {
-        if (!friction_.has_stepped() && !facets.used().empty()) {
-            friction_.begin(0.0, x, x, TakenForce::end);
-            add_pairs(surface, pairs);
-            friction_.weigh();
-        }
-        active_.clear();
-        for (std::size_t p = 0; p < outcomes_.size(); ++p)
-            if (outcomes_[p].active) active_.push_back({Facet{pairs[p].facet_1}, Facet{pairs[p].facet_2}});
-        friction_.evaluate(surface, facets, x, active_, step);
+        friction_.begin(0.0, x, x, TakenForce::end);
+        add_pairs(surface, pairs);
+        friction_.evaluate(facets, step);
     }
     finish(surface, step);
 }

@@ -25,8 +25,6 @@ public:
         : events_(events), friction_(std::move(friction)), shared_(sharing) {}
 
     [[nodiscard]] const NodeFriction<Dim>& friction() const { return friction_; }
-    /// Later evaluations have no friction until the next step.
-    void forget_friction() { friction_.forget(); }
 
     /// Decides admission at x_0 where W = 0, then takes the forces of the step; fills `step`, whose nodes are set. Returns
     /// how many pairs are pressed in at x_0 without being contacts.
@@ -78,7 +76,6 @@ private:
 
     bool events_;
     NodeFriction<Dim> friction_;
-    std::vector<FacetPair> active_;  // work array of `evaluate`
     SharedWork shared_;
     std::vector<Outcome> outcomes_;  // of the pairs in reach
 };

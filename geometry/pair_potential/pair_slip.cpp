@@ -124,7 +124,7 @@ Tangents<3> PairSlip<3>::tangents(int face) const {
 
 template <int Dim>
 PairCorners<Dim> PairSlip<Dim>::on_corners(const Vector<Dim>& on_second) const {
-    const Vector<Dim> force = scale_ * on_second;
+    const Vector<Dim> force = scaled(on_second);
     PairCorners<Dim> on_corners;
     for (std::size_t face = 0; face < 2; ++face) {
         const Side& side = side_[face];
