@@ -21,7 +21,7 @@ struct Estimate {
     std::string cell_of_step{};
     double dt = 0.0;  ///< [s], of memm_async before its levels
     std::int64_t steps = 0;
-    /// What to damp bodies with that rub, "stiffness_damping = 1e-05, ..."; empty where nothing rubs, or anything is damped
+    /// Proposed damping of bodies that rub, "stiffness_damping = 1e-05, ..."; empty if nothing rubs or a body is damped
     std::string damping{};
     std::string law;       ///< of contact, that which acts: "pair_potential"; empty without contact
     double end = 0.0;      ///< of the run [s]

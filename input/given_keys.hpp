@@ -19,7 +19,7 @@ struct GivenKey {
     std::string remedy{};  ///< "Give both, or leave it out."
 };
 
-/// Those of a table, by name. Copies share them: a key that one of them reads is read.
+/// Keys of a table, by name. Copies share them: a key that one of them reads is read.
 class GivenKeys {
 public:
     /// In the place of one of this name, which stays unread for those that hold this alone.
@@ -32,9 +32,9 @@ public:
     [[nodiscard]] std::vector<std::string> names() const;
 
     void read(const std::string& name) const;
-    /// Where `acts` is false it stays unread, and has no effect without `other`: "law = \"j2\"".
+    /// Reads the key if it `acts`; else it has no effect without `other`: "law = \"j2\"".
     void read_with(bool acts, const std::string& name, const std::string& other) const;
-    /// Where `has_precedence` it stays unread, and has no effect beside `other`.
+    /// Reads the key unless `other` `has_precedence`; else it has no effect beside `other`.
     void read_unless(bool has_precedence, const std::string& name, const std::string& other) const;
 
 private:

@@ -142,7 +142,7 @@ bool is_friction(const OptionFacts& option) {
            contact::friction_options().end();
 }
 
-/// Where laws and schemes are named that read an option, and another one was chosen.
+/// Whether the chosen scheme and law read an option; else the key is left with the names of those that do.
 bool read_by_scheme_and_law(const Settings& settings, const OptionFacts& option, const std::string& path) {
     const auto is_in = [](const std::vector<std::string>& all, const std::string& word) {
         return all.empty() || std::ranges::find(all, word) != all.end();

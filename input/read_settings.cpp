@@ -493,7 +493,7 @@ ReadTables tables_from(Node document, const std::filesystem::path& file, const O
     return read;
 }
 
-/// Of keys that nothing reads. A key of the file that has no effect only because of what replaces others of it is in order, and so is one
+/// Faults of keys that nothing reads. A key of the file that has no effect only beside `set` or an option is in order, and so is one
 /// of `set` beside an option: `set` and options of a command line are how a scene is tried.
 std::vector<Fault> unread_keys(const ReadTables& read, const Node& document, const Overrides& overrides) {
     std::vector<Fault> faults = faults_of_unread(read.reader.given);

@@ -30,7 +30,7 @@ struct InterpenetrationLimits {
     std::int64_t of_two_bodies = std::numeric_limits<std::int64_t>::max();
     std::int64_t in_all = std::numeric_limits<std::int64_t>::max();
 };
-/// Of `check_apart`, and of the check of a scene.
+/// Limits for `check_apart` and for the check of a scene.
 inline constexpr InterpenetrationLimits enough_interpenetrations{.of_two_bodies = 100, .in_all = 5000};
 
 /// All pairs of cells of different bodies that overlap, or the first so many, deepest first (equal depths by cells). Every cell is taken as the

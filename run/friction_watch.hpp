@@ -29,7 +29,7 @@ public:
     /// A record at `time` [s]: friction has dissipated `dissipated` [J] until then, and the largest speed was `speed` [m/s].
     void record(double time, std::span<const solid::BodyImpulse<Dim>> pairs, double dissipated, double speed);
 
-    /// Of the two that slid so for the longest time.
+    /// The pair of bodies that slid so for the longest time.
     [[nodiscard]] WeakFriction weakest() const;
 
     void save(StateWriter& state) const;

@@ -91,7 +91,7 @@ struct Whole {
     AxialVector<Dim> angular = AxialVector<Dim>::Zero();  // about the origin [kg m^2/s]
 
     [[nodiscard]] Vector<Dim> velocity() const { return momentum / mass; }
-    /// Of the outermost points, about the centre, as of a disc or a ball [m/s]
+    /// Speed of the outermost points about the centre, as if the body were a disc or a ball [m/s]
     [[nodiscard]] double speed_of_rim() const {
         const Vector<Dim> centre = first / mass;
         const Matrix<Dim> about = second - mass * centre * centre.transpose();

@@ -22,7 +22,7 @@ struct InsideBody {
 /// More bodies than this are too many to look for the nearest of each.
 inline constexpr std::size_t most_nearest_bodies = 2000;
 
-/// What bodies are to each other. Both are empty for more than `most_nearest_bodies`.
+/// How bodies lie to each other. Both are empty for more than `most_nearest_bodies`.
 struct Neighbours {
     /// Every body with the one that is nearest to it, each pair once, body_1 < body_2, sorted: the least distance of all is among them. Of
     /// surfaces alone: a body inside of another one is as far away as its surface.

@@ -6,7 +6,7 @@
 namespace abut::geometry {
 namespace {
 
-/// Of a triangle with its corners at a, b and c from the point, above 0 where the point is on its inner side [sr] (van Oosterom and
+/// Solid angle of a triangle whose corners lie at a, b and c from the point [sr]; above 0 on its inner side (van Oosterom and
 /// Strackee 1983).
 double solid_angle(const Vector<3>& a, const Vector<3>& b, const Vector<3>& c) {
     const double la = a.norm(), lb = b.norm(), lc = c.norm();

@@ -33,7 +33,7 @@ public:
     [[nodiscard]] Tangents<Dim> tangents(int face) const;
     /// Whether motion and forces are scaled down.
     [[nodiscard]] bool is_clipped() const { return scale_ < 1.0; }
-    /// What is left of `force` on face 2 where motion and forces are scaled down [N].
+    /// `force` on face 2, scaled as forces on corners are [N].
     [[nodiscard]] Vector<Dim> scaled(const Vector<Dim>& force) const { return scale_ * force; }
     /// Forces on the corners for `force` on face 2 and the opposite on face 1, scaled [N].
     [[nodiscard]] PairCorners<Dim> on_corners(const Vector<Dim>& force) const;

@@ -35,7 +35,7 @@ public:
     void place_cell_points(const RankPart<Dim>& part);
     /// Who brings ranks together from then on, in what is said to be a call of all; to be called before any of that.
     void take_part(const RankPart<Dim>& part) { rank_part_ = &part; }
-    /// Where bodies are bonded, and which boundary faces of `deformable` are joined by that; to be called before anything is made of
+    /// Takes the places of bonds and the boundary faces of `deformable` that they join; to be called before anything is made of
     /// `deformable`.
     void take_bonds(std::vector<BondPlace<Dim>> places, std::vector<BondCoverage> coverage,
                     std::span<const BoundaryFace> joined);

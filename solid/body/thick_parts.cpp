@@ -17,7 +17,7 @@ public:
     MarkedCells(const Bodies<Dim>& bodies, const RankPart<Dim>& part)
         : mesh_(bodies.deformable()), part_(part), marks_(bodies.body_of_points().size(), 0.0) {}
 
-    /// Those with a vertex of a face that is neither held nor bonded.
+    /// Marks the cells with a vertex of a face that is neither held nor bonded.
     void mark_free_faces(const BoundaryConditions<Dim>& conditions) {
         const FaceConditions<Dim> sorted = dynamics::agreed(part_.ranks(), [&] { return sort_to_faces(mesh_, conditions); });
         std::vector<char> vertices(mesh_.vertices.size(), 0);
@@ -49,7 +49,7 @@ private:
     static void mark(std::span<const std::int32_t> of, std::vector<char>& vertices) {
         for (const std::int32_t vertex : of) vertices[static_cast<std::size_t>(vertex)] = 1;
     }
-    /// What copies have is what their ranks have found: around them the part ends.
+    /// Copies of other ranks' cells are marked by these ranks: around them the part ends.
     void mark_cells_at(const std::vector<char>& vertices) {
         const auto is_at = [&](std::int32_t vertex) { return vertices[static_cast<std::size_t>(vertex)] != 0; };
         for (std::int32_t cell = 0; cell < mesh_.n_cells(); ++cell)

@@ -271,7 +271,7 @@ private:
         return in_mesh_[static_cast<std::size_t>(here_[number])];
     }
 
-    /// Those of small bodies that hold for ever and lie on each other as a whole; of finite ones all. Triangles and tetrahedra of small bodies
+    /// Joins faces of small bodies that hold for ever and cover each other, and all of finite ones. Triangles and tetrahedra of small bodies
     /// have the gradient of their faces, which would be loose where no face of the cell is balanced.
     void find_joined() {
         std::vector<int> n_places(part_.n_all_faces(), 0);

@@ -27,7 +27,7 @@ enum class CornerRule {
     fixed,
 };
 
-/// What acts on the free faces of bodies, beside tractions.
+/// How contact acts on the free faces of bodies, beside tractions.
 enum class FreeFaces {
     stay_alone,
     are_moved,  ///< contact by the modified reconstruction: what it moves a face by is in the stress of the cell and in its traces

@@ -33,7 +33,7 @@ struct AffineCell {
     std::int32_t begin, end;  // of its faces among those of all such cells
 };
 
-/// Where contact pushes by nodes, its forces are not in the stress of a cell, whose free faces balance as if nothing touched them.
+/// Contact on nodes is not in the stress of a cell: its free faces balance as if nothing touched them.
 /// Jumps that took these faces for granted would hold the cell back, and leave the layers behind a contact with 0.8 to 1.1 of the
 /// pressure. In the traces I_c(x_f) of such cells free faces are affine instead, whatever pushes them. docs/method.md, Contact.
 struct AffineTraces {
@@ -78,7 +78,7 @@ struct CcgArrays : CcgCoefficients<Dim, double> {
                 static_cast<std::size_t>(half_face_offsets[c + 1] - half_face_offsets[c])};
     }
 
-    /// Those of AffineTraces of a cell.
+    /// Free faces of a cell whose traces are affine.
     [[nodiscard]] std::span<const BoundaryFace> affine_faces_of(std::int32_t c) const {
         if (affine.faces.empty() || affine.cell_index[c] < 0) return {};
         const AffineCell& cell = affine.cells[static_cast<std::size_t>(affine.cell_index[c])];

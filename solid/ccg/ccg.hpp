@@ -252,8 +252,8 @@ public:
     /// cells beside it they are not to be used unless it was the same.
     [[nodiscard]] Matrix<Dim> displacement_gradient(std::int32_t cell) const;
     [[nodiscard]] Matrix<Dim> stress(std::int32_t cell) const;
-    /// The same with the forces on free faces of the last call that had corrections: sigma_c alone balances these faces as if nothing
-    /// pushed them, and the faces give way as long as the cell does not bear what does. Of bodies of Kinematics::finite sigma_c.
+    /// Stress of a cell with the forces of contact on its free faces, those of the last call that had corrections. sigma_c alone balances
+    /// the faces as if nothing pushed them. Bodies of Kinematics::finite have sigma_c [Pa].
     [[nodiscard]] Matrix<Dim> stress_under_pushes(std::int32_t cell) const;
 
     /// Of these cells, increasing, at the end of the step or in the state that `gradient` was called for last.

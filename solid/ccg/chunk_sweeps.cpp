@@ -27,7 +27,7 @@ void CcgSweeps<Dim, Real>::set_any_displacement_gradient(std::int32_t c) {
         element_.set_any_displacement_gradient(c);
 }
 
-/// Where they are not those of the displacement gradient.
+/// Traces of cells whose free faces are affine; no others.
 template <int Dim, class Real>
 void CcgSweeps<Dim, Real>::set_any_traces(std::int32_t c) {
     if (const std::int32_t i = element_.tables.affine_index_of(c); i >= 0)

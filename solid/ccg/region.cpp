@@ -48,7 +48,7 @@ void complete_gradients(const CcgArrays<Dim>& arrays, Region<Dim>& region) {
     sort_unique(region.input_cells);
 }
 
-/// What the traces of the cells depend on beside their gradients.
+/// Appends the cells that affine traces depend on beside the gradients of their own cell.
 template <int Dim>
 void append_affine_cells(const CcgArrays<Dim>& arrays, Region<Dim>& region) {
     if (arrays.affine.faces.empty()) return;

@@ -192,44 +192,31 @@ inline V SweepElements<V>::reconstructed_row(const double* u, BoundaryFace face)
     return sum + units.displacement(gathered(tables.load_displacement, b) - missing);
 }
 
-/// The traces of the cell with its free faces where the cells around point; these faces have been reconstructed.
+/// The traces of the cell with its free faces where the cells around point; these faces have been reconstructed. No such cell is a
+/// simplex.
 template <class V>
 inline void SweepElements<V>::set_affine_traces(const AffineCell& cell) const {
     const std::int32_t c = cell.cell;
-    const bool simplex = tables.of_simplices(c);
-    Tensor g{};
-    if (!simplex) g = load_tensor<V>(tables.g.data, c);
-    V deviation = load<V>(tables.deviation.data, c);
+    Tensor g = load_tensor<V>(tables.g.data, c);
     for (std::int32_t i = cell.begin; i < cell.end; ++i) {
         const std::int32_t f = tables.face_of(tables.affine_faces[i]);
         const V moved = load_tensor<V>(tables.affine_parts.data, i) *
                         (reconstructed(tables.u.data, f) - load<V>(tables.of_face.data, f));
-        if (simplex)
-            deviation -= (tables.shares.size == 0 ? simplex_share<Dim, Real> : tables.shares[f][0]) * moved;
-        else
-            g.add_outer(tables.cells[c].inverse_measure * moved, tables.faces[f].area_vector);
+        g.add_outer(tables.cells[c].inverse_measure * moved, tables.faces[f].area_vector);
     }
-    if (simplex)
-        store(deviation, tables.deviation.data, c);
-    else
-        set_traces(c, g);
+    set_traces(c, g);
 }
 
-/// What the jumps do to these faces, in place of what they do to the reconstructed ones: before the stress of the cell has anything
-/// beside.
+/// Adds the gradients of jumps at affine faces in place of those at reconstructed ones; to be called before other terms of the
+/// stress.
 template <class V>
 inline void SweepElements<V>::set_affine_gradients(const AffineCell& cell) const {
     const std::int32_t c = cell.cell;
-    const bool simplex = tables.of_simplices(c);
-    Tensor of_jumps{};
-    if (!simplex) {
-        of_jumps = load_tensor<V>(tables.s.data, c);
-        const Tensor sigma = elastic_stress(tables.cells[c], load_tensor<V>(tables.g.data, c));
-        for (int j = 0; j < Dim; ++j) of_jumps.col[j] -= sigma.col[j];
-    }
+    Tensor of_jumps = load_tensor<V>(tables.s.data, c);
+    const Tensor sigma = elastic_stress(tables.cells[c], load_tensor<V>(tables.g.data, c));
+    for (int j = 0; j < Dim; ++j) of_jumps.col[j] -= sigma.col[j];
     for (std::int32_t i = cell.begin; i < cell.end; ++i) {
-        const std::int32_t f = tables.face_of(tables.affine_faces[i]);
-        const V y = simplex ? Real(-1) * shared_jumps(f, c, false) : of_jumps.times(tables.faces[f].area_vector);
+        const V y = of_jumps.times(tables.faces[tables.face_of(tables.affine_faces[i])].area_vector);
         store(load_tensor<V>(tables.affine_parts.data, i) * y, tables.affine_y.data, i);
     }
 }

@@ -155,7 +155,7 @@ auto HeldPlaces<Dim>::gathered_points_of(std::int32_t body) const -> Points {
     return points;
 }
 
-/// Of a face of a body that deforms, by its number in the mesh of all bodies.
+/// The place of a face of a body that deforms; `face` counts in the mesh of all bodies.
 template <int Dim>
 HeldPlace<Dim> HeldPlaces<Dim>::place_of(std::int32_t face) const {
     const mesh::Mesh<Dim>& mesh = bodies_.mesh();

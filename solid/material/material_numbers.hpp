@@ -14,7 +14,7 @@ inline constexpr std::array<Word<MaterialLaw>, 5> material_law_words{
      {"j2", MaterialLaw::j2},
      {"orthotropic", MaterialLaw::orthotropic}}};
 
-/// What a number of a material acts by, beside the law that has it.
+/// The part of the model that reads a number of a material, beside the law that has it.
 enum class MaterialUse {
     motion,       ///< of every body
     deformation,  ///< of one that deforms

@@ -98,7 +98,7 @@ struct HoopStress {
     double least = 1e9, largest = -1e9, error = 0.0;
 };
 
-/// Of forces that balance, springs on the rigid motions in the plane change nothing but these.
+/// Stiffness of the rigid motions in the plane: the answer to forces that balance does not depend on it.
 template <int Dim>
 Eigen::MatrixXd rigid_springs(const mesh::Mesh<Dim>& mesh) {
     Eigen::MatrixXd motions = Eigen::MatrixXd::Zero(Dim * mesh.n_cells(), 3);

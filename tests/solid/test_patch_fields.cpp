@@ -19,7 +19,7 @@ using solid::Kinematics;
 
 namespace {
 
-/// What acts on a side of the body.
+/// The load on a side of the body.
 enum class Side {
     free,       // nothing
     dead,       // a traction that keeps its direction
@@ -194,7 +194,7 @@ private:
     [[nodiscard]] solid::Field<Dim> field() const {
         return [*this](double, const Vector<Dim>& x) { return displacement(x); };
     }
-    /// Of a face across `axis` as it is stretched, over that at rest, where a pressure acts on the stretched one.
+    /// Area of a stretched face across `axis` over that at rest; 1 if a pressure acts on the area at rest.
     [[nodiscard]] double area_ratio(int axis) const {
         return is_linear(patch_.kinematics) ? 1.0 : stretch().determinant() / stretch()(axis, axis);
     }
