@@ -29,8 +29,14 @@ void ForceFile<Dim>::begin(const Scene<Dim>& scene, const RunResult<Dim>& result
     look_up(scene, result);
     file_.open();
     std::vector<std::string> columns{"step", "time", "body_1", "body_2"};
-    for (int i = 0; i < Dim; ++i) columns.push_back(fmt::format("force_{}", "xyz"[i]));
+    const auto add_vector = [&](const char* name) {
+        for (int i = 0; i < Dim; ++i) columns.push_back(fmt::format("{}_{}", name, "xyz"[i]));
+    };
+    add_vector("force_on_2");
     columns.emplace_back("normal_force");
+    add_vector("friction_on_2");
+    columns.emplace_back("rubbing_force");
+    add_vector("slip_velocity_of_2");
     file_.write(fmt::format("{}\n", fmt::join(with_units<Dim>(columns), ",")));
 }
 
@@ -45,8 +51,13 @@ void ForceFile<Dim>::look(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& 
     for (const ForceRow<Dim>& row : forces_.rows(run, solid)) {
         std::string text = fmt::format("{},{:.17g},{},{}", row.step, row.time, names_[static_cast<std::size_t>(row.body_1)],
                                        names_[static_cast<std::size_t>(row.body_2)]);
-        for (const double force : row.force) text += fmt::format(",{:.17g}", force);
-        file_.write(fmt::format("{},{:.17g}\n", text, row.normal_force));
+        const auto add = [&](double value) { text += fmt::format(",{:.17g}", value); };
+        for (const double force : row.force) add(force);
+        add(row.normal_force);
+        for (const double force : row.friction) add(force);
+        add(row.rubbing_force);
+        for (const double speed : row.slip_velocity) add(speed);
+        file_.write(text + "\n");
     }
 }
 

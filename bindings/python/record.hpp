@@ -1,6 +1,7 @@
 #pragma once
 // What a run keeps for Python, and what it shows while it goes on.
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -63,21 +64,32 @@ public:
     /// {column: array}
     [[nodiscard]] py::dict forces() const {
         std::vector<std::int64_t> step;
-        std::vector<double> time, normal;
+        std::vector<double> time, normal, rubbing;
         std::vector<std::string> body_1, body_2;
-        std::vector<std::vector<double>> force(Dim);
+        std::array<std::vector<double>, Dim> force, friction, slip;
         for (const run::ForceRow<Dim>& row : force_rows_) {
             step.push_back(row.step);
             time.push_back(row.time);
             body_1.push_back(names_[static_cast<std::size_t>(row.body_1)]);
             body_2.push_back(names_[static_cast<std::size_t>(row.body_2)]);
-            for (std::size_t i = 0; i < Dim; ++i) force[i].push_back(row.force[static_cast<int>(i)]);
+            for (std::size_t i = 0; i < Dim; ++i) {
+                force[i].push_back(row.force[static_cast<int>(i)]);
+                friction[i].push_back(row.friction[static_cast<int>(i)]);
+                slip[i].push_back(row.slip_velocity[static_cast<int>(i)]);
+            }
             normal.push_back(row.normal_force);
+            rubbing.push_back(row.rubbing_force);
         }
         py::dict table("step"_a = copy_of(step), "time"_a = copy_of(time), "body_1"_a = texts_of(body_1),
                        "body_2"_a = texts_of(body_2));
-        for (std::size_t i = 0; i < Dim; ++i) table[(std::string("force_") + "xyz"[i]).c_str()] = copy_of(force[i]);
+        const auto add = [&](const char* name, const auto& of_axes) {
+            for (std::size_t i = 0; i < Dim; ++i) table[(std::string(name) + "_" + "xyz"[i]).c_str()] = copy_of(of_axes[i]);
+        };
+        add("force_on_2", force);
         table["normal_force"] = copy_of(normal);
+        add("friction_on_2", friction);
+        table["rubbing_force"] = copy_of(rubbing);
+        add("slip_velocity_of_2", slip);
         return table;
     }
     /// {name: [array of each frame, ...]}

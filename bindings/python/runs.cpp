@@ -10,6 +10,7 @@
 #include <memory>
 
 #include "abut/base/error.hpp"
+#include "abut/base/messages.hpp"
 #include "abut/base/throw_again.hpp"
 #include "abut/input/scene_file.hpp"
 #include "abut/mesh/interpenetration.hpp"
@@ -164,6 +165,10 @@ public:
         const bindings::Use use(in_use_, run_in_use);
         if (change != "keep" && change != "restart")
             throw py::value_error("set_step: change is '" + change + "'; there are 'keep', 'restart'");
+        if (dt > stable_dt_ && !options_.allow_unstable)
+            throw BadInput("set_step: dt is " + number(dt) + " s, above the stable step of " + number(stable_dt_) +
+                               " s (stable_dt), from which on vibrations grow. Give at most that.",
+                           {.value = dt, .allowed = stable_dt_});
         const py::gil_scoped_release release;
         run_->memm().set_step(dt, change == "keep" ? dynamics::StepChange::keep : dynamics::StepChange::restart);
     }

@@ -162,7 +162,7 @@ Markup force_pictures(const std::filesystem::path& table, const SampledRun& run)
     CsvRows rows(table);
     const Means means(run);
     std::vector<std::size_t> columns{rows.column("normal_force")};
-    for (const char* axis : {"force_x", "force_y", "force_z"})
+    for (const char* axis : {"force_on_2_x", "force_on_2_y", "force_on_2_z"})
         if (rows.has(axis)) columns.push_back(rows.column(axis));
     const std::size_t step_column = rows.column("step"), body_1 = rows.column("body_1"), body_2 = rows.column("body_2");
     std::map<std::pair<std::string, std::string>, Forces> by_pair;

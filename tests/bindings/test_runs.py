@@ -45,7 +45,7 @@ class Scenes(unittest.TestCase):
                         np.testing.assert_array_equal(result.probes[probe][column],
                                                       column_of(folder / "probes.csv", f"{probe}.{column}"))
                 self.assertEqual(list(result.forces.dtype.names), rows_of(folder / "forces.csv")[0])
-                np.testing.assert_array_equal(result.forces["force_x"], column_of(folder / "forces.csv", "force_x"))
+                np.testing.assert_array_equal(result.forces["force_on_2_x"], column_of(folder / "forces.csv", "force_on_2_x"))
                 self.assertEqual(result.forces["body_2"].tolist(), [row[3] for row in rows_of(folder / "forces.csv")[1:]])
                 self.assertEqual(len(list(folder.glob("bodies_0*.vtu"))), len(result.frames))
                 np.testing.assert_array_equal(result.frames.displacement[-1], result.displacement)
@@ -109,7 +109,7 @@ class Scenes(unittest.TestCase):
         result = abut.run(scene)
         self.assertEqual(set(result.forces["body_1"]) | set(result.forces["body_2"]), {"stone", "floor"})
         sign = np.where(result.forces["body_2"] == "stone", 1.0, -1.0)
-        impulse = np.sum(sign * result.forces["force_y"]) * result.dt
+        impulse = np.sum(sign * result.forces["force_on_2_y"]) * result.dt
         gained = result.end[0]["mass"] * (result.end[0]["velocity"] - result.start[0]["velocity"])[1]
         self.assertGreater(gained, 0.1)
         self.assertAlmostEqual(impulse, gained, delta=1e-12)

@@ -100,7 +100,7 @@ TEST_CASE("forces times their intervals are the change of momentum, whatever sch
         CHECK(forces.text(row, "body_2") == "right");
         const auto steps = static_cast<int>(forces.number(row, "step")) % 3;
         const double seconds = (steps == 0 ? 3 : steps) * result.dt;
-        impulse += seconds * Vector<2>(forces.number(row, "force_x"), forces.number(row, "force_y"));
+        impulse += seconds * Vector<2>(forces.number(row, "force_on_2_x"), forces.number(row, "force_on_2_y"));
         normal_impulse += seconds * forces.number(row, "normal_force");
     }
     const Vector<2> gained = result.end[1].mass * (result.end[1].velocity - result.start[1].velocity);
@@ -188,11 +188,40 @@ TEST_CASE("forces on an obstacle carry its name, and bodies that turn change num
     for (std::size_t row = 0; row < forces.rows.size(); ++row) {
         CHECK(forces.text(row, "body_1") == "block");
         CHECK(forces.text(row, "body_2") == "floor");
-        impulse += result.dt * forces.number(row, "force_y");
+        impulse += result.dt * forces.number(row, "force_on_2_y");
     }
     const double gained = result.end[1].mass * (result.end[1].velocity.y() - result.start[1].velocity.y());
     CHECK(gained > 0.05);
     CHECK(-impulse == Approx(gained).epsilon(1e-12));
+}
+
+TEST_CASE("a row of forces says on which body they act, and has the friction of a block that slides, and its slip",
+          "[run][outputs][friction]") {
+    constexpr double mu = 0.3, g = 10.0;
+    run::Scene<2> scene;
+    scene.mesh = mesh::structured_box<2>({0.0, 0.0}, {0.8, 0.4}, {8, 4}, mesh::CellShape::quadrangle, "block");
+    scene.solid.materials = {{.young = 1e7, .poisson = 0.3, .density = 1000.0}};
+    scene.solid.obstacles = {contact::plane_obstacle<2>(Vector<2>::Zero(), Vector<2>::UnitY(), 10.0)};
+    scene.solid.acceleration = {Vector<2>(0.0, -g)};
+    scene.velocity = {Vector<2>(1.0, 0.0)};
+    scene.outputs = {.forces = true, .interval = 200, .obstacles = {"floor"}};
+    run::RunOptions options{.steps = 1000, .settle = true, .frames = 0};
+    options.friction.coefficient = mu;
+    run::RunResult<2> result;
+    const Csv forces(file_of<2>(scene, options, "forces.csv", &result));
+    REQUIRE(forces.rows.size() == 5);
+    const std::size_t last = 4;
+    CHECK(forces.text(last, "body_1") == "block");
+    CHECK(forces.text(last, "body_2") == "floor");
+    // The floor is pulled along by mu times the weight and pressed down by the weight, and goes back past the block by its velocity.
+    const double weight = 1000.0 * 0.8 * 0.4 * g, speed = result.end[0].velocity.x();
+    CHECK(forces.number(last, "normal_force") == Approx(weight).epsilon(0.05));
+    CHECK(forces.number(last, "force_on_2_y") == Approx(-forces.number(last, "normal_force")).epsilon(1e-9));
+    CHECK(forces.number(last, "rubbing_force") == Approx(forces.number(last, "normal_force")).epsilon(1e-9));
+    CHECK(forces.number(last, "force_on_2_x") == Approx(forces.number(last, "friction_on_2_x")).epsilon(1e-9));
+    CHECK(forces.number(last, "friction_on_2_x") == Approx(mu * forces.number(last, "normal_force")).epsilon(0.05));
+    CHECK(std::abs(forces.number(last, "friction_on_2_y")) < 1e-9 * weight);
+    CHECK(forces.number(last, "slip_velocity_of_2_x") == Approx(-speed).epsilon(0.05));
 }
 
 TEST_CASE("a probe sees an affine displacement and its stress exactly", "[run][outputs]") {
@@ -225,7 +254,8 @@ TEST_CASE("heads of tables give the unit of every column that is no name, number
     run::Scene<2> scene = test::block_on_plane(0.05);
     scene.outputs = {.probes = {{.name = "all"}}, .forces = true, .obstacles = {"floor"}};
     CHECK(Csv(file_of<2>(scene, {.frames = 0}, "forces.csv")).head ==
-          "step,time [s],body_1,body_2,force_x [N/m],force_y [N/m],normal_force [N/m]");
+          "step,time [s],body_1,body_2,force_on_2_x [N/m],force_on_2_y [N/m],normal_force [N/m],friction_on_2_x [N/m],"
+          "friction_on_2_y [N/m],rubbing_force [N/m],slip_velocity_of_2_x [m/s],slip_velocity_of_2_y [m/s]");
     CHECK(Csv(file_of<2>(scene, {.frames = 0}, "probes.csv")).head ==
           "step,time [s],all.displacement_x [m],all.displacement_y [m],all.velocity_x [m/s],all.velocity_y [m/s],"
           "all.stress_xx [Pa],all.stress_yy [Pa],all.stress_zz [Pa],all.stress_xy [Pa],all.von_mises [Pa]");

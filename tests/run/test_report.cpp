@@ -317,7 +317,7 @@ TEST_CASE("forces of a table are drawn to scale, and are 0 where there is no row
     const test::Folder folder;
     std::filesystem::create_directories(folder.path());
     const auto path = folder.path() / "forces.csv";
-    std::string table = "step,time,body_1,body_2,force_x,force_y,normal_force\n";
+    std::string table = "step,time,body_1,body_2,force_on_2_x,force_on_2_y,normal_force\n";
     for (int step = 1; step <= 60; ++step)
         table += std::to_string(step) + "," + std::to_string(0.1 * step) + ",a,b,0,-1," + (step <= 30 ? "3" : "1.5") + "\n";
     test::write_text(path, table);
@@ -338,7 +338,7 @@ TEST_CASE("of very many forces the means are drawn", "[run][report]") {
     const test::Folder folder;
     std::filesystem::create_directories(folder.path());
     const auto path = folder.path() / "forces.csv";
-    std::string table = "step,time,body_1,body_2,force_x,force_y,normal_force\n";
+    std::string table = "step,time,body_1,body_2,force_on_2_x,force_on_2_y,normal_force\n";
     for (int step = 1; step <= 20000; step += 2)  // every other row is not there: 0
         table += std::to_string(step) + "," + std::to_string(step) + ",a,b,0,-1,2\n";
     test::write_text(path, table);
