@@ -76,7 +76,7 @@ ABUT_API int abut_solid_set_temperature(abut_solid* solid, const char* body,
 
 typedef struct abut_solid_options {
     size_t struct_size;
-    double dt;      /* 0: cfl times the stable step */
+    double dt;      /* at most the stable step; 0: cfl times it */
     double cfl;     /* of the stable step, at most 1; 0: 0.9 */
     int32_t contact; /* 0: bodies pass through each other */
     int32_t restart; /* steps from one neutral restart to the next; 0: with friction 10, else with finite bodies 50,
@@ -124,6 +124,7 @@ enum {
     ABUT_KEEP = 0,   /* momenta stay: for slow and smooth changes of dt; H~ is exact */
     ABUT_RESTART = 1 /* momenta are rebuilt: for abrupt ones; what that changes in H~ is in `restart_jumps` */
 };
+/* `dt`: at most abut_solid_state.stable_dt. */
 ABUT_API int abut_solid_set_step(abut_solid* solid, double dt, int32_t change, abut_error* error);
 /* After ABUT_TOO_DEEP or ABUT_DIVERGED the run is over. */
 ABUT_API int abut_solid_step(abut_solid* solid, abut_error* error);

@@ -213,7 +213,7 @@ int abut_solid_set_step(abut_solid* solid, double dt, int32_t change, abut_error
     return with_run(solid, true, error, [&](auto& run, auto) {
         if (change != ABUT_KEEP && change != ABUT_RESTART)
             throw BadInput("change is " + std::to_string(change) + "; ABUT_KEEP and ABUT_RESTART are allowed.");
-        run.run().memm().set_step(dt, change == ABUT_KEEP ? dynamics::StepChange::keep : dynamics::StepChange::restart);
+        run.set_step(dt, change == ABUT_KEEP ? dynamics::StepChange::keep : dynamics::StepChange::restart);
     });
 }
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "abut/base/error.hpp"
+#include "abut/base/messages.hpp"
 #include "abut/contact/option_table.hpp"
 #include "abut/dynamics/ledger.hpp"
 #include "abut/dynamics/stable_step.hpp"
@@ -38,6 +39,16 @@ void write_items(std::span<const double> values, int per_item, const abut_array&
     for (std::ptrdiff_t i = 0; i < to.count; ++i)
         for (int d = 0; d < per_item; ++d)
             to.data[i * to.item + d * to.component] = values[static_cast<std::size_t>(i * per_item + d)];
+}
+
+/// Throws BadInput for a step above the stable one. `whose`: "abut_solid_options.dt".
+void require_stable(double dt, double stable_dt, const std::string& whose) {
+    if (dt > stable_dt)
+        throw BadInput(
+            whose + " is " + number(dt) + " s, above the stable step of " + number(stable_dt) +
+                " s, from which on vibrations grow. Give at most that (abut_solid_state.stable_dt), or a cfl of at "
+                "most 1.",
+            {.value = dt, .allowed = stable_dt});
 }
 
 template <int Dim>
@@ -132,11 +143,18 @@ void SolidRun<Dim>::begin(const abut_solid_options& given) {
     auto solid = std::make_unique<solid::Solid<Dim>>(mesh_, std::move(options));
     stable_dt_ = dynamics::stable_step(*solid).dt;
     const double dt = given.dt > 0.0 ? given.dt : (given.cfl > 0.0 ? given.cfl : dynamics::StepOptions{}.cfl) * stable_dt_;
+    require_stable(dt, stable_dt_, "abut_solid_options.dt");
     const bool rubs = given.contact != 0 && given.friction > 0.0;
     const int restart =
         given.restart == 0 ? solid::default_remedies(solid->options().kinematics, rubs).restart : given.restart;
     const std::vector<double> at_rest(solid->size(), 0.0), p = solid::uniform_momentum<Dim>(*solid, velocity_);
     run_.emplace(std::move(solid), at_rest, p, dt, solid::RunRemedies{.filter = rubs, .restart = restart});
+}
+
+template <int Dim>
+void SolidRun<Dim>::set_step(double dt, dynamics::StepChange change) {
+    require_stable(dt, stable_dt_, "abut_solid_set_step: dt");
+    run_->memm().set_step(dt, change);
 }
 
 template <int Dim>

@@ -49,6 +49,8 @@ public:
     [[nodiscard]] std::int64_t n_cells(const std::string& body) const;
     void write_cells(const std::string& body, const abut_solid_cell_arrays& cells);
     void write_state(abut_solid_state& state);
+    /// From the next step on. Throws BadInput for one above the stable step.
+    void set_step(double dt, dynamics::StepChange change);
     /// A number of the ledger, by the name of its column.
     [[nodiscard]] double ledger_value(const std::string& column);
 

@@ -145,6 +145,10 @@ static void what_cannot_be_is_refused(void) {
     CHECK(abut_solid_step(solid, &error) == ABUT_MISUSE);
     CHECK(strstr(error.message, "abut_solid_begin") != NULL);
     CHECK(abut_solid_add_file(solid, "no_such_mesh.msh", material, NULL, &error) == ABUT_BAD_INPUT);
+    abut_solid_options options = ABUT_SOLID_OPTIONS_INIT;
+    options.dt = 1e9;
+    CHECK(abut_solid_begin(solid, &options, &error) == ABUT_BAD_INPUT);
+    CHECK(strstr(error.message, "abut_solid_options.dt is 1e+09 s, above the stable step") != NULL);
     CHECK(abut_solid_begin(solid, NULL, &error) == ABUT_OK);
     CHECK(abut_solid_clamp(solid, "bar.xmax", &error) == ABUT_MISUSE);
 
@@ -156,6 +160,11 @@ static void what_cannot_be_is_refused(void) {
     CHECK(strstr(error.message, "bar.xmax") != NULL);
     CHECK(abut_solid_set_step(solid, -1.0, ABUT_KEEP, &error) == ABUT_BAD_INPUT);
     CHECK(abut_solid_set_step(solid, 1e-3, 7, &error) == ABUT_BAD_INPUT);
+    abut_solid_state state = ABUT_SOLID_STATE_INIT;
+    CHECK(abut_solid_get_state(solid, &state, &error) == ABUT_OK);
+    CHECK(abut_solid_set_step(solid, 1.01 * state.stable_dt, ABUT_KEEP, &error) == ABUT_BAD_INPUT);
+    CHECK(strstr(error.message, "abut_solid_set_step: dt is") != NULL && strstr(error.message, "the stable step") != NULL);
+    CHECK(abut_solid_set_step(solid, state.stable_dt, ABUT_KEEP, &error) == ABUT_OK);
     abut_solid_face_arrays faces = ABUT_SOLID_FACE_ARRAYS_INIT;
     faces.n_faces = n_faces + 1;
     CHECK(abut_solid_faces(solid, pressed, &faces, &error) == ABUT_BAD_INPUT);
