@@ -6,6 +6,7 @@
 #include <string>
 
 #include "abut/geometry/nearest/nearest_faces.hpp"
+#include "abut/geometry/nearest/winding_number.hpp"
 #include "arrays.hpp"
 
 namespace {
@@ -62,9 +63,19 @@ py::tuple nearest(const Packed<double>& vertices_1, const py::object& offsets_1,
     return py::make_tuple(distance, found.face_1, found.face_2, point(point_1), point(point_2));
 }
 
+bool inside(const Packed<double>& vertices, const py::object& offsets, const py::object& corners,
+            const Packed<double>& point) {
+    const Surface surface(vertices, offsets, corners, "mesh");
+    if (point.size() != 3) throw py::value_error("a point has 3 coordinates");
+    const Vector<3> x = as_vectors<3>(std::span(point.data(), 3))[0];
+    const py::gil_scoped_release release;
+    return geometry::is_inside(surface.soup(), x);
+}
+
 }  // namespace
 
 PYBIND11_MODULE(_nearest, module) {
     module.doc() = "Nearest faces of two surfaces, for abut.detection.";
+    module.def("is_inside", &inside, "Whether a point is inside of a closed surface whose normals look outwards.");
     module.def("nearest", &nearest, "(distance, face_1, face_2, point_1, point_2) of two surfaces in space.");
 }

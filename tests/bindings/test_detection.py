@@ -82,6 +82,25 @@ class Detection(unittest.TestCase):
         manager.remove_object("a")
         self.assertEqual(manager.names, ["b", "c"])
 
+    def test_a_body_that_is_wholly_inside_of_another_is_told_and_one_in_a_hollow_is_not(self):
+        outwards = [[0, 3, 2, 1], [4, 5, 6, 7], [0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [3, 0, 4, 7]]
+        around = [[10.0 * x - 5.0 for x in corner] for corner in CUBE.tolist()]
+        manager = abut.CollisionManager()
+        manager.add_object("small", (CUBE - 0.5, outwards))
+        manager.add_object("large", (np.array(around), outwards))
+        nearest = manager.nearest()
+        self.assertEqual((nearest.distance, nearest.inside), (4.5, "small"))
+        self.assertEqual(manager.in_collision_internal(return_names=True), (True, {("small", "large")}))
+        manager.set_transform("small", moved(x=20.0))
+        self.assertEqual((manager.nearest().distance, manager.nearest().inside), (14.5, None))
+        self.assertFalse(manager.in_collision_internal())
+        # A cavity, whose normals look into it, and a box without its lid hold bodies, and have no inside.
+        manager.set_transform("small", None)
+        for faces in ([face[::-1] for face in outwards], outwards[:1] + outwards[2:]):
+            manager.add_object("large", (np.array(around), faces))
+            self.assertIsNone(manager.nearest().inside)
+            self.assertFalse(manager.in_collision_internal())
+
     def test_what_cannot_be_is_refused_by_name(self):
         manager = abut.CollisionManager()
         manager.add_object("a", (SQUARE, UP))

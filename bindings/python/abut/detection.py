@@ -32,12 +32,14 @@ import itertools
 import numpy
 
 from ._contact import find_overlaps
-from ._nearest import nearest as _nearest
+from ._nearest import is_inside as _is_inside, nearest as _nearest
 
 __all__ = ["CollisionManager", "Contact", "Detected", "Nearest", "detect"]
 
-Nearest = collections.namedtuple("Nearest", "distance names faces points")
-Nearest.__doc__ = "Where two meshes are nearest: distance [m], their names, a face of each and a point [m] of each; 0: they touch."
+Nearest = collections.namedtuple("Nearest", "distance names faces points inside", defaults=[None])
+Nearest.__doc__ = """Where two meshes are nearest: distance of their surfaces [m], their names, a face of each and a point [m] of
+each; 0: they touch. inside: the name of the mesh that is wholly inside of the other one, whose surface is closed with normals
+outwards; None: neither is."""
 Contact = collections.namedtuple("Contact", "names area gap overlaps")
 Contact.__doc__ = """Two meshes that look at each other within a distance: names, area [m^2] and least gap [m] of all pairs of
 faces, and these as a structured array: face_1 and face_2 (of the meshes), area, normal (from the first into the second), gap, and
@@ -174,7 +176,7 @@ class CollisionManager:
 
     def min_distance_internal(self, return_names=False, return_data=False):
         """The least distance of two meshes [m]; as trimesh does, with a tuple of their names and the `Nearest` where asked for.
-        A mesh inside of another one is as far away as the surface around it."""
+        A mesh inside of another one is as far away as the surface around it; `Nearest.inside` tells it."""
         best = self.nearest()
         if best is None:
             raise ValueError("a distance needs two objects; add_object adds them")
@@ -182,10 +184,10 @@ class CollisionManager:
         return (best.distance, *extra) if extra else best.distance
 
     def in_collision_internal(self, return_names=False, return_data=False):
-        """Whether surfaces of two meshes touch or cross; as trimesh does, with the set of pairs of names and a list of `Nearest`
-        where asked for. A mesh inside of another one whose surfaces are apart does not collide."""
+        """Whether surfaces of two meshes touch or cross, or one mesh is wholly inside of another one, whose surface is closed with
+        normals outwards; else as trimesh does, with the set of pairs of names and a list of `Nearest` where asked for."""
         touching = [found for found in (self._nearest_of(pair) for bound, pair in self._pairs() if bound == 0.0)
-                    if found.distance == 0.0]
+                    if found.distance == 0.0 or found.inside is not None]
         extra = ([{found.names for found in touching}] if return_names else []) + ([touching] if return_data else [])
         return (bool(touching), *extra) if extra else bool(touching)
 
@@ -237,7 +239,20 @@ class CollisionManager:
         one, two = (self._surfaces[name] for name in pair)
         distance, face_1, face_2, point_1, point_2 = _nearest(self._placed[pair[0]], one.offsets, one.corners,
                                                               self._placed[pair[1]], two.offsets, two.corners)
-        return Nearest(distance, pair, (face_1, face_2), (point_1, point_2))
+        return Nearest(distance, pair, (face_1, face_2), (point_1, point_2), self._inside(pair) if distance > 0.0 else None)
+
+    def _inside(self, pair):
+        """The name of the one of two meshes, whose surfaces are apart, that is wholly inside of the other one; None: neither is. Every
+        so many of its corners stand for all."""
+        for inner, outer in (pair, pair[::-1]):
+            one, around, placed = self._surfaces[inner], self._surfaces[outer], self._placed[outer]
+            corners = self._placed[inner][one.corners]
+            hull = placed[around.corners]
+            if (corners.min(axis=0) < hull.min(axis=0)).any() or (corners.max(axis=0) > hull.max(axis=0)).any():
+                continue
+            if all(_is_inside(placed, around.offsets, around.corners, x) for x in corners[::1 + len(corners) // 64]):
+                return inner
+        return None
 
 
 def detect(meshes, transforms=None, distance=None):
