@@ -32,6 +32,19 @@ std::size_t length_of_character(std::string_view text, std::size_t at) {
 
 bool is_control(char c) { return static_cast<unsigned char>(c) < 0x20U || c == 0x7F; }
 
+/// Bytes of a mark that turns the direction of writing, where one begins here: U+061C, U+200E, U+200F, U+202A to U+202E, U+2066 to U+2069.
+/// 0: none does.
+std::size_t length_of_direction_mark(std::string_view text, std::size_t at) {
+    const std::string_view rest = text.substr(at);
+    if (rest.starts_with("\xD8\x9C")) return 2;
+    if (!rest.starts_with("\xE2\x80") && !rest.starts_with("\xE2\x81")) return 0;
+    if (rest.size() < 3) return 0;
+    const unsigned char block = byte_at(rest, 1), last = byte_at(rest, 2);
+    const bool is_mark = block == 0x80U ? (last == 0x8EU || last == 0x8FU || (last >= 0xAAU && last <= 0xAEU))
+                                        : (last >= 0xA6U && last <= 0xA9U);
+    return is_mark ? 3 : 0;
+}
+
 /// As a whole, whatever the locale; also inf and nan.
 bool is_number(std::string_view text) {
     if (text.starts_with('+')) text.remove_prefix(1);
@@ -44,10 +57,19 @@ bool is_number(std::string_view text) {
 
 std::string in_one_line(std::string text) {
     std::ranges::replace_if(text, is_control, ' ');
+    for (std::size_t at = 0; at < text.size(); ++at)
+        if (const std::size_t length = length_of_direction_mark(text, at)) {
+            text[at] = ' ';
+            text.erase(at + 1, length - 1);
+        }
     return text;
 }
 
-bool has_control_character(std::string_view text) { return std::ranges::any_of(text, is_control); }
+bool has_control_character(std::string_view text) {
+    for (std::size_t at = 0; at < text.size(); ++at)
+        if (is_control(text[at]) || length_of_direction_mark(text, at) > 0) return true;
+    return false;
+}
 
 std::string as_cell(const std::string& text) {
     const std::string cell = in_one_line(as_utf8(text));

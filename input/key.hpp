@@ -108,9 +108,10 @@ void read_named(std::vector<Section>& sections, const Node& node, const std::str
         const std::string path = name + "." + node.names[i];
         if (!reader.is_table(node.items[i], path)) continue;
         if (has_control_character(node.names[i]))
-            reader.fault(node.items[i], fmt::format("{} has a name with a control character, such as a line end. Name it by "
-                                                    "letters, digits and signs.",
-                                                    in_one_line(path)));
+            reader.fault(node.items[i],
+                         fmt::format("{} has a name with a control character, such as a line end or a mark that "
+                                     "turns the direction of writing. Name it by letters, digits and signs.",
+                                     in_one_line(path)));
         Section section;
         section.name = node.names[i];
         section.where = node.items[i].where;

@@ -26,6 +26,22 @@ TEST_CASE("a text is no formula in a spreadsheet, and a number stays one", "[bas
     CHECK(as_cell("\xFF") == "\xEF\xBF\xBD");
 }
 
+TEST_CASE("marks that turn the direction of writing count as control characters, and letters of any language do not",
+          "[base][text]") {
+    // U+061C, U+200E, U+200F, U+202A to U+202E, U+2066 to U+2069, and the neighbours of each
+    for (const char* mark :
+         {"\xD8\x9C", "\xE2\x80\x8E", "\xE2\x80\x8F", "\xE2\x80\xAA", "\xE2\x80\xAB", "\xE2\x80\xAC", "\xE2\x80\xAD",
+          "\xE2\x80\xAE", "\xE2\x81\xA6", "\xE2\x81\xA7", "\xE2\x81\xA8", "\xE2\x81\xA9"}) {
+        CHECK(has_control_character(std::string("a") + mark + "b"));
+        CHECK(in_one_line(std::string("a") + mark + "b" + mark) == "a b ");
+    }
+    for (const char* other : {"\xD8\x9B", "\xD8\xA7", "\xE2\x80\x8D", "\xE2\x80\x90", "\xE2\x80\xA9", "\xE2\x80\xAF",
+                              "\xE2\x81\xA5", "\xE2\x81\xAA", "\xE2\x82\xAA", "K\xC3\xB6rper", "\xE2\x80", "\xE2"}) {
+        CHECK_FALSE(has_control_character(other));
+        CHECK(in_one_line(other) == other);
+    }
+}
+
 TEST_CASE("a text that is cut for a message is cut between characters", "[base][text]") {
     CHECK(shortened("abc", 3) == "abc");
     CHECK(shortened("abcd", 3) == "abc...");

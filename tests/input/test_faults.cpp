@@ -153,6 +153,9 @@ TEST_CASE("a name with a control character is refused, and one that is no UTF-8 
     const std::string block = "\nshape = 'disc'\nradius = 0.1\nsize = 0.1\nplace = [0, 3]\nyoung = 1\ndensity = 1\n";
     const WrittenScene control(two_blocks("[bodies.\"a\\nb\"]" + block));
     CHECK(input::text_of(input::check_scene(control.path()).faults).find("control character") != std::string::npos);
+    // Displayed it would read like another name: "left", behind a mark of U+202E.
+    const WrittenScene turned(two_blocks("[bodies.\"\\u202Etfel\"]" + block));
+    CHECK(input::text_of(input::check_scene(turned.path()).faults).find("turns the direction") != std::string::npos);
     const WrittenScene bytes(two_blocks("[bodies.\"K\xF6rper\"]" + block));
     const std::string text = input::text_of(input::check_scene(bytes.path()).faults);
     CHECK(text.find(".toml:19:") != std::string::npos);
