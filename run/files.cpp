@@ -152,8 +152,10 @@ std::string in_csv(std::string name) {
 }
 
 std::string cannot_be_written(const fs::path& path, const std::string& reason) {
-    return fmt::format("{}: cannot be written{}{}. Check permissions and free space of its folder.", path.string(),
-                       reason.empty() ? "" : ": ", reason);
+    return fmt::format(
+        "{}: cannot be written{}{}. Check permissions and free space of its folder, and the limit of "
+        "file sizes (ulimit -f).",
+        path.string(), reason.empty() ? "" : ": ", reason);
 }
 
 }  // namespace abut::run

@@ -72,6 +72,7 @@ int run_on_ranks(const Program& program, int argc, char** argv, const std::funct
 int run_program(const Program& program, int argc, char** argv, const std::function<void(CommandParser&)>& add_options,
                 const std::function<void()>& body) {
     open_closed_streams();
+    go_on_at_largest_file();
     std::unique_ptr<ranks::Session> ranks;  // ends after all that is said
     return report_errors(program, [&] {
         ranks = join_ranks();

@@ -8,6 +8,10 @@ namespace abut::apps {
 /// the next file that is opened takes that place, and what the program says goes into it. To be called before anything else.
 void open_closed_streams();
 
+/// From here on a file that reaches the limit of file sizes (ulimit -f) ends the process by no signal: what writes it fails, as on a full
+/// disc, and says so. Children inherit it.
+void go_on_at_largest_file();
+
 /// Puts a text on standard output. That nobody reads it is no error.
 void say(const std::string& text);
 

@@ -45,7 +45,7 @@ void PreparedFile::move_into_place() {
     std::filesystem::rename(temporary_, path_, error);
     if (error)
         throw MeshError(path_.string() + ": cannot be written: " + error.message() +
-                        ". Check permissions and free space of its folder.");
+                        ". Check permissions and free space of its folder, and the limit of file sizes (ulimit -f).");
     temporary_.clear();
 }
 
@@ -58,7 +58,7 @@ PreparedFile prepared_file(const std::filesystem::path& path, std::span<const st
     if (!file) {
         const std::string reason = errno != 0 ? std::generic_category().message(errno) : "the folder takes no more";
         throw MeshError(path.string() + ": cannot be written: " + reason +
-                        ". Check permissions and free space of its folder.");
+                        ". Check permissions and free space of its folder, and the limit of file sizes (ulimit -f).");
     }
     return prepared;
 }

@@ -48,6 +48,17 @@ TEST_CASE("with its standard streams closed a run leaves the files that it leave
     CHECK(files_in(out) == files_in(open.directory));
 }
 
+TEST_CASE("a run at the limit of file sizes ends by an error that names the file, not by a signal", "[programs][streams]") {
+    const Folder folder("file_limit");
+    const fs::path error = folder.path() / "error";
+    // energy.csv has some 2000 rows of 300 bytes; 40 blocks of 1024 bytes are allowed
+    const std::string line = fmt::format("ulimit -c 0; ulimit -f 40; {} {} --out '{}' >/dev/null 2>'{}'", program("abut"),
+                                         slip("--set values.size=0.3 --steps 2000 --frames 0 --interval 1 --threads 1"),
+                                         (folder.path() / "out").string(), error.string());
+    CHECK(shell(line, folder.path()) == 1);
+    CHECK_THAT(read_text(error), Contains("energy.csv") && Contains("cannot be written") && Contains("ulimit -f"));
+}
+
 TEST_CASE("a run whose output nobody reads goes on to its end, and says so", "[programs][streams]") {
     const Folder folder("streams_pipe");
     const fs::path out = folder.path() / "out", error = folder.path() / "error";
