@@ -77,7 +77,11 @@ void append_displacement(SurfaceMesh& all, const SurfaceMesh& mesh) {
                    geometry::describe(mesh.soup(), face, health.faults[at(face)]);
     }
     message += n > most ? "; and " + std::to_string(n - most) + " more. " : ". ";
-    throw MeshError(message + "Mend the surface, or have such faces left out: UnusableFaces::skip.");
+    const bool any_is_concave = std::ranges::any_of(health.unusable_faces, [&](std::int32_t face) {
+        return health.faults[at(face)] == geometry::FaceFault::non_convex;
+    });
+    throw MeshError(message + "Mend the surface" + (any_is_concave ? ", cut faces that are not convex into triangles" : "") +
+                    ", or have such faces left out: UnusableFaces::skip.");
 }
 
 /// The corners of a usable face but those at the place of the one before.

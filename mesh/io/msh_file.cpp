@@ -56,10 +56,12 @@ public:
 private:
     void read_head() {
         n_bytes_ = values_.n_bytes_left();
-        const std::string_view section = values_.word();
-        if (section != "$MeshFormat")
-            throw MeshError(file_.name + ": is not a Gmsh mesh file: it starts with " + in_quotes(section) +
-                            ", '$MeshFormat' is needed. Save it with gmsh -format msh41.");
+        std::string_view section = values_.word();
+        for (; section == "$Comments"; section = values_.word()) values_.skip_section(section.substr(1));
+        if (section != "$MeshFormat")  // a file of somebody else: what it holds stays out of the message
+            throw MeshError(file_.name +
+                            ": is not a Gmsh mesh file: it does not start with '$MeshFormat'. Save it with gmsh "
+                            "-format msh41.");
         const std::string_view version = values_.word(), type = values_.word(), size = values_.word();
         // All of version 2 has one grammar.
         constexpr std::array<std::string_view, 5> known = {"2", "2.0", "2.1", "2.2", "4.1"};

@@ -42,7 +42,7 @@ public:
     std::vector<PlyElement> read(PlyHeader::Format& format) {
         bool has_format = false;
         if (const auto word = words_.next(); word != "ply")
-            words_.refuse("the file begins with " + in_quotes(word) + ", 'ply' is needed", "Save it as PLY.");
+            words_.refuse("the file does not begin with 'ply'", "Save it as PLY.");
         for (auto word = words_.next(); word != "end_header"; word = words_.next()) {
             if (word == "format") {
                 format = read_format();

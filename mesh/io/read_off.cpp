@@ -35,9 +35,7 @@ private:
                 kind.remove_prefix(letters.size());
                 is_homogeneous_ = letters == "4";
             }
-        if (kind != "OFF")
-            words_.refuse("the file begins with " + in_quotes(keyword) + ", OFF, COFF, NOFF, STOFF or 4OFF is needed",
-                          "Save it as OFF.");
+        if (kind != "OFF") words_.refuse("the file does not begin with OFF, COFF, NOFF, STOFF or 4OFF", "Save it as OFF.");
         std::string_view word = words_.next();
         if (word == "BINARY") words_.refuse("binary OFF is not read", "Save the mesh as text OFF, or as PLY or STL.");
         n_vertices_ = read_count(word, "the number of vertices");

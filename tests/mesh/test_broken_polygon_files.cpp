@@ -120,7 +120,7 @@ TEST_CASE("an OFF face that promises more corners than its line has is refused",
                Contains("line 4: a coordinate of vertex 1 is no finite number."));
     CHECK_THAT(refusal_of("a.off", "OFF BINARY\n3 1 0\n"),
                Contains("a.off: line 1: binary OFF is not read. Save the mesh as text OFF"));
-    CHECK_THAT(refusal_of("a.off", "nOFF\n2\n3 1 0\n"), Contains("a.off: line 1: the file begins with 'nOFF', OFF, COFF"));
+    CHECK_THAT(refusal_of("a.off", "nOFF\n2\n3 1 0\n"), Contains("a.off: line 1: the file does not begin with OFF, COFF"));
 }
 
 TEST_CASE("OFF comes in with colours, normals, weights and comments", "[mesh][surface][broken]") {

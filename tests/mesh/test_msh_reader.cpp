@@ -246,6 +246,7 @@ TEST_CASE("the last line needs no end, lines may end as on other systems, and fo
         crlf += letter == '\n' ? std::string("\r\n") : std::string(1, letter);
     for (const std::string& text :
          {head + nodes + elements, crlf, head + "$Comments\n$Nodes of nothing\n$EndComments\n" + nodes + elements,
+          "$Comments\nmade by hand\n$EndComments\n$Comments\n$EndComments\n" + head + nodes + elements,
           head + nodes + elements + "\n$ElementData\n1\n\"p\"\n0\n3\n0\n1\n1\n7 2.5\n$EndElementData"}) {
         save(folder / "a.msh", text);
         const auto mesh = read_gmsh<3>(folder / "a.msh");
@@ -259,6 +260,9 @@ TEST_CASE("the last line needs no end, lines may end as on other systems, and fo
         std::vector<std::string>{"line 4: 'lost' is in no section of a Gmsh file; lines of that kind that were skipped: 1"});
     CHECK_THAT(said_of(head + nodes + elements + "\n$ElementData\n1\n"),
                Contains("the file is truncated: '$EndElementData' is missing"));
+    // A file of somebody else, that was given by mistake: none of its words is told.
+    const std::string stranger = said_of("user:secret\nand more\n");
+    CHECK_THAT(stranger, Contains("it does not start with '$MeshFormat'") && !Contains("secret"));
     CHECK_THAT(said_of(head + nodes + nodes + elements), Contains("there is a second section $Nodes"));
 }
 

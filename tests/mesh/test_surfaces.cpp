@@ -57,6 +57,13 @@ TEST_CASE("cleaning under `fail` names the first faces, their faults and the rem
                       Contains("torus: 6 of 1542 faces cannot be used: face 1536 names vertex 9999, but there are 768; face "
                                "1537 names") &&
                           Contains("; and 1 more. Mend the surface, or have such faces left out: UnusableFaces::skip."));
+    SurfaceMesh concave;  // an L of one face
+    concave.name = "L";
+    concave.vertices = {{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {1, 1, 0}, {1, 2, 0}, {0, 2, 0}};
+    concave.faces.append(std::array{0, 1, 2, 3, 4, 5});
+    concave.face_body = {0};
+    CHECK_THROWS_WITH(clean(concave, health_of(concave), UnusableFaces::fail),
+                      Contains("face 0 is not convex") && Contains("cut faces that are not convex into triangles"));
     const CleanSurface rest = clean(mesh, health, UnusableFaces::skip);
     CHECK(rest.n_skipped_faces == 6);
     CHECK(health_of(rest.mesh).sound());
