@@ -214,8 +214,6 @@ TEST_CASE("cells of one body are never compared", "[mesh][interpenetration]") {
     CHECK(find_interpenetrations<3>(cube<3>(Vector<3>::Zero(), 3, CellShape::tetrahedron, "alone")).empty());
 }
 
-}  // namespace abut::mesh
-
 TEST_CASE("a search for overlapping cells ends at so many of two bodies, and says that there may be more",
           "[mesh][interpenetration]") {
     const auto mesh = both<3>(cube<3>(Vector<3>::Zero(), 4, CellShape::tetrahedron, "low"),
@@ -229,3 +227,5 @@ TEST_CASE("a search for overlapping cells ends at so many of two bodies, and say
                                                 Catch::Contains("100 pairs of cells or more overlap") &&
                                                 Catch::Contains("of those that were looked at"));
 }
+
+}  // namespace abut::mesh
