@@ -94,6 +94,15 @@ class Detection(unittest.TestCase):
         manager.set_transform("small", moved(x=20.0))
         self.assertEqual((manager.nearest().distance, manager.nearest().inside), (14.5, None))
         self.assertFalse(manager.in_collision_internal())
+        # Of two parts one is outside.
+        manager.set_transform("small", None)
+        n = len(CUBE)
+        far = outwards + [[corner + n for corner in face] for face in outwards]
+        manager.add_object("small", (np.concatenate([CUBE - 0.5, CUBE - 0.5 + [20.0, 0.0, 0.0]]), far))
+        self.assertIsNone(manager.nearest().inside)
+        near = (np.concatenate([CUBE - 0.5, CUBE - 0.5 + [3.0, 0.0, 0.0]]), far)
+        manager.add_object("small", near)
+        self.assertEqual(manager.nearest().inside, "small")
         # A cavity, whose normals look into it, and a box without its lid hold bodies, and have no inside.
         manager.set_transform("small", None)
         for faces in ([face[::-1] for face in outwards], outwards[:1] + outwards[2:]):

@@ -116,6 +116,17 @@ class _Surface:
             sizes.append(numpy.sqrt(numpy.linalg.norm(normal)))
         return sum(sizes) / len(sizes)
 
+    def first_of_parts(self):
+        """The lowest vertex of each part of the surface whose faces hang together by vertices."""
+        first, sizes = numpy.arange(len(self.vertices)), numpy.diff(self.offsets)
+        while True:
+            before = first.copy()
+            lowest = numpy.minimum.reduceat(first[self.corners], self.offsets[:-1])
+            numpy.minimum.at(first, self.corners, numpy.repeat(lowest, sizes))
+            first = first[first]
+            if (first == before).all():
+                return numpy.unique(first[self.corners])
+
 
 class CollisionManager:
     """Named meshes with transforms, as trimesh.collision.CollisionManager: distances are exact up to rounding, and contacts say
@@ -242,15 +253,17 @@ class CollisionManager:
         return Nearest(distance, pair, (face_1, face_2), (point_1, point_2), self._inside(pair) if distance > 0.0 else None)
 
     def _inside(self, pair):
-        """The name of the one of two meshes, whose surfaces are apart, that is wholly inside of the other one; None: neither is. Every
-        so many of its corners stand for all."""
+        """The name of the one of two meshes, whose surfaces are apart, that is wholly inside of the other one; None: neither is. One
+        vertex of each connected part tells of all of it; of more than 64 parts, as of faces without common vertices, every so many do."""
         for inner, outer in (pair, pair[::-1]):
             one, around, placed = self._surfaces[inner], self._surfaces[outer], self._placed[outer]
             corners = self._placed[inner][one.corners]
             hull = placed[around.corners]
             if (corners.min(axis=0) < hull.min(axis=0)).any() or (corners.max(axis=0) > hull.max(axis=0)).any():
                 continue
-            if all(_is_inside(placed, around.offsets, around.corners, x) for x in corners[::1 + len(corners) // 64]):
+            firsts = one.first_of_parts()
+            if all(_is_inside(placed, around.offsets, around.corners, self._placed[inner][first])
+                   for first in firsts[::1 + len(firsts) // 64]):
                 return inner
         return None
 
