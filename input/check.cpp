@@ -5,8 +5,10 @@
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -14,6 +16,7 @@
 #include "abut/base/stopwatch.hpp"
 #include "abut/input/make_scene.hpp"
 #include "abut/input/read_settings.hpp"
+#include "abut/mesh/cells_across.hpp"
 #include "abut/run/bond_text.hpp"
 #include "abut/run/failure.hpp"
 #include "abut/run/simulation.hpp"
@@ -73,6 +76,45 @@ std::string text_of_inertia(const run::Scene<Dim>& scene, const run::RunResult<D
     const auto body = static_cast<std::size_t>(least - result.inertia.begin());
     return fmt::format("{:.3g} of the exact one: '{}', which is {}", least->least(), scene.mesh.body_names[body],
                        run::name_of(run::kinematics_of(scene, result, body)));
+}
+
+/// The body that `counts` and has the fewest cells across; -1: none counts.
+template <class Counts>
+std::int32_t thinnest(std::span<const int> across, const Counts& counts) {
+    std::int32_t thinnest = -1;
+    for (std::int32_t body = 0; body < std::ssize(across); ++body)
+        if (counts(body) &&
+            (thinnest < 0 || across[static_cast<std::size_t>(body)] < across[static_cast<std::size_t>(thinnest)]))
+            thinnest = body;
+    return thinnest;
+}
+
+/// Sets Estimate::across and Estimate::pressed.
+template <int Dim>
+void estimate_across(const run::Scene<Dim>& scene, const run::RunResult<Dim>& result, Estimate& estimate) {
+    struct Bears {
+        int across;
+        const char* share;
+    };
+    constexpr std::array<Bears, 3> of_force{
+        {{4, "0.53 to 0.94"}, {8, "0.83 to 0.97"}, {16, "0.99"}}};  // scripts/pressed_blocks
+    const std::vector<int> across = mesh::cells_across(scene.mesh);
+    const auto properties_of = [&](std::int32_t body) {
+        return solid::properties_of(run::kinematics_of(scene, result, static_cast<std::size_t>(body)));
+    };
+    const auto text_of_body = [&](std::int32_t body) {
+        return fmt::format("at most {} in '{}'", across[static_cast<std::size_t>(body)], scene.mesh.body_names[body]);
+    };
+    const std::int32_t of_all = thinnest(across, [&](std::int32_t body) { return properties_of(body).deforms; });
+    if (of_all >= 0) estimate.across = text_of_body(of_all);
+    const std::int32_t of_finite = thinnest(across, [&](std::int32_t body) { return properties_of(body).finite_strains; });
+    if (of_finite < 0 || !scene.contact) return;
+    const auto bears = std::ranges::lower_bound(of_force, across[static_cast<std::size_t>(of_finite)], {}, &Bears::across);
+    if (bears == of_force.end()) return;
+    estimate.pressed = fmt::format(
+        "'{}', which is finite, bears {} of its force where contact presses on whole sides of it with {} cells "
+        "across. Take more cells, or floating where nothing bends far",
+        scene.mesh.body_names[of_finite], bears->share, bears->across);
 }
 
 /// How long a longitudinal wave takes through a cell, in its narrowest direction about [s].
@@ -136,6 +178,7 @@ public:
         if (result.options.law != solid::ContactLaw::automatic)
             estimate_.law = word_of(solid::law_words, result.options.law);
         estimate_.inertia = text_of_inertia(scene, result);
+        estimate_across(scene, result, estimate_);
         estimate_.bonds = run::bonded_text<Dim>(result.bonds);
         estimate_.stable_dt = result.stable.dt;
         estimate_.dt = run::choose_step(options_, result.stable.dt);
@@ -210,6 +253,8 @@ std::string text_of(const Estimate& estimate) {
     line("boundary faces", fmt::format("{}", estimate.boundary_faces));
     if (!estimate.law.empty()) line("law of contact", estimate.law);
     if (!estimate.inertia.empty()) line("inertia", estimate.inertia);
+    if (!estimate.across.empty()) line("cells across", estimate.across);
+    if (!estimate.pressed.empty()) line("  pressed", estimate.pressed);
     if (!estimate.bonds.empty()) line("bonded", estimate.bonds);
     line("stable step", fmt::format("{:.4g} s", estimate.stable_dt));
     if (!estimate.cell_of_step.empty()) line("  set by", estimate.cell_of_step);

@@ -5,11 +5,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <map>
 #include <numbers>
 #include <optional>
 #include <span>
 #include <utility>
+#include <vector>
 
 #include "abut/contact/nodal_contact.hpp"
 #include "abut/run/body_names.hpp"
@@ -206,6 +209,46 @@ void add_inertia(Counts& counts, const Scene<Dim>& scene, const RunResult<Dim>& 
     }
 }
 
+/// The largest angle between two faces of a group that share a vertex and lie on one side [rad]; 0: all its sides are flat.
+template <int Dim>
+double curvature_of(const mesh::Mesh<Dim>& mesh, std::span<const std::int32_t> faces) {
+    std::map<std::int32_t, std::vector<std::int32_t>> faces_at;  // by vertex
+    double largest = 0.0;
+    for (const std::int32_t face : faces)
+        for (const std::int32_t vertex : mesh.face_vertices[face]) {
+            std::vector<std::int32_t>& others = faces_at[vertex];
+            for (const std::int32_t other : others) {
+                const Vector<Dim>&n_1 = mesh.face_normal[static_cast<std::size_t>(face)],
+                      &n_2 = mesh.face_normal[static_cast<std::size_t>(other)];
+                const double angle = 2.0 * std::asin(std::min(1.0, 0.5 * (n_1 - n_2).norm()));
+                if (angle < edge_of_sides) largest = std::max(largest, angle);
+            }
+            others.push_back(face);
+        }
+    return largest;
+}
+
+/// Warns of loads on curved sides of finite bodies, whose faces are extrapolated from the cells around: no balance shows by how much.
+template <int Dim>
+void add_curved_loads(Counts& counts, const Scene<Dim>& scene, const RunResult<Dim>& result) {
+    for (const solid::TractionCondition<Dim>& load : scene.solid.boundary.traction) {
+        const std::vector<std::int32_t>& faces = scene.mesh.group(load.group).faces;
+        if (faces.empty()) continue;
+        const std::int32_t body = scene.mesh.cell_body[scene.mesh.face_cells[faces.front()][0]];
+        if (!solid::properties_of(kinematics_of(scene, result, static_cast<std::size_t>(body))).finite_strains) continue;
+        const double angle = curvature_of(scene.mesh, faces);
+        if (!(angle > flat_side)) continue;
+        counts.warnings.push_back(
+            {WarningKind::curved_load, Severity::warning,
+             fmt::format(
+                 "'{}' is a curved side of body '{}', which is finite, and is loaded. Tubes of 4 to 8 layers gave 0.38 to "
+                 "1.04 of the exact displacement, and some the wrong sign of the radial stress. Take floating if it does "
+                 "not bend far, or compare two meshes",
+                 load.group, scene.mesh.body_names[body]),
+             angle, flat_side});
+    }
+}
+
 /// Warns of what H~ does not see.
 template <int Dim>
 void add_motion(Counts& counts, const RunResult<Dim>& result) {
@@ -313,6 +356,7 @@ std::vector<Warning> warnings_before(const Scene<Dim>& scene, const RunResult<Di
     add_unjoined(counts, result);
     add_bonds(counts, scene, result);
     add_inertia(counts, scene, result);
+    add_curved_loads(counts, scene, result);
     const auto& stencils = result.stencils;
     counts.add(WarningKind::extrapolated_faces, Severity::note, stencils.extrapolated,
                fmt::format("{} of {} faces extrapolate from the cells around them, worst weight {:.2g}: the stable step is "

@@ -19,6 +19,10 @@ inline constexpr double far_rotation = 0.1;
 /// I / I_exact below which a body that may turn is worth a word [-]: it turns and precesses faster by as much. docs/limits.md.
 inline constexpr double enough_inertia = 0.98;
 
+/// Angle between faces that share a vertex, above which the side that they are on is curved [rad], up to `edge_of_sides`, above which an
+/// edge lies between two sides. docs/limits.md.
+inline constexpr double flat_side = 0.01, edge_of_sides = 0.8;
+
 /// |E| above which the strain of a finite body is worth a word [-]: its material is one of small strains. docs/limits.md.
 inline constexpr double large_strain = 0.2;
 
@@ -76,6 +80,7 @@ enum class WarningKind {
     unjoined_faces,       ///< faces that lie on others of their body and are not joined to them
     missing_bond,         ///< BondCoverage::share of a bond [-]; threshold: enough_bond
     missing_inertia,      ///< BodyInertia::least of a body that may turn [-]; threshold: enough_inertia
+    curved_load,          ///< largest angle between neighbours of a loaded side of a finite body [rad]; threshold: flat_side
     extrapolated_faces,   ///< note: faces that extrapolate from the cells around them: the stable step is shorter
     blind_corners,        ///< corners too sharp for contact to see
     unseen_edges,     ///< how much crossing edges look at each other [-]; threshold: below it the law that acts misses them

@@ -250,6 +250,28 @@ TEST_CASE("what a mesh left out and corners that contact cannot see are known be
           std::vector{WarningKind::mesh_file, WarningKind::unjoined_faces, WarningKind::blind_corners});
 }
 
+TEST_CASE("a load on a curved side of a finite body is told of, and none on a flat side or on other bodies",
+          "[run][warnings]") {
+    constexpr int sectors = 16;
+    const mesh::Mesh<2> disc = mesh::fan_disc({0.0, 0.0}, 1.0, sectors),
+                        box = mesh::structured_box<2>({0.0, 0.0}, {1.0, 1.0}, {4, 4}, mesh::CellShape::quadrangle, "box");
+    const auto told_of = [](const mesh::Mesh<2>& mesh, solid::Kinematics kinematics) {
+        run::Scene<2> scene;
+        scene.mesh = mesh;
+        scene.solid.materials = {{.young = 1.0, .poisson = 0.3, .density = 1.0}};
+        scene.solid.kinematics = {kinematics};
+        for (const mesh::BoundaryGroup& group : mesh.groups) scene.solid.boundary.traction.push_back({.group = group.name});
+        return run::warnings_before(scene, run::RunResult<2>{});
+    };
+    const auto warnings = told_of(disc, solid::Kinematics::finite);
+    REQUIRE(kinds(run::without_notes(warnings)) == std::vector{WarningKind::curved_load});
+    CHECK(warnings.front().value == Approx(2.0 * std::numbers::pi / sectors));
+    CHECK(warnings.front().text.find("'" + disc.groups.front().name + "'") != std::string::npos);
+    CHECK(told_of(disc, solid::Kinematics::floating).empty());
+    CHECK(told_of(disc, solid::Kinematics::small).empty());
+    CHECK(told_of(box, solid::Kinematics::finite).empty());
+}
+
 TEST_CASE("records that all come right after a restart are told of", "[run][warnings]") {
     run::Scene<2> scene;
     run::RunResult<2> result;
