@@ -97,7 +97,7 @@ void estimate_across(const run::Scene<Dim>& scene, const run::RunResult<Dim>& re
         const char* share;
     };
     constexpr std::array<Bears, 3> of_force{
-        {{4, "0.53 to 0.94"}, {8, "0.83 to 0.97"}, {16, "0.99"}}};  // scripts/pressed_blocks
+        {{4, "0.53 to 0.94"}, {8, "0.83 to 0.99"}, {16, "0.99"}}};  // scripts/pressed_blocks
     const std::vector<int> across = mesh::cells_across(scene.mesh);
     const auto properties_of = [&](std::int32_t body) {
         return solid::properties_of(run::kinematics_of(scene, result, static_cast<std::size_t>(body)));

@@ -31,7 +31,7 @@ TEST_CASE("check tells what a finite body of few cells across bears where contac
           "[input][check]") {
     const std::string finite = "bodies.left.kinematics=finite";
     CHECK(said({finite}).find("'left', which is finite, bears 0.53 to 0.94 of its force") != std::string::npos);
-    CHECK(said({finite, "bodies.left.counts=[8, 8]"}).find("bears 0.83 to 0.97 of its force") != std::string::npos);
+    CHECK(said({finite, "bodies.left.counts=[8, 8]"}).find("bears 0.83 to 0.99 of its force") != std::string::npos);
     for (const std::vector<std::string>& set : {std::vector<std::string>{},
                                                 {finite, "bodies.left.counts=[18, 18]"},
                                                 {finite, "contact.enabled=false"},
