@@ -317,6 +317,9 @@ class Runs(unittest.TestCase):
             run.set_step(run.dt, "jump")
         with self.assertRaises(abut.BadInput):
             run.set_step(-1.0, "keep")
+        with self.assertRaisesRegex(abut.BadInput, "above the stable step"):
+            run.set_step(1.01 * run.stable_dt, "keep")
+        run.set_step(run.stable_dt, "keep")
 
     def test_a_run_goes_on_without_cells_and_tells_what_has_left(self):
         # In flight nothing is strained: the cells take along their mass, momentum and kinetic energy, and no more.
