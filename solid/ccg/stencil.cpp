@@ -21,6 +21,8 @@ inline constexpr double volume_floor = 0.05;  // of the volume of the face's fir
 inline constexpr int max_floor_halvings = 20;
 inline constexpr double extrapolation_step = 1e-3;
 inline constexpr double resolution = 1e-6;  // relative: numbers nearer to each other differ by rounding only
+inline constexpr double one_surface = 0.5;  // cosine of the angle between normals of faces of one surface, at least
+inline constexpr double as_deep = 0.999;    // a cell below this of its own depth stands around a hollow
 
 /// Centroids of one body's cells (a contiguous range), as nanoflann wants them.
 template <int Dim>
@@ -124,7 +126,23 @@ private:
     std::vector<std::unique_ptr<BodyTree>> bodies_;
 };
 
-/// Searches the simplices of the nearest cells for the best one around a point.
+/// A simplex of cells around a point. The less, the better.
+template <int Dim>
+struct Candidate {
+    FaceStencil<Dim> stencil{};
+    double extrapolation = std::numeric_limits<double>::infinity();  // whole steps; infinite: none was found
+    double distances = std::numeric_limits<double>::infinity();      // their sum
+    std::array<std::int32_t, Dim + 1> cells{};                       // in increasing order
+
+    bool operator<(const Candidate& other) const {
+        return std::tie(extrapolation, distances, cells) < std::tie(other.extrapolation, other.distances, other.cells);
+    }
+    [[nodiscard]] std::optional<FaceStencil<Dim>> found() const {
+        return std::isinf(extrapolation) ? std::nullopt : std::optional(stencil);
+    }
+};
+
+/// Searches the simplices of the nearest cells around a point.
 template <int Dim>
 class SimplexSearch {
 public:
@@ -133,45 +151,74 @@ public:
     SimplexSearch(const mesh::Mesh<Dim>& mesh, const Vector<Dim>& point, std::span<const Near> near, double smallest_volume)
         : mesh_(mesh), point_(point), near_(near), smallest_volume_(smallest_volume) {}
 
+    /// The one that extrapolates least, then the nearest.
     [[nodiscard]] std::optional<FaceStencil<Dim>> best() {
-        descend(0, 0, 0.0);
-        if (std::isinf(best_sum_)) return std::nullopt;
-        return best_;
+        Candidate<Dim> best;
+        // Once a simplex holds the point, none with a larger sum can be better; of equal sums the cell numbers decide.
+        for_each([&](const Candidate<Dim>& found) { best = std::min(best, found); },
+                 [&](double distances) { return best.extrapolation == 0.0 && distances > best.distances; });
+        return best.found();
+    }
+    /// The one that second derivatives make least wrong; of equal ones the best.
+    [[nodiscard]] std::optional<FaceStencil<Dim>> most_exact() {
+        const auto none_is_worse = [](double) { return false; };
+        double least = std::numeric_limits<double>::infinity();
+        for_each([&](const Candidate<Dim>& found) { least = std::min(least, spread_of(found.stencil)); }, none_is_worse);
+        Candidate<Dim> best;
+        for_each(
+            [&](const Candidate<Dim>& found) {
+                if (spread_of(found.stencil) <= (1.0 + resolution) * least) best = std::min(best, found);
+            },
+            none_is_worse);
+        return best.found();
     }
 
 private:
-    void descend(int corner, std::size_t first, double sum) {
-        if (corner == Dim + 1) return consider(sum);
+    /// visit(Candidate) for each simplex that is large enough, leaving out those of which are_worse(least sum of distances).
+    template <class Visit, class AreWorse>
+    void for_each(const Visit& visit, const AreWorse& are_worse) {
+        descend(0, 0, 0.0, visit, are_worse);
+    }
+    template <class Visit, class AreWorse>
+    void descend(int corner, std::size_t first, double distances, const Visit& visit, const AreWorse& are_worse) {
+        if (corner == Dim + 1) {
+            if (const auto found = candidate(distances)) visit(*found);
+            return;
+        }
         for (std::size_t i = first; i < near_.size(); ++i) {
-            // Distances increase: once a simplex holds the point, none with a larger sum can be better; of equal sums the
-            // cell numbers decide.
-            if (best_extrapolation_ == 0.0 && sum + near_[i].distance * (Dim + 1 - corner) > best_sum_) return;
+            if (are_worse(distances + near_[i].distance * (Dim + 1 - corner))) return;  // distances increase
             chosen_[corner] = i;
-            descend(corner + 1, i + 1, sum + near_[i].distance);
+            descend(corner + 1, i + 1, distances + near_[i].distance, visit, are_worse);
         }
     }
 
-    void consider(double sum) {
+    /// Of the chosen cells; nothing where the simplex is too small.
+    [[nodiscard]] std::optional<Candidate<Dim>> candidate(double distances) const {
         Matrix<Dim> edges;
         const Vector<Dim>& origin = mesh_.cell_centroid[near_[chosen_[0]].cell];
         for (int j = 0; j < Dim; ++j) edges.col(j) = mesh_.cell_centroid[near_[chosen_[j + 1]].cell] - origin;
-        if (std::abs(edges.determinant()) < (Dim == 2 ? 2.0 : 6.0) * smallest_volume_) return;
+        if (std::abs(edges.determinant()) < (Dim == 2 ? 2.0 : 6.0) * smallest_volume_) return std::nullopt;
         const Vector<Dim> coordinates = edges.inverse() * (point_ - origin);
-        FaceStencil<Dim> stencil;
+        Candidate<Dim> found{.distances = distances};
         for (int j = 0; j <= Dim; ++j) {
-            stencil.cells[j] = near_[chosen_[j]].cell;
-            stencil.weights[j] = j == 0 ? 1.0 - coordinates.sum() : coordinates[j - 1];
+            found.stencil.cells[j] = near_[chosen_[j]].cell;
+            found.stencil.weights[j] = j == 0 ? 1.0 - coordinates.sum() : coordinates[j - 1];
         }
-        const double lowest = *std::min_element(stencil.weights.begin(), stencil.weights.end());
-        const double extrapolation =
-            extrapolation_step * std::floor(std::max(0.0, -lowest) / extrapolation_step + resolution);
-        auto cells = stencil.cells;
-        std::sort(cells.begin(), cells.end());
-        if (std::tie(extrapolation, sum, cells) >= std::tie(best_extrapolation_, best_sum_, best_cells_)) return;
-        best_extrapolation_ = extrapolation;
-        best_sum_ = sum;
-        best_cells_ = cells;
-        best_ = stencil;
+        const double lowest = *std::min_element(found.stencil.weights.begin(), found.stencil.weights.end());
+        found.extrapolation = extrapolation_step * std::floor(std::max(0.0, -lowest) / extrapolation_step + resolution);
+        found.cells = found.stencil.cells;
+        std::sort(found.cells.begin(), found.cells.end());
+        return found;
+    }
+
+    /// |sum w (x - x_f) (x - x_f)^T|: twice what second derivatives of 1 make of the value, at most [m^2].
+    [[nodiscard]] double spread_of(const FaceStencil<Dim>& stencil) const {
+        Matrix<Dim> sum = Matrix<Dim>::Zero();
+        for (std::size_t j = 0; j <= Dim; ++j) {
+            const Vector<Dim> arm = mesh_.cell_centroid[stencil.cells[j]] - point_;
+            sum += stencil.weights[j] * arm * arm.transpose();
+        }
+        return sum.norm();
     }
 
     const mesh::Mesh<Dim>& mesh_;
@@ -179,11 +226,37 @@ private:
     std::span<const Near> near_;
     double smallest_volume_;
     std::array<std::size_t, Dim + 1> chosen_{};
-    FaceStencil<Dim> best_{};
-    std::array<std::int32_t, Dim + 1> best_cells_{};
-    double best_extrapolation_ = std::numeric_limits<double>::infinity();
-    double best_sum_ = std::numeric_limits<double>::infinity();
 };
+
+/// Whether a boundary face is around a hollow: one of the cells near it is nearer to its plane than to a boundary face of its
+/// own that looks the same way. There the simplex that extrapolates least may span the hollow, however far its cells are.
+template <int Dim>
+bool is_hollow(const mesh::Mesh<Dim>& mesh, std::int32_t face, std::span<const typename NearestCells<Dim>::Near> near) {
+    return std::ranges::any_of(near, [&](const auto& of_cell) {
+        if (of_cell.cell == mesh.face_cells[face][0]) return false;
+        const auto depth_below = [&](std::int32_t f) {
+            return (mesh.face_centroid[f] - mesh.cell_centroid[of_cell.cell]).dot(mesh.face_normal[f]);
+        };
+        return std::ranges::any_of(mesh.cell_faces[of_cell.cell], [&](std::int32_t own) {
+            return mesh.is_boundary(own) && mesh.face_normal[own].dot(mesh.face_normal[face]) > one_surface &&
+                   depth_below(face) < as_deep * depth_below(own);
+        });
+    });
+}
+
+/// Adds the cells that share a face with a cell, where they are not among those near the point: of long cells around a hollow
+/// the nearest may all be of one layer.
+template <int Dim>
+void add_neighbours(const mesh::Mesh<Dim>& mesh, std::int32_t cell, const Vector<Dim>& point,
+                    std::vector<typename NearestCells<Dim>::Near>& near) {
+    using Near = typename NearestCells<Dim>::Near;
+    const auto distance = [&](std::int32_t of) { return (mesh.cell_centroid[of] - point).norm(); };
+    const double unit = distance(near.front().cell) / near.front().distance;
+    for (const std::int32_t face : mesh.cell_faces[cell])
+        for (const std::int32_t neighbour : mesh.face_cells[face])
+            if (neighbour >= 0 && std::ranges::find(near, neighbour, &Near::cell) == near.end())
+                near.push_back({std::round(distance(neighbour) / unit), neighbour});
+}
 
 template <int Dim>
 FaceStencil<Dim> select(const mesh::Mesh<Dim>& mesh, const NearestCells<Dim>& nearest, std::int32_t face,
@@ -191,11 +264,15 @@ FaceStencil<Dim> select(const mesh::Mesh<Dim>& mesh, const NearestCells<Dim>& ne
     const std::int32_t cell = mesh.face_cells[face][0];
     // Regular layers may put the nearest centroids all in one plane: then look further.
     for (std::size_t wanted = n_nearest<Dim>; wanted <= 4 * n_nearest<Dim>; wanted *= 2) {
-        const auto near = nearest.find(mesh.cell_body[cell], mesh.face_centroid[face], wanted, guess);
+        auto near = nearest.find(mesh.cell_body[cell], mesh.face_centroid[face], wanted, guess);
+        const bool is_all = near.size() < wanted, hollow = mesh.is_boundary(face) && is_hollow<Dim>(mesh, face, near);
+        if (hollow) add_neighbours<Dim>(mesh, cell, mesh.face_centroid[face], near);
         double smallest_volume = volume_floor * mesh.cell_measure[cell];
-        for (halvings = 0; halvings <= max_floor_halvings; ++halvings, smallest_volume *= 0.5)
-            if (auto found = SimplexSearch<Dim>(mesh, mesh.face_centroid[face], near, smallest_volume).best()) return *found;
-        if (near.size() < wanted) break;
+        for (halvings = 0; halvings <= max_floor_halvings; ++halvings, smallest_volume *= 0.5) {
+            SimplexSearch<Dim> search(mesh, mesh.face_centroid[face], near, smallest_volume);
+            if (auto found = hollow ? search.most_exact() : search.best()) return *found;
+        }
+        if (is_all) break;
     }
     throw BadInput(mesh.name + ": face " + std::to_string(face) + " of cell " +
                        std::to_string(mesh.cell_label[static_cast<std::size_t>(cell)]) +

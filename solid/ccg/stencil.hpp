@@ -28,9 +28,11 @@ struct StencilReport {
 /// A simplex for each of `faces`, out of the nearest cell centroids of the same body (10 in 2D, 14 in 3D, up to four times
 /// as many where these span none): least extrapolation (in whole steps of 1e-3, rounded down), then smallest sum of
 /// distances to x_f, then cell numbers (where sums are equal to a millionth of the least distance: rounding has no say);
-/// its volume at least 0.05 of the face's first cell, and if there is none, half of that again and again. The choice decides
-/// the stable step. docs/method.md, Space. Throws BadInput naming the face when the centroids near it span no
-/// simplex (a body one cell thick).
+/// its volume at least 0.05 of the face's first cell, and if there is none, half of that again and again.
+/// A boundary face around a hollow, which that choice may span with cells that are far away, also looks at the neighbours of
+/// its cell, and takes the simplex for which |sum w (x - x_f) (x - x_f)^T| is least.
+/// The choice decides the stable step. docs/method.md, Space. Throws BadInput naming the face when the centroids near it span
+/// no simplex (a body one cell thick).
 template <int Dim>
 [[nodiscard]] std::vector<FaceStencil<Dim>> select_stencils(const mesh::Mesh<Dim>& mesh, std::span<const std::int32_t> faces,
                                                             StencilReport& report);
