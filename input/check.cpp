@@ -5,10 +5,10 @@
 #include <sys/resource.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
-#include <span>
+#include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -78,43 +78,16 @@ std::string text_of_inertia(const run::Scene<Dim>& scene, const run::RunResult<D
                        run::name_of(run::kinematics_of(scene, result, body)));
 }
 
-/// The body that `counts` and has the fewest cells across; -1: none counts.
-template <class Counts>
-std::int32_t thinnest(std::span<const int> across, const Counts& counts) {
-    std::int32_t thinnest = -1;
-    for (std::int32_t body = 0; body < std::ssize(across); ++body)
-        if (counts(body) &&
-            (thinnest < 0 || across[static_cast<std::size_t>(body)] < across[static_cast<std::size_t>(thinnest)]))
-            thinnest = body;
-    return thinnest;
-}
-
-/// Sets Estimate::across and Estimate::pressed.
+/// "at most 4 in 'left'": cells across the body that deforms and has the fewest; empty: none deforms.
 template <int Dim>
-void estimate_across(const run::Scene<Dim>& scene, const run::RunResult<Dim>& result, Estimate& estimate) {
-    struct Bears {
-        int across;
-        const char* share;
-    };
-    constexpr std::array<Bears, 3> of_force{
-        {{4, "0.53 to 0.94"}, {8, "0.83 to 0.99"}, {16, "0.99"}}};  // scripts/pressed_blocks
+std::string text_of_across(const run::Scene<Dim>& scene, const run::RunResult<Dim>& result) {
     const std::vector<int> across = mesh::cells_across(scene.mesh);
-    const auto properties_of = [&](std::int32_t body) {
-        return solid::properties_of(run::kinematics_of(scene, result, static_cast<std::size_t>(body)));
-    };
-    const auto text_of_body = [&](std::int32_t body) {
-        return fmt::format("at most {} in '{}'", across[static_cast<std::size_t>(body)], scene.mesh.body_names[body]);
-    };
-    const std::int32_t of_all = thinnest(across, [&](std::int32_t body) { return properties_of(body).deforms; });
-    if (of_all >= 0) estimate.across = text_of_body(of_all);
-    const std::int32_t of_finite = thinnest(across, [&](std::int32_t body) { return properties_of(body).finite_strains; });
-    if (of_finite < 0 || !scene.contact) return;
-    const auto bears = std::ranges::lower_bound(of_force, across[static_cast<std::size_t>(of_finite)], {}, &Bears::across);
-    if (bears == of_force.end()) return;
-    estimate.pressed = fmt::format(
-        "'{}', which is finite, bears {} of its force where contact presses on whole sides of it with {} cells "
-        "across. Take more cells, or floating where nothing bends far",
-        scene.mesh.body_names[of_finite], bears->share, bears->across);
+    std::optional<std::size_t> thinnest;
+    for (std::size_t body = 0; body < across.size(); ++body)
+        if (solid::properties_of(run::kinematics_of(scene, result, body)).deforms &&
+            (!thinnest || across[body] < across[*thinnest]))
+            thinnest = body;
+    return thinnest ? fmt::format("at most {} in '{}'", across[*thinnest], scene.mesh.body_names[*thinnest]) : "";
 }
 
 /// How long a longitudinal wave takes through a cell, in its narrowest direction about [s].
@@ -178,7 +151,7 @@ public:
         if (result.options.law != solid::ContactLaw::automatic)
             estimate_.law = word_of(solid::law_words, result.options.law);
         estimate_.inertia = text_of_inertia(scene, result);
-        estimate_across(scene, result, estimate_);
+        estimate_.across = text_of_across(scene, result);
         estimate_.bonds = run::bonded_text<Dim>(result.bonds);
         estimate_.stable_dt = result.stable.dt;
         estimate_.dt = run::choose_step(options_, result.stable.dt);
@@ -187,8 +160,10 @@ public:
         estimate_.cell_of_step = cell_of_step(scene, options_);
         estimate_.damping = damping_of_friction(scene, result);
         interval_ = result.options.interval;
-        for (const run::Warning& warning : run::without_notes(run::warnings_before(scene, result)))
-            checked_.warnings.push_back(warning.text);
+        const std::vector<run::Warning> warnings = run::warnings_before(scene, result);
+        const auto pressed = std::ranges::find(warnings, run::WarningKind::pressed_finite, &run::Warning::kind);
+        if (pressed != warnings.end()) estimate_.pressed = pressed->text;
+        for (const run::Warning& warning : run::without_notes(warnings)) checked_.warnings.push_back(warning.text);
     }
     [[nodiscard]] bool wants_look(std::int64_t) const override { return true; }
     void look(const dynamics::RunView<Dim>&, solid::Solid<Dim>& solid) override {

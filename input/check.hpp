@@ -27,11 +27,11 @@ struct Estimate {
     double end = 0.0;      ///< of the run [s]
     double seconds = 0.0;  ///< that it takes about: steps and records as long as the state at the start takes to evaluate
     std::string inertia;   ///< the least share of it that the points of a body have, and of which body
-    std::string across{};  ///< cells across the body that deforms and has the fewest, and which body it is; empty if none deforms
-    /// Share of its force that a finite body of so few cells across bears where it is pressed; empty where none does, or it has enough.
-    std::string pressed{};
-    std::string bonds;     ///< how much of them is bonded (run::bonded_text); empty without bonds
-    double bytes = 0.0;    ///< that this process has taken at most, once the solid was made; the run takes about as much
+    std::string
+        across{};  ///< cells across the body that deforms and has the fewest, and which body it is; empty if none deforms
+    std::string pressed{};  ///< text of WarningKind::pressed_finite; empty where that is not told of
+    std::string bonds;      ///< how much of them is bonded (run::bonded_text); empty without bonds
+    double bytes = 0.0;     ///< that this process has taken at most, once the solid was made; the run takes about as much
 };
 
 struct CheckedScene {

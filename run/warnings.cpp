@@ -5,144 +5,21 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
-#include <limits>
-#include <map>
-#include <numbers>
-#include <optional>
-#include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
-#include "abut/contact/nodal_contact.hpp"
-#include "abut/run/body_names.hpp"
+#include "abut/run/counts.hpp"
 #include "abut/run/friction_watch.hpp"
-#include "abut/run/obstacle_watch.hpp"
 #include "abut/run/remedies.hpp"
-#include "abut/run/user_words.hpp"
 #include "abut/solid/kinematics/properties.hpp"
 
 namespace abut::run {
 namespace {
 
 constexpr double kinetic_of_rest = 1e-9;  // of the energy in play: bodies with no more are at rest, or came to it
-
-/// In the words of people who write scenes.
-std::vector<Warning> in_user_words(std::vector<Warning> warnings) {
-    for (Warning& warning : warnings) warning.text = with_keys(run::in_user_words(std::move(warning.text)));
-    return warnings;
-}
-
-/// Gathers warnings of counts that should be 0.
-class Counts {
-public:
-    template <class Count>
-    void add(WarningKind kind, Severity severity, Count count, std::string text) {
-        if (count > 0) warnings.push_back({kind, severity, std::move(text), static_cast<double>(count), 0.0});
-    }
-    std::vector<Warning> warnings;
-};
-
-void add_mesh(Counts& counts, const mesh::BuildReport& report, bool with_contact) {
-    for (const std::string& warning : report.warnings)
-        counts.warnings.push_back({WarningKind::mesh_file, Severity::warning, fmt::format("mesh file: {}", warning),
-                                   std::numeric_limits<double>::quiet_NaN(), 0.0});
-    counts.add(WarningKind::unused_vertices, Severity::note, report.n_unused_vertices,
-               fmt::format("{} vertices belong to no cell and are left out", report.n_unused_vertices));
-    counts.add(
-        WarningKind::ignored_elements, Severity::note, report.n_ignored_elements,
-        fmt::format("{} elements are neither cells nor faces of a named group and are left out", report.n_ignored_elements));
-    counts.add(WarningKind::turned_cells, Severity::note, report.n_turned_cells,
-               fmt::format("{} cells are given inside out (clockwise) and are turned", report.n_turned_cells));
-    counts.add(WarningKind::cut_cells, Severity::note, report.n_cut_cells,
-               fmt::format("{} cells are cut into tetrahedra, for {} faces that are not planar", report.n_cut_cells,
-                           report.n_non_planar_faces));
-    counts.add(
-        WarningKind::coincident_vertices, Severity::note, with_contact ? report.n_coincident_vertices : 0,
-        fmt::format("{} vertices lie on a vertex of another body: bodies that touch are not joined; [[bonds]] glue them",
-                    report.n_coincident_vertices));
-}
-
-template <int Dim>
-void add_unjoined(Counts& counts, const RunResult<Dim>& result) {
-    const mesh::UnjoinedFaces& unjoined = result.unjoined;
-    counts.add(
-        WarningKind::unjoined_faces, Severity::warning, unjoined.n_faces,
-        fmt::format(
-            "{} faces lie on faces of their own body without being joined to them, the first of body '{}' at ({:.4g}): "
-            "cells on both sides move apart freely{}. Where this is no crack, merge vertices that coincide, make a "
-            "mesh whose cells match, or make two bodies of it and bond them with [[bonds]]",
-            unjoined.n_faces, unjoined.body, fmt::join(std::span<const double>(unjoined.place).first(Dim), ", "),
-            result.options.contact.search.self_contact ? ", and touch where they come together again"
-                                                       : " and through each other"));
-}
-
-/// Name of a body or an obstacle in messages.
-template <int Dim>
-std::string name_in(const Scene<Dim>& scene, std::int32_t body) {
-    return (body < scene.mesh.n_bodies() ? "body " : "") + quoted_name(scene, body);
-}
-
-/// By the law that acts: what two faces that look at each other less than this miss, and how that is changed.
-struct Seen {
-    double cosine;  ///< -n_1 . n_2
-    const char* verb;
-    const char* remedy;
-};
-Seen seen_by(const RunOptions& options) {
-    if (options.law == solid::ContactLaw::pair_potential)
-        return {-contact::quarter_weight_cosine(options.facing), "hardly sees",
-                "take a --facing-none nearer to 0, with a --facing-full below it"};
-    return {-options.contact.search.facing_cosine, "does not see", "take a --facing-cosine nearer to 0"};
-}
-
-template <int Dim>
-void add_corners(Counts& counts, const Scene<Dim>& scene, const RunResult<Dim>& result) {
-    const auto& corners = result.blind_corners;
-    if (corners.empty()) return;
-    const Seen seen = seen_by(result.options);
-    counts.add(
-        WarningKind::blind_corners, Severity::warning, corners.size(),
-        fmt::format("{} corners, one of them of {} at ({:.4g}), are so sharp that contact {} them meet a flat face: bodies "
-                    "pass through each other there, or leave too fast. Blunt them, or {}",
-                    corners.size(), name_in(scene, corners.front().body), fmt::join(corners.front().position, ", "),
-                    seen.verb, seen.remedy));
-}
-
-/// The angle inside the body at an edge [degrees].
-double degrees(double half_angle_sine) { return 2.0 * std::asin(half_angle_sine) * 180.0 / std::numbers::pi; }
-
-template <int Dim>
-void add_edges(Counts& counts, const Scene<Dim>& scene, const RunResult<Dim>& result) {
-    const auto& edges = result.unseen_edges;
-    if (!edges) return;
-    const Seen seen = seen_by(result.options);
-    counts.warnings.push_back(
-        {WarningKind::unseen_edges, Severity::warning,
-         fmt::format(
-             "edges of {:.3g} and {:.3g} degrees, of {} at ({:.4g}) and {} at ({:.4g}), are so sharp that contact {} them "
-             "cross: their faces look at each other by {:.3g}, more than {:.3g} is needed. Bodies pass through each other "
-             "there. Blunt them, or {}",
-             degrees(edges->edge_1.half_angle_sine), degrees(edges->edge_2.half_angle_sine),
-             name_in(scene, edges->edge_1.body), fmt::join(edges->edge_1.midpoint, ", "), name_in(scene, edges->edge_2.body),
-             fmt::join(edges->edge_2.midpoint, ", "), seen.verb, edges->facing(), seen.cosine, seen.remedy),
-         edges->facing(), seen.cosine});
-}
-
-/// Warns that a body, or all of them, lie where an obstacle does nothing for them.
-template <int Dim>
-void add_behind(Counts& counts, const Scene<Dim>& scene) {
-    for (const Behind& behind : behind_at_start(scene))
-        counts.warnings.push_back(
-            {WarningKind::behind_obstacle, Severity::warning,
-             fmt::format(
-                 "{} behind obstacle '{}', where nothing touches it: contact acts on the side that it faces. Turn it "
-                 "around (normal of a plane, inside of a surface), or let the two pass through each other by name "
-                 "(ignored_pairs)",
-                 behind.body < 0 ? "all bodies are" : fmt::format("body '{}' is", scene.mesh.body_names[behind.body]),
-                 name_of_obstacle(scene, static_cast<std::size_t>(behind.obstacle))),
-             std::numeric_limits<double>::quiet_NaN(), 0.0});
-}
 
 /// Warns of what was seen at records: bodies past the rim of their floor, and bodies that came near themselves.
 template <int Dim>
@@ -169,84 +46,6 @@ void add_sightings(Counts& counts, const RunResult<Dim>& result) {
              fmt::format("from t = {:.4g} s on nobody looks whether body '{}' comes together with itself: {}", ended.time,
                          ended.body, ended.reason),
              ended.time, 0.0});
-}
-
-template <int Dim>
-void add_bonds(Counts& counts, const Scene<Dim>& scene, const RunResult<Dim>& result) {
-    for (std::size_t i = 0; i < result.bonds.size(); ++i) {
-        const solid::Bond& bond = scene.solid.bonds[i];
-        const solid::BondCoverage& coverage = result.bonds[i];
-        if (!(coverage.share() < enough_bond)) continue;
-        counts.warnings.push_back(
-            {WarningKind::missing_bond, Severity::warning,
-             fmt::format(
-                 "the bond of {} and {} holds {:.3g} of the {:.4g} {} where they lie opposite each other, {:g} is "
-                 "needed: faces farther apart than a tenth of the smaller one are not bonded, and the largest gap "
-                 "that is bonded is {:.3g} m. Move or turn the bodies together, or name by groups what is to be bonded",
-                 quoted_side(scene, bond.sides[0]), quoted_side(scene, bond.sides[1]), coverage.share(), coverage.opposite,
-                 Dim == 2 ? "m" : "m^2", enough_bond, coverage.largest_gap),
-             coverage.share(), enough_bond});
-    }
-}
-
-/// Warns that the mass of cells at their centroids leaves out a part of the inertia of a body that turns.
-template <int Dim>
-void add_inertia(Counts& counts, const Scene<Dim>& scene, const RunResult<Dim>& result) {
-    for (std::size_t body = 0; body < result.inertia.size(); ++body) {
-        const auto kinematics = kinematics_of(scene, result, body);
-        const double share = result.inertia[body].least();
-        const solid::KinematicsProperties& of_body = solid::properties_of(kinematics);
-        if (!of_body.turns || !(share < enough_inertia)) continue;
-        counts.warnings.push_back(
-            {WarningKind::missing_inertia, Severity::warning,
-             fmt::format(
-                 "body '{}', which is {}, has {:.3g} of its moment of inertia, {:g} is enough: the mass of a cell is at "
-                 "its centroid. It turns and precesses too fast by {:.2g} %. Take smaller cells, or rigid{} where it "
-                 "does not bend",
-                 scene.mesh.body_names[body], name_of(kinematics), share, enough_inertia, 100.0 * (1.0 / share - 1.0),
-                 of_body.finite_strains ? " or floating" : ""),
-             share, enough_inertia});
-    }
-}
-
-/// The largest angle between two faces of a group that share a vertex and lie on one side [rad]; 0: all its sides are flat.
-template <int Dim>
-double curvature_of(const mesh::Mesh<Dim>& mesh, std::span<const std::int32_t> faces) {
-    std::map<std::int32_t, std::vector<std::int32_t>> faces_at;  // by vertex
-    double largest = 0.0;
-    for (const std::int32_t face : faces)
-        for (const std::int32_t vertex : mesh.face_vertices[face]) {
-            std::vector<std::int32_t>& others = faces_at[vertex];
-            for (const std::int32_t other : others) {
-                const Vector<Dim>&n_1 = mesh.face_normal[static_cast<std::size_t>(face)],
-                      &n_2 = mesh.face_normal[static_cast<std::size_t>(other)];
-                const double angle = 2.0 * std::asin(std::min(1.0, 0.5 * (n_1 - n_2).norm()));
-                if (angle < edge_of_sides) largest = std::max(largest, angle);
-            }
-            others.push_back(face);
-        }
-    return largest;
-}
-
-/// Warns of loads on curved sides of finite bodies, whose faces are extrapolated from the cells around: no balance shows by how much.
-template <int Dim>
-void add_curved_loads(Counts& counts, const Scene<Dim>& scene, const RunResult<Dim>& result) {
-    for (const solid::TractionCondition<Dim>& load : scene.solid.boundary.traction) {
-        const std::vector<std::int32_t>& faces = scene.mesh.group(load.group).faces;
-        if (faces.empty()) continue;
-        const std::int32_t body = scene.mesh.cell_body[scene.mesh.face_cells[faces.front()][0]];
-        if (!solid::properties_of(kinematics_of(scene, result, static_cast<std::size_t>(body))).finite_strains) continue;
-        const double angle = curvature_of(scene.mesh, faces);
-        if (!(angle > flat_side)) continue;
-        counts.warnings.push_back(
-            {WarningKind::curved_load, Severity::warning,
-             fmt::format(
-                 "'{}' is a curved side of body '{}', which is finite, and is loaded. Tubes of 4 to 8 layers gave 0.38 to "
-                 "1.04 of the exact displacement, and some the wrong sign of the radial stress. Take floating if it does "
-                 "not bend far, or compare two meshes",
-                 load.group, scene.mesh.body_names[body]),
-             angle, flat_side});
-    }
 }
 
 /// Warns of what H~ does not see.
@@ -277,8 +76,6 @@ void add_motion(Counts& counts, const RunResult<Dim>& result) {
                   fmt::format("a cell swings from step to step by |e|/m = {:.2g} m/s, {:.2g} of the largest speed, {:g} is "
                               "safe: do not read single cells near contact, or take {}",
                               ledger.parasitic(), share, large_parasitic_share, calming_choices(result.options)));
-        if (share > large_parasitic_share && share <= spoiling_parasitic_share)
-            counts.warnings.back().severity = Severity::note;
     }
     if (result.moment_scale > 0.0 && energy > 0.0) {
         const double drift = ledger.pseudo_angular_momentum_drift() / (result.moment_scale * std::sqrt(energy));
@@ -348,36 +145,6 @@ void add_looks(Counts& counts, const RunResult<Dim>& result) {
 }
 
 }  // namespace
-
-template <int Dim>
-std::vector<Warning> warnings_before(const Scene<Dim>& scene, const RunResult<Dim>& result) {
-    Counts counts;
-    add_mesh(counts, scene.mesh.report, scene.contact);
-    add_unjoined(counts, result);
-    add_bonds(counts, scene, result);
-    add_inertia(counts, scene, result);
-    add_curved_loads(counts, scene, result);
-    const auto& stencils = result.stencils;
-    counts.add(WarningKind::extrapolated_faces, Severity::note, stencils.extrapolated,
-               fmt::format("{} of {} faces extrapolate from the cells around them, worst weight {:.2g}: the stable step is "
-                           "shorter",
-                           stencils.extrapolated, stencils.faces, stencils.worst_weight));
-    add_corners(counts, scene, result);
-    add_edges(counts, scene, result);
-    add_behind(counts, scene);
-    if (const auto& options = result.options; options.restart > 0 && options.interval % options.restart == 0)
-        counts.warnings.push_back(
-            {WarningKind::hidden_mode, Severity::warning,
-             fmt::format("with --interval {} and --restart {} every record comes right after a restart: H - H~ and |e|/m "
-                         "before it are not seen. {}",
-                         options.interval, options.restart,
-                         options.restart == 1 ? std::string("Take a larger --restart")
-                                              : fmt::format("Take an --interval that shares no factor with --restart, "
-                                                            "such as {}",
-                                                            options.interval + 1)),
-             static_cast<double>(options.interval), static_cast<double>(options.restart)});
-    return in_user_words(std::move(counts.warnings));
-}
 
 template <int Dim>
 std::vector<Warning> warnings_during(std::int64_t step, const RunResult<Dim>& result) {
@@ -488,9 +255,8 @@ std::vector<Warning> without_notes(std::vector<Warning> warnings) {
     return warnings;
 }
 
-#define ABUT_INSTANTIATE(Dim)                                                                     \
-    template std::vector<Warning> warnings_before<Dim>(const Scene<Dim>&, const RunResult<Dim>&); \
-    template std::vector<Warning> warnings_during<Dim>(std::int64_t, const RunResult<Dim>&);      \
+#define ABUT_INSTANTIATE(Dim)                                                                \
+    template std::vector<Warning> warnings_during<Dim>(std::int64_t, const RunResult<Dim>&); \
     template std::vector<Warning> warnings_after<Dim>(const RunResult<Dim>&);
 ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)

@@ -210,7 +210,7 @@ TEST_CASE("edges that would cross unseen are told of, with their angles and the 
     REQUIRE(kinds(warnings) == std::vector{WarningKind::unseen_edges});
     CHECK(warnings[0].value == 0.15);
     CHECK(warnings[0].threshold == 0.2);
-    for (const char* part : {"34.9 and 60 degrees", "(1, 2, 3)", "--facing-cosine"})
+    for (const char* part : {"34.9 and 60 degrees", "(1, 2, 3)", "--lab facing_cosine"})
         CHECK(warnings[0].text.find(part) != std::string::npos);
     // y^2 (3 - 2 y) = 1/4 of the fade from -0.6 to -0.2
     result.options.law = solid::ContactLaw::pair_potential;
@@ -239,37 +239,15 @@ TEST_CASE("what a mesh left out and corners that contact cannot see are known be
     CHECK(warnings.front().text == "mesh file: node 3 is lonely");
     for (std::size_t i = 1; i < warnings.size(); ++i) CHECK(warnings[i].value == static_cast<double>(i));
     for (const std::string& part :
-         {"body '" + scene.mesh.body_names[0] + "'", std::string("0.5, 0.25"), std::string("--facing-cosine")})
+         {"body '" + scene.mesh.body_names[0] + "'", std::string("0.5, 0.25"), std::string("--lab facing_cosine")})
         CHECK(warnings.back().text.find(part) != std::string::npos);
     result.options.law = solid::ContactLaw::pair_potential;  // which has a fade of its own
     const std::string text = run::warnings_before(scene, result).back().text;
     CHECK(text.find("--facing-none") != std::string::npos);
-    CHECK(text.find("--facing-cosine") == std::string::npos);
+    CHECK(text.find("--lab facing_cosine") == std::string::npos);
     // What nobody can act on, or is meant most often, is a note.
     CHECK(kinds(run::without_notes(warnings)) ==
           std::vector{WarningKind::mesh_file, WarningKind::unjoined_faces, WarningKind::blind_corners});
-}
-
-TEST_CASE("a load on a curved side of a finite body is told of, and none on a flat side or on other bodies",
-          "[run][warnings]") {
-    constexpr int sectors = 16;
-    const mesh::Mesh<2> disc = mesh::fan_disc({0.0, 0.0}, 1.0, sectors),
-                        box = mesh::structured_box<2>({0.0, 0.0}, {1.0, 1.0}, {4, 4}, mesh::CellShape::quadrangle, "box");
-    const auto told_of = [](const mesh::Mesh<2>& mesh, solid::Kinematics kinematics) {
-        run::Scene<2> scene;
-        scene.mesh = mesh;
-        scene.solid.materials = {{.young = 1.0, .poisson = 0.3, .density = 1.0}};
-        scene.solid.kinematics = {kinematics};
-        for (const mesh::BoundaryGroup& group : mesh.groups) scene.solid.boundary.traction.push_back({.group = group.name});
-        return run::warnings_before(scene, run::RunResult<2>{});
-    };
-    const auto warnings = told_of(disc, solid::Kinematics::finite);
-    REQUIRE(kinds(run::without_notes(warnings)) == std::vector{WarningKind::curved_load});
-    CHECK(warnings.front().value == Approx(2.0 * std::numbers::pi / sectors));
-    CHECK(warnings.front().text.find("'" + disc.groups.front().name + "'") != std::string::npos);
-    CHECK(told_of(disc, solid::Kinematics::floating).empty());
-    CHECK(told_of(disc, solid::Kinematics::small).empty());
-    CHECK(told_of(box, solid::Kinematics::finite).empty());
 }
 
 TEST_CASE("records that all come right after a restart are told of", "[run][warnings]") {
