@@ -61,6 +61,13 @@ enum class Named {
     never,        ///< the summary says in another place what was used
 };
 
+/// Who needs an option: help texts, keys and documents show them in this order.
+enum class OptionDepth {
+    everyday,
+    expert,
+    laboratory,  ///< compares methods; scenes have it in [laboratory], command lines as --lab KEY=VALUE
+};
+
 /// Where an option may be given.
 struct OptionPlaces {
     bool scene = true;
@@ -86,6 +93,7 @@ struct OptionTraits {
     bool free_on_resume = false;  ///< a run that goes on from a checkpoint may have another value
     std::string table{};          ///< of a scene file: "contact"
     std::string group{};          ///< of a help text: "Contact"
+    OptionDepth depth = OptionDepth::expert;
 };
 
 struct OptionFacts : OptionTraits {

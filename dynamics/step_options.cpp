@@ -11,15 +11,18 @@ const OptionList<StepOptions>& step_options() {
                            .below = 1.0,
                            .closed = true,
                            .remedy = "Give a time step above the stable one with --dt and --allow-unstable."},
-                .named = Named::never}),
+                .named = Named::never,
+                .depth = OptionDepth::everyday}),
         option("dt", &Of::dt,
                {.help = "time step, refused above the stable step; by default cfl decides",
                 .limits = {.unit = "s", .above = 0.0},
-                .named = Named::never}),
+                .named = Named::never,
+                .depth = OptionDepth::everyday}),
         option("restart", &Of::restart,
                {.help = "of memm: steps between neutral restarts, which clear the parasitic mode of whole bodies; 0: none",
                 .by_default = "10 and the filter with friction, 50 where a body is finite, else 0",
-                .schemes = {"memm"}})};
+                .schemes = {"memm"},
+                .depth = OptionDepth::everyday})};
     return options;
 }
 

@@ -56,7 +56,7 @@ std::string grammar() {
            table("[tractions.NAME]", traction_keys()) + table("[springs.NAME]", spring_keys()) +
            table("[springs.NAME.from], [springs.NAME.to]", anchor_keys()) + table("[moments.NAME]", moment_keys()) +
            table("[run]", run_keys()) + table("[contact]", contact_keys()) + table("[output]", output_keys()) +
-           table("[output.probes.NAME]", probe_keys());
+           table("[output.probes.NAME]", probe_keys()) + table("[laboratory]", laboratory_keys());
 }
 
 }  // namespace abut::input

@@ -142,14 +142,24 @@ bool is_friction(const OptionFacts& option) {
            contact::friction_options().end();
 }
 
+/// Options of contact alone, in [contact] and in [laboratory].
+bool is_of_contact(const OptionFacts& option) {
+    const auto& of_contact = contact::contact_options();
+    return option.table == "contact" || std::ranges::find(of_contact, option.name, &OptionFacts::name) != of_contact.end();
+}
+
+std::string path_of(const OptionFacts& option) { return option.table + "." + option.scene_key(); }
+
 /// Whether the chosen scheme and law read an option; else the key is left with the names of those that do.
 bool read_by_scheme_and_law(const Settings& settings, const OptionFacts& option, const std::string& path) {
     const auto is_in = [](const std::vector<std::string>& all, const std::string& word) {
         return all.empty() || std::ranges::find(all, word) != all.end();
     };
-    const std::string scheme = name_of(settings.options.integrator), law = word_of(solid::law_words, settings.options.law);
+    const solid::ContactLaw acts =
+        settings.options.law == solid::ContactLaw::automatic ? solid::ContactLaw::pair_potential : settings.options.law;
+    const std::string scheme = name_of(settings.options.integrator), law = word_of(solid::law_words, acts);
     const bool has_scheme = is_in(option.schemes, scheme);
-    const bool has_law = settings.options.law == solid::ContactLaw::automatic || is_in(option.laws, law);
+    const bool has_law = is_in(option.laws, law);
     if (!has_scheme) settings.given.read_with(false, path, words("run.integrator", option.schemes));
     if (!has_law) settings.given.read_with(false, path, words("contact.law", option.laws));
     return has_scheme && has_law;
@@ -162,17 +172,17 @@ bool depends_on_others(const Settings& settings, const std::string& path) {
     if (path == "run.steps") return given.read_unless(given.has("run.time"), path, "run.time"), true;
     if (path == "run.cfl") return given.read_unless(given.has("run.dt"), path, "run.dt"), true;
     if (path == "run.rebalance_above") return given.read_with(given.has("run.rebalance"), path, "run.rebalance"), true;
-    if (path == "run.mean_force") {
+    if (path == "laboratory.mean_force") {
         const bool bends = any_body(settings, [&](const auto& body) { return mover(body).has_finite_strains(); });
         return given.read_with(bends, path, words("kinematics", {"finite"})), true;
     }
-    if (path == "contact.neumann") {
+    if (path == "laboratory.free_faces") {
         const auto has_rule = [&](const BodySettings& body) {
             return mover(body).deforms() && !mover(body).has_finite_strains();
         };
         return given.read_with(any_body(settings, has_rule), path, words("kinematics", {"small", "floating"})), true;
     }
-    if (path == "contact.corners") {
+    if (path == "laboratory.corners") {
         // Faces answer to what the modified reconstruction or a bond moves; parts of a file are bonded.
         const bool may_be_bonded = !settings.bonds.empty() || any_body(settings, [](const BodySettings& body) {
             return body.shape == Shape::file || !body.parts.empty();
@@ -184,7 +194,7 @@ bool depends_on_others(const Settings& settings, const std::string& path) {
         const bool deforms = any_body(settings, [&](const auto& body) { return mover(body).deforms(); });
         return given.read_with(deforms, path, with_deformation), true;
     }
-    if (path == "contact.self_contact_rings")
+    if (path == "laboratory.self_contact_rings")
         return given.read_with(settings.options.contact.search.self_contact, path, "self = true"), true;
     if (path == "output.format" || path == "output.pieces")
         return given.read_with(settings.options.frames != 0, path, "output.frames"), true;
@@ -193,10 +203,8 @@ bool depends_on_others(const Settings& settings, const std::string& path) {
 
 void read_options(const Settings& settings) {
     for (const OptionFacts& option : run::run_options()) {
-        const std::string path = option.table + "." + option.scene_key();
-        const bool is_of_contact =
-            option.table == "contact" && option.scene_key() != "neumann" && option.scene_key() != "corners";
-        if (is_of_contact && (!settings.contact || is_friction(option))) continue;
+        const std::string path = path_of(option);
+        if (is_of_contact(option) && (!settings.contact || is_friction(option))) continue;
         if (!read_by_scheme_and_law(settings, option, path) || depends_on_others(settings, path)) continue;
         settings.given.read(path);
     }
@@ -208,10 +216,11 @@ void read_contact(const Settings& settings) {
         for (const char* key : {"contact.pairs", "contact.ignored_pairs", "obstacles"}) settings.given.read(key);
         return read_friction(settings.given, "contact.");
     }
+    const auto idle = [&](const std::string& path) { settings.given.read_with(false, path, with_contact); };
     for (const std::string& name : settings.given.names())
-        if (name == "obstacles" || (name.starts_with("contact.") && name != "contact.enabled" && name != "contact.neumann" &&
-                                    name != "contact.corners"))
-            settings.given.read_with(false, name, with_contact);
+        if (name == "obstacles" || (name.starts_with("contact.") && name != "contact.enabled")) idle(name);
+    for (const OptionFacts& option : run::run_options())
+        if (is_of_contact(option)) idle(path_of(option));
 }
 
 void read_output(const Settings& settings) {

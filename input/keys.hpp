@@ -22,6 +22,7 @@ struct Variety {
 [[nodiscard]] const Keys<Settings>& top_keys();  ///< those in no table
 [[nodiscard]] const Keys<Settings>& run_keys();
 [[nodiscard]] const Keys<Settings>& contact_keys();
+[[nodiscard]] const Keys<Settings>& laboratory_keys();  ///< what compares methods
 [[nodiscard]] const Keys<Settings>& output_keys();
 [[nodiscard]] const Keys<MaterialSettings>& material_keys();
 [[nodiscard]] const Keys<ProbeSettings>& probe_keys();

@@ -9,6 +9,8 @@
 #include <string_view>
 #include <utility>
 
+#include "abut/run/option_table.hpp"
+
 namespace abut::input {
 namespace {
 
@@ -147,6 +149,9 @@ std::string hint_of_key(const std::string& word, const std::vector<std::string>&
     const std::string small = in_small_letters(word);
     for (const Elsewhere& one : elsewhere)
         if (one.word == small) return std::string(one.text);
+    for (const OptionFacts& option : run::run_options())
+        if (option.table == "laboratory" && option.scene_key() == small)
+            return fmt::format(" It is a key of [laboratory], which compares methods: --lab {}.", small);
     for (const Synonym& synonym : synonyms)
         if (synonym.word == small && std::ranges::find(known, synonym.key) != known.end())
             return fmt::format(" Did you mean '{}'?", synonym.key);

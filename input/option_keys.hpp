@@ -29,12 +29,14 @@ template <class Section, class Owner, class OwnerOf>
             }};
 }
 
-/// Those of a table of a scene: "contact".
+/// Those of a table of a scene, "contact", the everyday ones first.
 template <class Section, class Owner, class OwnerOf>
 [[nodiscard]] Keys<Section> keys_of_options(const OptionList<Owner>& options, const std::string& table, OwnerOf owner_of) {
     Keys<Section> keys;
-    for (const Option<Owner>& option : options)
-        if (option.table == table && option.places.scene) keys.push_back(key_of_option<Section>(option, owner_of));
+    for (const OptionDepth depth : {OptionDepth::everyday, OptionDepth::expert, OptionDepth::laboratory})
+        for (const Option<Owner>& option : options)
+            if (option.depth == depth && option.table == table && option.places.scene)
+                keys.push_back(key_of_option<Section>(option, owner_of));
     return keys;
 }
 

@@ -348,6 +348,7 @@ Keys<Settings> all_keys() {
     keys.push_back(table_key("run", run_keys()));
     keys.push_back(table_key("contact", contact_keys()));
     keys.push_back(table_key("output", output_keys()));
+    keys.push_back(table_key("laboratory", laboratory_keys()));
     return keys;
 }
 

@@ -127,6 +127,11 @@ const Keys<Settings>& contact_keys() {
     return keys;
 }
 
+const Keys<Settings>& laboratory_keys() {
+    static const Keys<Settings> keys = with_options({}, "laboratory");
+    return keys;
+}
+
 const Keys<PairSettings>& pair_keys() {
     static const Keys<PairSettings> keys = [] {
         Keys<PairSettings> all{

@@ -44,7 +44,7 @@ struct RunOptions {
     contact::ContactOptions contact;
     contact::Friction friction;   ///< between all bodies and obstacles for which the scene has no law
     geometry::FacingFade facing;  ///< of the pair potential: how pairs fade out as faces turn away from each other
-    solid::FreeFaceRule neumann = solid::FreeFaceRule::local_equilibrium;
+    solid::FreeFaceRule free_faces = solid::FreeFaceRule::local_equilibrium;
     solid::CornerRule corners = solid::CornerRule::relaxed;
     SolidIntegrator integrator = SolidIntegrator::memm;
     solid::Precision precision = solid::Precision::double_precision;  ///< of the bulk in steps

@@ -52,9 +52,6 @@ std::vector<Vector<Dim>> added_velocities(const Scene<Dim>& scene, const mesh::M
     return added;
 }
 
-/// Such a scheme knows the modified reconstruction alone.
-bool takes_local_steps(SolidIntegrator integrator) { return integrator == SolidIntegrator::memm_async; }
-
 /// True if a body or an obstacle may.
 template <int Dim>
 bool turns(const solid::SolidOptions<Dim>& solid) {
@@ -71,7 +68,7 @@ solid::SolidOptions<Dim> solid_options(const Scene<Dim>& scene, const RunOptions
             "--kinematics automatic: a pilot run decides. Whoever takes the steps of a scene asks choose_kinematics, puts "
             "what it picks into Scene::solid, and takes BodyKinematics::scene.");
     solid::SolidOptions<Dim> solid = scene.solid;
-    solid.boundary.free_face_rule = options.neumann;
+    solid.boundary.free_face_rule = options.free_faces;
     solid.boundary.corner_rule = options.corners;
     solid.finite.mean_force = options.mean_force;
     solid.precision = options.precision;
@@ -83,8 +80,6 @@ solid::SolidOptions<Dim> solid_options(const Scene<Dim>& scene, const RunOptions
         solid.law = options.law;
     else if (kinematics_of_all(options.kinematics) && turns(solid))
         solid.law = solid::ContactLaw::automatic;
-    if (solid.law == solid::ContactLaw::automatic && takes_local_steps(options.integrator) && !turns(solid))
-        solid.law = solid::ContactLaw::reconstruction;
     constexpr geometry::FacingFade plain;
     if (options.facing.full != plain.full || options.facing.none != plain.none) solid.facing = options.facing;
     solid.contact = scene.contact ? std::optional(options.contact) : std::nullopt;

@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
+#include <string>
+#include <vector>
 
 #include "abut/contact/report.hpp"
 #include "abut/run/body_names.hpp"
-#include "abut/run/bond_text.hpp"
 #include "abut/run/json.hpp"
 #include "abut/run/option_table.hpp"
 #include "abut/run/scene.hpp"
@@ -295,114 +297,51 @@ std::string energy_lines(const RunResult<Dim>& result) {
     const std::string& name = result.scale.name;
     const dynamics::Ledger<Dim>& ledger = result.ledger;
     const auto over_scale = [&](double energy) { return fmt::format("{:.2e}", result.scale.over(energy)); };
-    const auto moment = [&](double drift) {
-        return result.moments_from_outside.empty() ? fmt::format("{:.2e} kg m^2/s", drift) : moment_note(result);
-    };
     const double momentum = momentum_drift(result);
-    std::string text =
-        table_line("kinetic energy at the start, K0", fmt::format("{:.6g} J", ledger.entries().front().kinetic));
-    if (name != "K0")
-        text += table_line(fmt::format("scale of energies, {}", name), fmt::format("{:.6g} J", result.scale.value));
-    return text + table_line(fmt::format("drift of pseudo-energy, / {}", name), over_scale(ledger.pseudo_energy_drift())) +
-           table_line(fmt::format("true energy, max |H - H0|, / {}", name), over_scale(ledger.energy_drift())) +
+    return table_line(fmt::format("drift of pseudo-energy, / {}", name), over_scale(ledger.pseudo_energy_drift())) +
            table_line(fmt::format("energy excess H - H~, / {}", name), over_scale(ledger.energy_excess())) +
-           table_line("parasitic mode, max |e|/m", fmt::format("{:.2e} m/s", ledger.parasitic())) +
            table_line("drift of linear momentum",
                       (std::isnan(momentum) ? "" : fmt::format("{:.2e} kg m/s", momentum)) + momentum_note(result)) +
-           table_line("drift of angular momentum", moment(ledger.angular_momentum_drift())) +
-           table_line("the same of J~, as MEMM has it", moment(ledger.pseudo_angular_momentum_drift())) +
-           table_line("rotation of a body, at most", fmt::format("{:.2g} rad", ledger.rotation()));
-}
-
-/// Nothing without any.
-template <int Dim>
-std::string restart_line(const RunResult<Dim>& result) {
-    const auto& [restarts, shortened, skipped, paid] = result.ledger.entries().back().restarts;
-    if (restarts == 0) return "";
-    return table_line("neutral restarts",
-                      fmt::format("{}; bodies shortened {}, skipped {}; vibration paid {:.3g} {}", restarts, shortened,
-                                  skipped, result.scale.over(paid), result.scale.name));
+           table_line("drift of angular momentum J~",
+                      result.moments_from_outside.empty()
+                          ? fmt::format("{:.2e} kg m^2/s", ledger.pseudo_angular_momentum_drift())
+                          : moment_note(result));
 }
 
 template <int Dim>
 std::string contact_lines(const RunResult<Dim>& result) {
     const auto& contact = result.contact;
-    return table_line("contact events", fmt::format("{}", contact.events)) +
-           table_line("active pairs, at most", fmt::format("{} ({} at the end)", contact.active_pairs_max,
-                                                           result.ledger.entries().back().active_pairs)) +
-           table_line("missed contacts", fmt::format("{}", contact.missed_contacts)) +
+    return table_line("contact events, missed contacts", fmt::format("{}, {}", contact.events, contact.missed_contacts)) +
            table_line("compression of the skin, max |g|/D", fmt::format("{:.3g}", contact.compression_max));
 }
 
-/// Nothing without friction.
+/// Nothing where nothing is lost.
 template <int Dim>
-std::string friction_lines(const RunResult<Dim>& result) {
-    const contact::ContactReport& contact = result.contact;
-    if (contact.sticking_faces_max + contact.sliding_faces_max == 0) return "";
-    const auto& last = result.ledger.entries().back();
-    const std::string& name = result.scale.name;
-    std::string text =
-        table_line(fmt::format("dissipated by friction, / {}", name),
-                   fmt::format("{:.4g}; held by faces that stick {:.2e}", result.scale.over(last.losses.by_friction),
-                               result.scale.over(last.friction_energy))) +
-        table_line("faces that stick, that slide, at most",
-                   fmt::format("{}, {}", contact.sticking_faces_max, contact.sliding_faces_max));
-    if (contact.sliding_limit > 0.0)
-        text += table_line("force of sliding faces over its limit",
-                           fmt::format("{:.3g}; at least {:.3g} in a part of the run",
-                                       contact.sliding_force / contact.sliding_limit, result.sliding.least_share()));
-    return text;
-}
-
-/// Nothing where no material flows or is damped.
-template <int Dim>
-std::string material_lines(const RunResult<Dim>& result) {
+std::string loss_line(const RunResult<Dim>& result) {
     const dynamics::Losses& loss = result.dissipated;
-    std::string text;
-    if (loss.in_cells + loss.in_jumps != 0.0)
-        text += table_line(fmt::format("dissipated by plastic flow, / {}", result.scale.name),
-                           fmt::format("{:.4g}; in jumps between cells {:.1e}; with free faces that flow along {:.1e}",
-                                       result.scale.over(loss.in_cells), result.scale.over(loss.in_jumps),
-                                       result.scale.over(loss.on_faces))) +
-                table_line("largest plastic strain", fmt::format("{:.3g}", result.finite.plastic_strain));
-    if (loss.by_damping != 0.0)
-        text += table_line(fmt::format("dissipated by damping, / {}", result.scale.name),
-                           fmt::format("{:.4g}; held in its lag {:.1e}", result.scale.over(loss.by_damping),
-                                       result.scale.over(loss.lagged)));
-    if (loss.by_viscosity != 0.0)
-        text += table_line(fmt::format("dissipated by viscosity, / {}", result.scale.name),
-                           fmt::format("{:.4g}", result.scale.over(loss.by_viscosity)));
-    return text;
-}
-
-/// Nothing without bonds.
-template <int Dim>
-std::string bond_lines(const RunResult<Dim>& result) {
-    if (result.bonds.empty()) return "";
-    const auto text = table_line("bonded of what lies opposite", bonded_text<Dim>(result.bonds));
-    if (result.dissipated.in_bonds == 0.0) return text;
-    return text + table_line(fmt::format("dissipated by bonds that broke, / {}", result.scale.name),
-                             fmt::format("{:.4g}", result.scale.over(result.dissipated.in_bonds)));
+    std::vector<std::string> parts;
+    const auto add = [&](const char* by, double energy) {
+        if (energy != 0.0) parts.push_back(fmt::format("{} {:.3g}", by, result.scale.over(energy)));
+    };
+    add("friction", result.ledger.entries().back().losses.by_friction);
+    add("plastic flow", loss.in_cells + loss.in_jumps);
+    add("damping", loss.by_damping);
+    add("viscosity", loss.by_viscosity);
+    add("broken bonds", loss.in_bonds);
+    if (parts.empty()) return "";
+    return table_line(fmt::format("dissipated, / {}", result.scale.name), fmt::format("{}", fmt::join(parts, ", ")));
 }
 
 template <int Dim>
 std::string body_lines(const Scene<Dim>& scene, const RunResult<Dim>& result) {
+    constexpr std::size_t most = 5;
     std::string text;
-    for (std::size_t body = 0; body < result.end.size(); ++body)
+    for (std::size_t body = 0; body < std::min(result.end.size(), most); ++body)
         text += table_line(fmt::format("velocity of '{}'", scene.mesh.body_names[body]),
                            fmt::format("{} -> {} m/s", velocity_text<Dim>(result.start[body].velocity),
                                        velocity_text<Dim>(result.end[body].velocity)));
+    if (result.end.size() > most) text += table_line("", fmt::format("and of {} more bodies", result.end.size() - most));
     return text;
-}
-
-template <int Dim>
-std::string time_line(const RunResult<Dim>& result) {
-    const auto& [total, mesh, setup, ledger, output, looks] = result.seconds;
-    const auto& times = result.times;
-    return table_line("time of the run",
-                      fmt::format("{:.1f} s: mesh {:.1f}, setup {:.1f}, bulk {:.1f}, contact {:.2f}, search {:.2f}, "
-                                  "ledger {:.1f}, output {:.1f}, looks {:.2f}",
-                                  total, mesh, setup, times.bulk, times.contact, times.search, ledger, output, looks));
 }
 
 }  // namespace
@@ -439,9 +378,10 @@ std::string summary_json(const std::string& program, const Scene<Dim>& scene, co
 
 template <int Dim>
 std::string closing_table(const std::string& program, const Scene<Dim>& scene, const RunResult<Dim>& result) {
-    std::string text = fmt::format("{}: {} cells, {} steps of {:.4g} s, {}{:.3g} of the stable step\n", program,
-                                   scene.mesh.n_cells(), result.steps, result.dt,
-                                   result.level_cells.empty() ? "" : "the finest ", result.finest_dt / result.stable.dt);
+    std::string text = fmt::format("{}: {}\n", program, verdict(scene, result).text);
+    text += table_line("steps", fmt::format("{} of {:.4g} s, {}{:.3g} of the stable step, in {:.1f} s", result.steps,
+                                            result.dt, result.level_cells.empty() ? "" : "the finest ",
+                                            result.finest_dt / result.stable.dt, result.seconds.total));
     if (!result.level_cells.empty())
         text += table_line("cells that step with dt, dt/2, ...", fmt::format("{}", fmt::join(result.level_cells, ", ")));
     if (!result.complete)
@@ -451,10 +391,9 @@ std::string closing_table(const std::string& program, const Scene<Dim>& scene, c
                            fmt::format("in {} steps, to {:.2g} m/s", result.settling->steps, result.settling->speed));
     if (result.resumed_after > 0)
         text += table_line("gone on from a checkpoint", fmt::format("after step {}", result.resumed_after));
-    text += energy_lines(result) + restart_line(result) + contact_lines(result) + friction_lines(result) +
-            material_lines(result) + bond_lines(result);
+    text += energy_lines(result) + loss_line(result) + contact_lines(result);
     for (const Finding& finding : result.findings) text += table_line(finding.text, value_text(finding.value));
-    return text + body_lines(scene, result) + time_line(result) + table_line("verdict", verdict(scene, result).text);
+    return text + body_lines(scene, result);
 }
 
 #define ABUT_INSTANTIATE(Dim)                                                                             \

@@ -28,6 +28,7 @@ constexpr std::array names_of_cpp = std::to_array<Name>({
     {"Contact::faces", "the faces of contact"},
     {"ContactLaw::automatic", "\"automatic\""},
     {"ContactLaw::pair_potential", "contact.law = \"pair_potential\""},
+    {"ContactLaw::reconstruction", "contact.law = \"reconstruction\""},
     {"MaterialLaw::st_venant_kirchhoff", "law = \"st_venant_kirchhoff\""},
     {"HostStep::coupling_of", "coupling_of"},
     {"HostStep::gradients_of", "gradients_of"},
@@ -36,11 +37,11 @@ constexpr std::array names_of_cpp = std::to_array<Name>({
     {"Kinematics::finite", "kinematics \"finite\""},
     {"Kinematics::rigid", "kinematics \"rigid\""},
     {"Kinematics::small", "kinematics \"small\""},
-    {"MeanForce::closed_trapezoid", "run.mean_force = \"closed_trapezoid\""},
-    {"MeanForce::discrete_gradient", "run.mean_force = \"discrete_gradient\""},
+    {"MeanForce::closed_trapezoid", "laboratory.mean_force = \"closed_trapezoid\" (--lab mean_force=closed_trapezoid)"},
+    {"MeanForce::discrete_gradient", "laboratory.mean_force = \"discrete_gradient\""},
     {"PathMean::gauss_1", "the mean \"1\""},
     {"PathMean::system", "the mean \"system\""},
-    {"Precision::double_precision", "run.precision = \"double\""},
+    {"Precision::double_precision", "laboratory.precision = \"double\" (--lab precision=double)"},
     {"RigidObstacle::path", "its path"},
     {"RigidObstacle::placement", "its path and its rotation"},
     {"Scene::added_velocity", "velocity"},
@@ -114,13 +115,21 @@ std::string_view value_in(const OptionFacts& option, std::string_view rest) {
     return is_number || is_truth || is_word ? word : std::string_view{};
 }
 
-/// `run.restart = 50`, `run.filter = "neutral"`, `contact.events = false`
+/// `run.restart = 50`, `run.filter = "neutral"`, `laboratory.events = false`
 std::string setting(const OptionFacts& option, std::string_view value) {
     const std::string key = option.table + "." + option.scene_key();
     if (value.empty()) return key;
     if (option.kind == OptionKind::truth) return key + (value == "on" ? " = true" : " = false");
     const std::string quote = option.kind == OptionKind::word ? "\"" : "";
     return key + " = " + quote + std::string(value) + quote;
+}
+
+/// How a command line gives it: "--restart 50", "--lab events=off".
+std::string on_command_line(const OptionFacts& option, std::string_view flag, std::string_view value) {
+    const bool is_in_laboratory = option.depth == OptionDepth::laboratory;
+    std::string text = is_in_laboratory ? "--lab " + option.scene_key() : std::string(flag);
+    if (!value.empty()) text += (is_in_laboratory ? "=" : " ") + std::string(value);
+    return text;
 }
 
 }  // namespace
@@ -148,8 +157,7 @@ std::string with_keys(const std::string& text) {
             continue;
         }
         const std::string_view value = value_in(*known, rest);
-        result +=
-            setting(*known, value) + " (" + std::string(option) + (value.empty() ? "" : " " + std::string(value)) + ")";
+        result += setting(*known, value) + " (" + on_command_line(*known, option, value) + ")";
         rest.remove_prefix(value.empty() ? 0 : value.size() + 1);
     }
     return result + std::string(rest);

@@ -20,7 +20,7 @@ void require_local_steps(const std::string& mesh, const SolidOptions<Dim>& optio
         mesh +
         ": local steps are for bodies of Kinematics::small under the modified reconstruction, without friction: the "
         "frame of a body couples all of its cells, and forces inside a body of Kinematics::finite are not linear. "
-        "Take one step for all (memm), or other kinematics and law.");
+        "Take one step for all (memm), or Kinematics::small and ContactLaw::reconstruction.");
 }
 
 }  // namespace abut::solid

@@ -39,6 +39,7 @@ struct CommandLine {
     fs::path results;
     run::RunOptions restarted;  ///< threads, ranks and how they share the scene out, and the end
     std::vector<std::string> set;
+    std::vector<std::string> laboratory;
     std::vector<std::string> sweep;
     run::RunOptions options;
     Messages messages = Messages::normal;
@@ -70,10 +71,19 @@ void add_scene_options(CommandParser& command, CommandLine& line) {
         .several()
         .takes("KEY=VALUE");
     add_preset_option(command, line.options);
-    add_time_options(command, line.options, "that of the scene");
-    add_contact_options(command, line.options);
-    add_output_options(command, line.options);
+    add_time_options(command, line.options, "that of the scene", OptionDepth::expert);
+    add_contact_options(command, line.options, OptionDepth::expert);
+    add_output_options(command, line.options, OptionDepth::expert);
     command.at("--out").by_default("out/SCENE");
+    command
+        .texts("--lab", line.laboratory,
+               "a key of [laboratory], which compares methods: --lab overlap=frozen, as often as you like; by default none")
+        .several()
+        .takes("KEY=VALUE")
+        .group("Laboratory")
+        .rarely_needed();
+    command.add_help_of_all();
+    command.end_help_with("abut " + command.name() + " --help-all lists what is rarely needed, too.");
 }
 
 void add_commands(CommandParser& parser, CommandLine& line) {
@@ -127,6 +137,7 @@ input::Overrides overrides(int argc, char** argv, const CommandLine& first) {
                 CommandLine line{.options = options};
                 add_commands(parser, line);
                 parser.parse(argc, argv);
+                take_laboratory(line.laboratory, line.options);
                 options = line.options;
                 drop_excluded(line.run->is_given() ? *line.run : *line.check, options);
             }};

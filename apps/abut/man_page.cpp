@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cctype>
 
 namespace abut::apps {
@@ -48,12 +49,14 @@ std::string synopsis(const Command& command) {
 std::string command_part(const std::string& program, const Command& command) {
     std::string text =
         fmt::format(".SS \\fB{} {}\\fR{}\n{}.\n", program, plain(command.name), synopsis(command), plain(command.meaning));
-    std::string group;
     for (const CommandOption& argument : command.positionals) text += option_entry(argument);
-    for (const CommandOption& option : command.options) {
-        if (option.group != group && option.group != "Options") text += fmt::format(".PP\n{}:\n", plain(option.group));
-        group = option.group;
-        text += option_entry(option);
+    std::vector<std::string> groups;
+    for (const CommandOption& option : command.options)
+        if (std::ranges::find(groups, option.group) == groups.end()) groups.push_back(option.group);
+    for (const std::string& group : groups) {
+        if (group != "Options") text += fmt::format(".PP\n{}:\n", plain(group));
+        for (const CommandOption& option : command.options)
+            if (option.group == group) text += option_entry(option);
     }
     return text;
 }

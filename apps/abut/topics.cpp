@@ -68,11 +68,11 @@ impact, slip and release; what friction takes is booked, and with `settle` a run
 
   law = "pair_potential"   half the cells behind both faces are springs in series; for all bodies
   law = "reconstruction"   faces move to where their tractions balance; for bodies that do not turn
-  law = "automatic"        the first, except where a choice is made that the second alone has: overlap, weights,
-                           area, quadrature, facing_cosine, contact of a body with itself, memm_async
+  law = "automatic"        the first; what the second alone has is refused without it: overlap, weighting, area,
+                           quadrature, facing_cosine, memm_async
 
 A run reports the deepest contact |g|/D over the depth D of cells, and warns above 0.3; it stops at
-compression_limit. Contacts missed must be 0. `--events off` and `--overlap frozen` are cheaper and let the
+compression_limit. Contacts missed must be 0. `--lab events=off` and `--lab overlap=frozen` are cheaper and let the
 pseudo-energy drift.)"};
 
 const Topic kinematics{"kinematics", "Kinematics",

@@ -198,9 +198,54 @@ std::string in_words(const Bodies& bodies, std::int32_t body, std::int32_t face,
 }
 
 /// Bodies and the nearest to each, the nearest of all first.
-void print_nearest(const DetectReport& report) {
+std::vector<NearestBodies> by_distance(const DetectReport& report) {
     std::vector<NearestBodies> nearest = report.last.neighbours.nearest;
     std::ranges::stable_sort(nearest, {}, [](const NearestBodies& pair) { return pair.faces.points.distance; });
+    return nearest;
+}
+
+/// "0.2 m^2 within 0.1 m of each other": what lies opposite of each other between two bodies.
+std::string facing_text(const DetectReport& report, const BodyContacts& contacts, std::int32_t body_1, std::int32_t body_2) {
+    const auto contact = contacts.find({body_1, body_2});
+    if (contact == contacts.end())
+        return fmt::format("no faces within {:.4g} m of each other lie opposite", report.near.distance);
+    const std::string deep =
+        contact->second.gap_min < 0.0 ? fmt::format(", inside each other by up to {:.4g} m", -contact->second.gap_min) : "";
+    return fmt::format("{:.4g} m^2 lie opposite within {:.4g} m{}", contact->second.area, report.near.distance, deep);
+}
+
+/// The answer, before how it was found: which bodies touch or cross, which are inside of others, and how near the others are.
+void print_answer(const DetectReport& report) {
+    constexpr std::size_t most_answers = 5;
+    const std::vector<std::string>& names = report.bodies.names;
+    const BodyContacts contacts = contacts_of(report.bodies, report.last);
+    std::vector<std::string> answers;
+    for (const InsideBody& body : report.last.neighbours.inside)
+        answers.push_back(fmt::format("'{}' is wholly inside of '{}', {:.4g} m from its surface", names[at(body.inner)],
+                                      names[at(body.outer)], body.distance));
+    for (const auto& [body_1, body_2, faces] : by_distance(report)) {
+        const auto& [x_1, x_2, distance] = faces.points;
+        const std::string how =
+            distance > 0.0 ? fmt::format("are {:.4g} m apart", distance) : std::string("touch or cross each other");
+        answers.push_back(fmt::format("'{}' and '{}' {} at ({:.4g}, {:.4g}, {:.4g}); {}", names[at(body_1)],
+                                      names[at(body_2)], how, x_1[0], x_1[1], x_1[2],
+                                      facing_text(report, contacts, body_1, body_2)));
+    }
+    if (answers.empty())  // one body, or too many to look for the nearest of each
+        for (const auto& [pair, contact] : contacts) {
+            const std::string other = pair.first == pair.second ? "itself" : "'" + names[at(pair.second)] + "'";
+            answers.push_back(fmt::format("'{}' and {}: {}", names[at(pair.first)], other,
+                                          facing_text(report, contacts, pair.first, pair.second)));
+        }
+    if (answers.empty())
+        answers.push_back(fmt::format("no faces within {:.4g} m of each other lie opposite", report.near.distance));
+    for (std::size_t i = 0; i < std::min(answers.size(), most_answers); ++i) say(answers[i] + "\n");
+    if (answers.size() > most_answers)
+        say(fmt::format("and {} more pairs of bodies, below\n", answers.size() - most_answers));
+}
+
+void print_nearest(const DetectReport& report) {
+    const std::vector<NearestBodies> nearest = by_distance(report);
     for (std::size_t i = 0; i < std::min(nearest.size(), most_lines); ++i) {
         const auto& [body_1, body_2, faces] = nearest[i];
         const auto& [x_1, x_2, distance] = faces.points;
@@ -273,6 +318,7 @@ Json summary(const DetectReport& report, const DetectOptions& options) {
 
 void print(const DetectReport& report, const DetectOptions& options) {
     const Bodies& bodies = report.bodies;
+    print_answer(report);
     say(fmt::format("detect: {}, {} faces, step {}{}\n",
                     bodies.names.size() == 1 ? "1 body" : fmt::format("{} bodies", bodies.names.size()),
                     bodies.surface.size(), report.last.step,

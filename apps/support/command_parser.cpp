@@ -15,10 +15,25 @@
 namespace abut::apps {
 namespace {
 
+constexpr const char* empty_lines = "\n\n\n";
+const std::string rarely_needed = ", rarely needed";  // ends the heading of options that --help-all alone shows
+
 /// How --help shows an option: "--gap X    distance of the two surfaces at the start [m] (default 0.02)".
 class HelpFormatter : public CLI::Formatter {
 public:
     HelpFormatter() { column_width(30); }
+
+    std::string make_help(const CLI::App* app, std::string name, CLI::AppFormatMode mode) const override {
+        shows_all_ = mode == CLI::AppFormatMode::All;
+        std::string text = Formatter::make_help(app, std::move(name), CLI::AppFormatMode::Normal);
+        for (std::size_t at = text.find(empty_lines); at != std::string::npos; at = text.find(empty_lines, at))
+            text.erase(at, 1);  // of groups that are not shown
+        return text;
+    }
+    std::string make_group(std::string group, bool is_positional, std::vector<const CLI::Option*> options) const override {
+        if (!shows_all_ && group.ends_with(rarely_needed)) return "";
+        return Formatter::make_group(std::move(group), is_positional, std::move(options));
+    }
 
     std::string make_option_opts(const CLI::Option* option) const override {
         return option->get_type_size() == 0 ? "" : " " + option->get_type_name();
@@ -31,6 +46,9 @@ public:
         const auto width = terminal_width(STDOUT_FILENO);
         return width && *width > 2 * get_column_width() ? wrapped(text, *width - get_column_width()) : text;
     }
+
+private:
+    mutable bool shows_all_ = false;  // while a help is made
 };
 
 std::string message_of(const CLI::App* app, const CLI::Error& error) {
@@ -60,7 +78,7 @@ CommandOption described(const CLI::Option& option) {
 Command described(const CLI::App& app) {
     Command command{.name = app.get_name(), .meaning = app.get_description(), .options = {}, .positionals = {}};
     for (const CLI::Option* option : app.get_options())
-        if (option != app.get_help_ptr())
+        if (option != app.get_help_ptr() && option != app.get_help_all_ptr())
             (option->get_positional() ? command.positionals : command.options).push_back(described(*option));
     return command;
 }
@@ -69,6 +87,11 @@ Command described(const CLI::App& app) {
 
 Flag& Flag::group(const std::string& heading) {
     option_->group(heading);
+    return *this;
+}
+
+Flag& Flag::rarely_needed() {
+    option_->group(option_->get_group() + apps::rarely_needed);
     return *this;
 }
 
@@ -180,6 +203,7 @@ std::vector<Flag> CommandParser::of_group(const std::string& heading) const {
 }
 
 void CommandParser::add_version(const std::string& text) { app_.set_version_flag("--version", text); }
+void CommandParser::add_help_of_all() { app_.set_help_all_flag("--help-all", "Print this help with all options"); }
 void CommandParser::end_help_with(const std::string& text) { app_.footer(text); }
 void CommandParser::take_no_help() { app_.set_help_flag(); }
 

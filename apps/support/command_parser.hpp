@@ -36,6 +36,7 @@ public:
     explicit Flag(CLI::Option& option) : option_(&option) {}
 
     Flag& group(const std::string& heading);              ///< its heading in --help
+    Flag& rarely_needed();                                ///< --help-all shows it, --help does not
     Flag& takes(const std::string& value);                ///< CommandOption::value
     Flag& by_default(const std::string& value);           ///< told by --help; empty: nothing is told
     Flag& required();                                     ///< it must be given
@@ -79,6 +80,7 @@ public:
     [[nodiscard]] std::vector<Flag> of_group(const std::string& heading) const;
 
     void add_version(const std::string& text);  ///< --version
+    void add_help_of_all();                     ///< --help-all, which shows what is rarely needed, too
     void end_help_with(const std::string& text);
     void take_no_help();  ///< there is no --help
 

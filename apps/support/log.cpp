@@ -29,9 +29,11 @@ std::string beside_time(const std::string& text) {
 
 void log_warnings(const std::vector<run::Warning>& warnings, const std::string& run) {
     const std::string prefix = run.empty() ? "" : run + ": ";
-    for (const run::Warning& warning : warnings)
-        spdlog::log(warning.severity == run::Severity::note ? spdlog::level::info : spdlog::level::warn, "{}",
-                    beside_time(prefix + warning.text));
+    for (const run::Warning& warning : warnings) {
+        const bool is_note = warning.severity == run::Severity::note;
+        spdlog::log(is_note ? spdlog::level::info : spdlog::level::warn, "{}",
+                    beside_time(prefix + (is_note ? "note: " : "warning: ") + warning.text));
+    }
 }
 
 std::vector<run::Warning> only(std::vector<run::Warning> warnings, std::initializer_list<run::WarningKind> kinds) {

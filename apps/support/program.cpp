@@ -48,8 +48,10 @@ int report_errors(const Program& program, const Body& body) {
 }
 
 int run_body(const Program& program, const std::function<void()>& body) {
-    spdlog::set_default_logger(spdlog::stdout_color_mt(program.name));
-    spdlog::set_pattern("[%T] %v");
+    const auto terminal = std::make_shared<spdlog::sinks::stdout_color_sink_mt>();
+    terminal->set_color(spdlog::level::info, terminal->reset);  // what warns is coloured alone
+    spdlog::set_default_logger(std::make_shared<spdlog::logger>(program.name, terminal));
+    spdlog::set_pattern("[%T] %^%v%$");
     if (!program.takes_ranks) refuse_ranks(program.name.c_str());
     body();
     return noted_signal() == 0 ? 0 : exit_code_of(noted_signal());

@@ -363,7 +363,9 @@ PYBIND11_MODULE(_contact, module) {
                                  "Base of all errors of Abut: status, face_1, face_2, value and allowed beside the text; "
                                  "cell in those of abut.solid.");
     const py::object& base = exceptions->base;
-    exceptions->bad_input = exception(module, "BadInput", base, "A surface, an option or an array that cannot be used.");
+    const py::object value_error = py::reinterpret_borrow<py::object>(PyExc_ValueError);
+    exceptions->bad_input = exception(module, "BadInput", py::make_tuple(base, value_error),
+                                      "A surface, an option or an array that cannot be used. It is a ValueError, too.");
     exceptions->misuse = exception(module, "Misuse", base, "A call out of order.");
     exceptions->diverged = exception(module, "Diverged", base, "A position is not finite, or moves too far in a step.");
     exceptions->too_deep = exception(module, "TooDeep", base, "Faces are pressed in deeper than allowed.");

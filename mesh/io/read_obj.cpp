@@ -39,9 +39,9 @@ public:
                             std::to_string(largest_index_) + ", the file has " + std::to_string(n_vertices()) + ". " +
                             correct);
         if (n_unknown_ > 0)
-            mesh_.warnings.push_back(
-                "line " + std::to_string(unknown_line_) + ": " + unknown_ +
-                " is no statement of an OBJ file; lines of that kind that were skipped: " + std::to_string(n_unknown_));
+            mesh_.warnings.push_back("line " + std::to_string(unknown_line_) +
+                                     " begins with no statement of an OBJ file; lines of that kind that were skipped: " +
+                                     std::to_string(n_unknown_));
     }
 
 private:
@@ -52,10 +52,8 @@ private:
         if (keyword == "f" || keyword == "fo") return read_face();
         if (holds(other_elements, keyword))
             ++mesh_.n_ignored_elements;
-        else if (!holds(known_statements, keyword) && n_unknown_++ == 0) {
-            unknown_ = in_quotes(keyword);
-            unknown_line_ = words_.line();
-        }
+        else if (!holds(known_statements, keyword) && n_unknown_++ == 0)
+            unknown_line_ = words_.line();  // the first
         words_.skip_line();
     }
     /// Behind the coordinates may come a weight or a colour: numbers, too.
@@ -111,7 +109,6 @@ private:
     std::vector<std::int32_t> corners_;
     std::int64_t largest_index_ = 0;
     std::size_t largest_line_ = 0, unknown_line_ = 0, n_unknown_ = 0;
-    std::string unknown_;  ///< the first
 };
 
 }  // namespace

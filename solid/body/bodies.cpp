@@ -242,7 +242,7 @@ void Bodies<Dim>::set_laws() {
         if (options_.finite.mean_force == MeanForce::discrete_gradient)
             throw BadInput(who +
                            "has a law of large strains, for which there is no MeanForce::discrete_gradient. Take "
-                           "MeanForce::closed_trapezoid (--mean-force closed_trapezoid).");
+                           "MeanForce::closed_trapezoid.");
         if (stored[i] && inelastic[i]) throw BadInput(who + "is given an elastic law and an inelastic one. Leave one out.");
         const LawCheck<Dim> check(material, who);
         if (stored[i])

@@ -63,7 +63,7 @@ void Bodies<Dim>::check_material(std::int32_t body) const {
     if (is_finite(body) && options_.finite.mean_force == MeanForce::discrete_gradient)
         throw BadInput(who +
                        "has a damped or viscous material, for which there is no MeanForce::discrete_gradient. Take "
-                       "MeanForce::closed_trapezoid (--mean-force closed_trapezoid).");
+                       "MeanForce::closed_trapezoid.");
 }
 
 template <int Dim>
@@ -84,7 +84,7 @@ void Bodies<Dim>::check_temperature(std::int32_t body) const {
         throw BadInput(
             who +
             "is of Kinematics::finite and given a temperature, for which there is no MeanForce::discrete_gradient. "
-            "Take MeanForce::closed_trapezoid (--mean-force closed_trapezoid).");
+            "Take MeanForce::closed_trapezoid.");
     const auto is_given = [&](const auto& laws) { return !laws.empty() && laws[static_cast<std::size_t>(body)]; };
     if (Dim == 2 && (is_given(options_.finite.stored_energy) || is_given(options_.finite.inelastic)))
         throw BadInput(

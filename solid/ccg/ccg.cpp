@@ -42,7 +42,7 @@ void refuse_materials(const mesh::Mesh<Dim>& mesh, std::span<const Material> mat
             throw BadInput(mesh.name + ": body '" + mesh.body_names[body] +
                            "' is of a material that flows, is damped or orthotropic, whose steps are made in double "
                            "precision on the host "
-                           "alone. Take Precision::double_precision (--precision double) and StepDevice::host (--device "
+                           "alone. Take Precision::double_precision and StepDevice::host (--device "
                            "host), or another material.");
 }
 
@@ -54,14 +54,13 @@ std::unique_ptr<StepSweeps<Dim>> step_sweeps(const mesh::Mesh<Dim>& mesh, std::s
                                              Precision precision, StepDevice device) {
     const bool is_single = precision == Precision::single_precision;
     if (is_single || device != StepDevice::host) refuse_materials(mesh, materials);
-    if (is_single)
-        refuse_finite(mesh, kinematics, "in single precision", "Precision::double_precision (--precision double)");
+    if (is_single) refuse_finite(mesh, kinematics, "in single precision", "Precision::double_precision");
     if (device == StepDevice::host) return is_single ? std::make_unique<SingleSweeps<Dim>>(arrays, finite) : nullptr;
     refuse_finite(mesh, kinematics, "on a device", "StepDevice::host (--device host)");
     if (is_single)
         throw BadInput(mesh.name +
-                       ": steps on a device are made in double precision alone. Take Precision::double_precision "
-                       "(--precision double), or StepDevice::host (--device host).");
+                       ": steps on a device are made in double precision alone. Take Precision::double_precision"
+                       ", or StepDevice::host (--device host).");
     return std::make_unique<DeviceSweeps<Dim>>(arrays, finite, sweeps);
 }
 

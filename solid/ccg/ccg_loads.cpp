@@ -19,7 +19,7 @@ void Ccg<Dim>::set_temperature(const mesh::Mesh<Dim>& mesh, std::span<const Mate
     if (impl_->steps)
         throw BadInput(mesh.name +
                        ": a temperature is given, with which steps are made in double precision on the host alone. Take "
-                       "Precision::double_precision (--precision double) and StepDevice::host (--device host).");
+                       "Precision::double_precision and StepDevice::host (--device host).");
     impl_->thermal = ThermalCells<Dim>(mesh, materials, temperature, impl_->finite);
     impl_->varies = impl_->varies || impl_->thermal.varies();
 }

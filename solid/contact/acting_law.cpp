@@ -6,7 +6,6 @@
 
 #include "abut/base/error.hpp"
 #include "abut/solid/contact/obstacles.hpp"
-#include "abut/solid/options/law_options.hpp"
 
 namespace abut::solid {
 
@@ -30,10 +29,7 @@ ContactLaw acting_law(const Bodies<Dim>& bodies) {
             mesh.name +
             ": bodies overlap at the start on purpose (interference), which the modified reconstruction does not know. "
             "Choose ContactLaw::pair_potential or ContactLaw::automatic.");
-    if (options.law != ContactLaw::automatic) return options.law;
-    const bool is_by_pairs = any_turns || !options.bonds.empty() || !options.interference.empty();
-    return !is_by_pairs && asks_for(ContactLaw::reconstruction, options) ? ContactLaw::reconstruction
-                                                                         : ContactLaw::pair_potential;
+    return options.law == ContactLaw::automatic ? ContactLaw::pair_potential : options.law;
 }
 
 template ContactLaw acting_law(const Bodies<2>&);

@@ -21,7 +21,7 @@ enum class MeanForce {
 
 /// What acts between faces in contact.
 enum class ContactLaw {
-    automatic,       ///< `pair_potential`, except where a choice is made that `reconstruction` alone has: docs/method.md
+    automatic,       ///< `pair_potential`
     reconstruction,  ///< faces that are moved as a whole, normals at rest. docs/method.md, Contact
     pair_potential,  ///< the potential of pairs of faces that tilt and turn. docs/method.md, The potential of a pair
 };

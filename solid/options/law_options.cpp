@@ -22,7 +22,7 @@ void append_made(std::vector<std::string>& keys, ContactLaw law, const OptionLis
     for (const Option<Owner>& option : options) {
         const OptionValue value = option.get(given);
         if (is_of(option, law) && value != option.get(plain) && value != option.get(also_plain))
-            keys.push_back("contact." + option.scene_key());
+            keys.push_back((option.depth == OptionDepth::laboratory ? "laboratory." : "contact.") + option.scene_key());
     }
 }
 
@@ -50,12 +50,6 @@ std::string made(ContactLaw law, const SolidOptions<Dim>& options) {
 }  // namespace
 
 template <int Dim>
-bool asks_for(ContactLaw law, const SolidOptions<Dim>& options) {
-    const bool by_itself = law == ContactLaw::reconstruction && options.contact && options.contact->search.self_contact;
-    return by_itself || !made(law, options).empty();
-}
-
-template <int Dim>
 void refuse_choices_of_other_law(ContactLaw acting, const SolidOptions<Dim>& options) {
     const bool acts_by_pairs = acting == ContactLaw::pair_potential;
     const std::string keys = made(acts_by_pairs ? ContactLaw::reconstruction : ContactLaw::pair_potential, options);
@@ -76,7 +70,6 @@ void take_back_choices_of_one_law(SolidOptions<Dim>& options) {
 }
 
 #define ABUT_INSTANTIATE(Dim)                                                             \
-    template bool asks_for<Dim>(ContactLaw, const SolidOptions<Dim>&);                    \
     template void refuse_choices_of_other_law<Dim>(ContactLaw, const SolidOptions<Dim>&); \
     template void take_back_choices_of_one_law<Dim>(SolidOptions<Dim>&);
 ABUT_INSTANTIATE(2)

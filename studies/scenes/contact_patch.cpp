@@ -71,7 +71,7 @@ solid::SolidOptions<Dim> solid_options(const PatchOptions& options) {
     solid.boundary.dirichlet.push_back({.group = "lower." + bottom, .constraint = solid::Constraint::normal});
     const double p = options.strain * solid.materials[0].wave_modulus();
     solid.boundary.traction = {{.group = "upper." + top, .value = -p * Vector<Dim>::Unit(Dim - 1)}};
-    solid.boundary.free_face_rule = options.neumann;
+    solid.boundary.free_face_rule = options.free_faces;
     solid.boundary.corner_rule = options.corners;
     solid.contact = options.contact;
     solid.law = solid::ContactLaw::reconstruction;  // figures of docs/validation.md

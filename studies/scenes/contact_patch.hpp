@@ -32,7 +32,7 @@ struct PatchOptions {
     /// faces at the edges change as the blocks slide
     double strain = 1e-11;
     contact::ContactOptions contact;
-    solid::FreeFaceRule neumann = solid::FreeFaceRule::local_equilibrium;
+    solid::FreeFaceRule free_faces = solid::FreeFaceRule::local_equilibrium;
 };
 
 /// Largest errors of all cells and contact faces [-].

@@ -96,7 +96,7 @@ solid::SolidOptions<Dim> solid_options(const HertzOptions& options, const mesh::
     const double density = solid.materials.front().density;
     solid.acceleration.assign(solid.materials.size(), Vector<Dim>::Zero());
     solid.acceleration.front() = -options.load / (density * volume(mesh)) * up<Dim>();
-    solid.boundary.free_face_rule = options.neumann;
+    solid.boundary.free_face_rule = options.free_faces;
     solid.boundary.corner_rule = options.corners;
     solid.contact = options.contact;
     solid.law = solid::ContactLaw::reconstruction;  // figures of docs/validation.md

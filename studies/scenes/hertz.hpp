@@ -25,7 +25,7 @@ struct HertzOptions {
     double ratio = 0.8;    ///< size of the lower body's faces over that of the upper ones [-]
     double coarse = 0.15;  ///< cells far from the contact over the radius [-]
     contact::ContactOptions contact;
-    solid::FreeFaceRule neumann = solid::FreeFaceRule::local_equilibrium;
+    solid::FreeFaceRule free_faces = solid::FreeFaceRule::local_equilibrium;
     solid::CornerRule corners = solid::CornerRule::relaxed;
     solid::StaticOptions statics{.tolerance = 1e-7};
 };

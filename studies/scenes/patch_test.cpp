@@ -41,10 +41,10 @@ Vector<Dim> side_normal(std::size_t side) {
 }
 
 template <int Dim>
-solid::SolidOptions<Dim> patch(const AffineField<Dim>& field, PatchBoundary boundary, solid::FreeFaceRule neumann) {
+solid::SolidOptions<Dim> patch(const AffineField<Dim>& field, PatchBoundary boundary, solid::FreeFaceRule free_faces) {
     solid::SolidOptions<Dim> options;
     options.materials = {{.young = 70e3, .poisson = 0.3}};
-    options.boundary.free_face_rule = neumann;
+    options.boundary.free_face_rule = free_faces;
     options.boundary.dirichlet = whole_boundary<Dim>([field](double, const Vector<Dim>& x) { return field(x); });
     if (boundary == PatchBoundary::displacement) return options;
     options.boundary.dirichlet.resize(2);
@@ -73,9 +73,9 @@ BulkPatchErrors errors(const AffineField<Dim>& field, solid::Solid<Dim>& solid, 
 }  // namespace
 
 template <int Dim>
-BulkPatchErrors patch_test(const mesh::Mesh<Dim>& box, PatchBoundary boundary, solid::FreeFaceRule neumann) {
+BulkPatchErrors patch_test(const mesh::Mesh<Dim>& box, PatchBoundary boundary, solid::FreeFaceRule free_faces) {
     const AffineField<Dim> field;
-    solid::Solid<Dim> solid(box, patch(field, boundary, neumann));
+    solid::Solid<Dim> solid(box, patch(field, boundary, free_faces));
     const auto solution = solid::solve_statics(solid, std::vector<double>(solid.size(), 0.0),
                                                {.tolerance = tolerance, .iterations = most_iterations});
     BulkPatchErrors result = errors(field, solid, solution.q);
@@ -84,9 +84,9 @@ BulkPatchErrors patch_test(const mesh::Mesh<Dim>& box, PatchBoundary boundary, s
 }
 
 template <int Dim>
-double single_precision_force(const mesh::Mesh<Dim>& box, PatchBoundary boundary, solid::FreeFaceRule neumann) {
+double single_precision_force(const mesh::Mesh<Dim>& box, PatchBoundary boundary, solid::FreeFaceRule free_faces) {
     const AffineField<Dim> field;
-    solid::SolidOptions<Dim> options = patch(field, boundary, neumann);
+    solid::SolidOptions<Dim> options = patch(field, boundary, free_faces);
     options.precision = solid::Precision::single_precision;
     const double stress = field.stress(options.materials[0]).norm();
     solid::Solid<Dim> solid(box, std::move(options));
@@ -99,10 +99,10 @@ double single_precision_force(const mesh::Mesh<Dim>& box, PatchBoundary boundary
 }
 
 template <int Dim>
-ZeroModes zero_modes(const mesh::Mesh<Dim>& mesh, solid::FreeFaceRule neumann) {
+ZeroModes zero_modes(const mesh::Mesh<Dim>& mesh, solid::FreeFaceRule free_faces) {
     solid::SolidOptions<Dim> options;
     options.materials = {{.young = 1.0, .poisson = 0.3}};
-    options.boundary.free_face_rule = neumann;
+    options.boundary.free_face_rule = free_faces;
     solid::Solid<Dim> solid(mesh, options);
     const Eigen::MatrixXd k = dense_stiffness(solid);
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(0.5 * (k + k.transpose()), Eigen::EigenvaluesOnly);

@@ -22,12 +22,12 @@ struct BulkPatchErrors {
 /// A box under the boundary conditions of a displacement A x + b, A without symmetry, E = 70e3, nu = 0.3; solved from
 /// u = 0 as far as rounding allows. Throws as solid::solve_statics.
 template <int Dim>
-[[nodiscard]] BulkPatchErrors patch_test(const mesh::Mesh<Dim>& box, PatchBoundary boundary, solid::FreeFaceRule neumann);
+[[nodiscard]] BulkPatchErrors patch_test(const mesh::Mesh<Dim>& box, PatchBoundary boundary, solid::FreeFaceRule free_faces);
 
 /// Largest force on a cell [-], over |sigma| times the largest face, that a step in single precision finds in the exact field
 /// of `patch_test`, where there is none.
 template <int Dim>
-[[nodiscard]] double single_precision_force(const mesh::Mesh<Dim>& box, PatchBoundary boundary, solid::FreeFaceRule neumann);
+[[nodiscard]] double single_precision_force(const mesh::Mesh<Dim>& box, PatchBoundary boundary, solid::FreeFaceRule free_faces);
 
 /// Eigenvalues of the stiffness K of a free body.
 struct ZeroModes {
@@ -39,6 +39,6 @@ struct ZeroModes {
 /// From a dense matrix: for small meshes, up to some thousand unknowns. Throws std::runtime_error where the decomposition
 /// fails.
 template <int Dim>
-[[nodiscard]] ZeroModes zero_modes(const mesh::Mesh<Dim>& mesh, solid::FreeFaceRule neumann);
+[[nodiscard]] ZeroModes zero_modes(const mesh::Mesh<Dim>& mesh, solid::FreeFaceRule free_faces);
 
 }  // namespace abut::studies

@@ -33,11 +33,11 @@ std::vector<std::string> other_broad_phases() {
 const std::vector<Axis>& axes() {
     static const std::vector<Axis> all = {{"--broad-phase", other_broad_phases(), Of::bulk},
                                           {"--overlap", {"frozen"}, Of::reconstruction},
-                                          {"--weights", {"half"}, Of::model},
+                                          {"--weighting", {"half"}, Of::model},
                                           {"--events", {"off"}, Of::run},
                                           {"--quadrature", {"1", "2", "3"}, Of::reconstruction},
                                           {"--area", {"exact"}, Of::model},
-                                          {"--neumann", {"extrapolate", "adjacent"}, Of::bulk},
+                                          {"--free-faces", {"extrapolate", "adjacent"}, Of::bulk},
                                           {"--corners", {"fixed"}, Of::bulk},
                                           {"--cfl", {"0.3", "0.6"}, Of::run},
                                           {"--filter", {"neutral"}, Of::run},

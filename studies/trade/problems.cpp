@@ -36,7 +36,7 @@ Outcome solve_bar(const run::RunOptions& run, int cells, const Reference&, doubl
 
 Outcome solve_cylinder_on_block(const run::RunOptions& run, int faces, const Reference&, double) {
     const auto result = solve_hertz<2>(
-        {.faces = static_cast<double>(faces), .contact = run.contact, .neumann = run.neumann, .corners = run.corners});
+        {.faces = static_cast<double>(faces), .contact = run.contact, .free_faces = run.free_faces, .corners = run.corners});
     Outcome outcome{{.cells = result.n_cells,
                      .steps = static_cast<std::int64_t>(result.report.iterations.size()),
                      .seconds_of_steps = result.seconds}};

@@ -53,26 +53,26 @@ mesh::Mesh<Dim> box(BoxCells cells, int along_edge) {
     return box_of<Dim>(cells, Vector<Dim>::Constant(-0.3), upper, 1.1 / along_edge);
 }
 
-double target(FreeFaceRule neumann, double allowed) {
-    return neumann == FreeFaceRule::local_equilibrium ? allowed : no_target;
+double target(FreeFaceRule free_faces, double allowed) {
+    return free_faces == FreeFaceRule::local_equilibrium ? allowed : no_target;
 }
 
 template <int Dim>
 void add_patch(Level& level, const mesh::Mesh<Dim>& mesh, PatchBoundary boundary, const std::string& name,
-               FreeFaceRule neumann, double allowed) {
-    const BulkPatchErrors errors = patch_test(mesh, boundary, neumann);
+               FreeFaceRule free_faces, double allowed) {
+    const BulkPatchErrors errors = patch_test(mesh, boundary, free_faces);
     level.quantities.at_most("displacement, " + name, errors.displacement, allowed);
     level.quantities.at_most("stress, " + name, errors.stress, allowed);
 }
 
 template <int Dim>
-void add_modes(Level& level, const mesh::Mesh<Dim>& mesh, const std::string& name, FreeFaceRule neumann) {
+void add_modes(Level& level, const mesh::Mesh<Dim>& mesh, const std::string& name, FreeFaceRule free_faces) {
     const double exact = Dim == 2 ? 3 : 6;
-    const ZeroModes modes = zero_modes(mesh, neumann);
+    const ZeroModes modes = zero_modes(mesh, free_faces);
     const auto count = static_cast<double>(modes.count);
-    level.quantities.near("zero modes, " + name, count, exact, target(neumann, 0.0));
+    level.quantities.near("zero modes, " + name, count, exact, target(free_faces, 0.0));
     level.quantities.at_most("largest zero over next, " + name, modes.largest_zero / modes.next,
-                             target(neumann, allowed_zero));
+                             target(free_faces, allowed_zero));
 }
 
 template <int Dim>
@@ -85,9 +85,9 @@ Level level(const PatchOptions& options, BoxCells cells) {
                               single_precision_force(patch, PatchBoundary::mixed, FreeFaceRule::local_equilibrium),
                               allowed_single);
     add_patch(result, patch, PatchBoundary::displacement, "imposed", FreeFaceRule::local_equilibrium, allowed_error);
-    for (const auto& [name, neumann] : neumann_choices)
-        add_patch(result, patch, PatchBoundary::mixed, name, neumann, target(neumann, allowed_error));
-    for (const auto& [name, neumann] : neumann_choices) add_modes(result, free_body, name, neumann);
+    for (const auto& [name, free_faces] : neumann_choices)
+        add_patch(result, patch, PatchBoundary::mixed, name, free_faces, target(free_faces, allowed_error));
+    for (const auto& [name, free_faces] : neumann_choices) add_modes(result, free_body, name, free_faces);
     return result;
 }
 
@@ -95,7 +95,7 @@ Level level(const PatchOptions& options, BoxCells cells) {
 apps::Table curve(const Study& study) {
     apps::Table table{.columns = {"mesh", "imposed"}, .rows = {}};
     for (const char* what : {"stress", "zero"})
-        for (const auto& [name, neumann] : neumann_choices) table.columns.push_back(fmt::format("{}_{}", what, name));
+        for (const auto& [name, free_faces] : neumann_choices) table.columns.push_back(fmt::format("{}_{}", what, name));
     for (const Level& level : study.levels) {
         std::vector<double> row{static_cast<double>(table.rows.size())};
         for (const char* start : {"stress, ", "largest zero"})

@@ -31,9 +31,9 @@ const apps::Choices<PatchMesh> meshes = {
     {"matching", PatchMesh::matching}, {"non-matching", PatchMesh::non_matching}, {"unstructured", PatchMesh::unstructured}};
 const apps::Choices<contact::InterfaceWeighting> weights = {{"stiffness", contact::InterfaceWeighting::stiffness},
                                                             {"half", contact::InterfaceWeighting::half}};
-const apps::Choices<solid::FreeFaceRule> neumanns = {{"local_equilibrium", solid::FreeFaceRule::local_equilibrium},
-                                                     {"extrapolate", solid::FreeFaceRule::extrapolate},
-                                                     {"adjacent", solid::FreeFaceRule::adjacent}};
+const apps::Choices<solid::FreeFaceRule> free_face_rules = {{"local_equilibrium", solid::FreeFaceRule::local_equilibrium},
+                                                            {"extrapolate", solid::FreeFaceRule::extrapolate},
+                                                            {"adjacent", solid::FreeFaceRule::adjacent}};
 struct Sides {
     std::string name;
     PatchSides sides;
@@ -56,7 +56,7 @@ constexpr double exact = 1e-10;
 double target(const PatchOptions& options, const Sides& sides) {
     const bool is_exact = options.mesh == PatchMesh::matching &&
                           options.contact.weighting == contact::InterfaceWeighting::stiffness &&
-                          options.neumann == solid::FreeFaceRule::local_equilibrium && sides.is_exact;
+                          options.free_faces == solid::FreeFaceRule::local_equilibrium && sides.is_exact;
     return is_exact ? exact : no_target;
 }
 
@@ -66,8 +66,8 @@ Level level(const PatchOptions& options, const Sides& sides) {
     const ContactPatchErrors errors = timed(seconds, [&] { return solve_patch<Dim>(options); });
     const double allowed = target(options, sides);
     return {.name = fmt::format("{}, {}, {}, sides {} ({:.1g} out of balance)", apps::name_of(meshes, options.mesh),
-                                apps::name_of(weights, options.contact.weighting), apps::name_of(neumanns, options.neumann),
-                                sides.name, errors.report.residual),
+                                apps::name_of(weights, options.contact.weighting),
+                                apps::name_of(free_face_rules, options.free_faces), sides.name, errors.report.residual),
             .quantities = {{"stress, largest error", "", errors.stress, 0.0, 1.0, allowed},
                            {"displacement, largest error", "", errors.displacement, 0.0, 1.0, allowed},
                            {"contact pressure, largest error", "", errors.pressure, 0.0, 1.0, allowed}},
@@ -93,13 +93,13 @@ std::string axis(const std::vector<std::string>& mesh_names) {
     std::string tics, script;
     double place = 0.0;
     for (const std::string& name : mesh_names) {
-        const double width = static_cast<double>(weights.size() * neumanns.size());
+        const double width = static_cast<double>(weights.size() * free_face_rules.size());
         script += fmt::format(
             "set label \"{0}\" at {1},graph 1.03 center font \",14\"\n"
             "set arrow from {2},graph 0 to {2},graph 1.06 nohead lc rgb \"#404040\"\n",
             name, place + 0.5 * (width - 1.0), place - 0.5);
         for (const auto& [weight_name, weight] : weights)
-            for (const auto& [neumann_name, neumann] : neumanns)
+            for (const auto& [neumann_name, free_faces] : free_face_rules)
                 tics += fmt::format("{}\"{}, {}\" {}", tics.empty() ? "" : ", ", weight_name, neumann_name, place++);
     }
     return script + fmt::format("set xtics ({}) rotate by -40 noenhanced\nset xrange [-0.5:{}]\n", tics, place - 0.5);
@@ -140,8 +140,8 @@ Study solve(const Options& options) {
         if (!options.meshes.empty() && std::ranges::find(options.meshes, mesh_name) == options.meshes.end()) continue;
         mesh_names.push_back(mesh_name);
         for (const auto& [weight_name, weight] : weights)
-            for (const auto& [neumann_name, neumann] : neumanns) {
-                PatchOptions patch{.mesh = mesh, .strain = options.strain, .neumann = neumann};
+            for (const auto& [neumann_name, free_faces] : free_face_rules) {
+                PatchOptions patch{.mesh = mesh, .strain = options.strain, .free_faces = free_faces};
                 patch.contact.weighting = weight;
                 add_levels<Dim>(study, stress, patch);
             }

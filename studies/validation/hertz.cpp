@@ -144,7 +144,7 @@ Study solve(const Options& options) {
         HertzOptions hertz = options.hertz;
         hertz.faces = faces;
         hertz.contact = options.run.contact;
-        hertz.neumann = options.run.neumann;
+        hertz.free_faces = options.run.free_faces;
         hertz.corners = options.run.corners;
         double seconds = 0.0;
         const HertzResult<Dim> result = timed(seconds, [&] { return solve_hertz<Dim>(hertz); });

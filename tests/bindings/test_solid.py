@@ -151,7 +151,7 @@ class Runs(unittest.TestCase):
 
     def test_steps_one_by_one_have_the_bits_of_a_run(self):
         mesh = two_boxes()
-        for options in ({}, dict(filter="neutral", restart=20), dict(corners="fixed", weights="half")):
+        for options in ({}, dict(filter="neutral", restart=20), dict(law="reconstruction", corners="fixed", weighting="half")):
             result = solid.simulate(mesh, **falling(), steps=120, interval=1, **options)
             memm = solid.memm(mesh, **falling(), **options)
             for _ in range(120):

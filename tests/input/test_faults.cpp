@@ -165,11 +165,11 @@ TEST_CASE("a name with a control character is refused, and one that is no UTF-8 
 TEST_CASE("check says what a run refuses before its first step, and what it warns of", "[input][check]") {
     const std::string tip =
         "[bodies.tip]\nshape = \"fan_disc\"\nradius = 0.4\nsectors = 3\nplace = [5, 5]\nyoung = 1\ndensity = 1\n";
-    const WrittenScene sharp(two_blocks("[contact]\nfacing_cosine = -0.9\nlaw = \"reconstruction\"\n" + tip));
+    const WrittenScene sharp(two_blocks("[contact]\nlaw = \"reconstruction\"\n[laboratory]\nfacing_cosine = -0.9\n" + tip));
     const auto checked = input::check_scene(sharp.path());
     REQUIRE(checked.estimate);
     CHECK(std::ranges::any_of(checked.warnings, [](const std::string& text) {
-        return text.find("contact.facing_cosine (--facing-cosine)") != std::string::npos;
+        return text.find("laboratory.facing_cosine (--lab facing_cosine)") != std::string::npos;
     }));
     CHECK(checked.estimate->cell_of_step.find("of body '") != std::string::npos);
 }

@@ -70,12 +70,14 @@ TEST_CASE("every option that scenes have is a key of its table, and messages cal
     for (const auto& option : abut::run::run_options()) {
         if (!option.places.scene) continue;
         const std::string& table = option.table;
+        const std::string on_command_line =
+            option.depth == abut::OptionDepth::laboratory ? "--lab " + option.scene_key() : option.flag();
         CAPTURE(table, option.name);
         const auto begin = grammar.find("### [" + table + "]\n");
         REQUIRE(begin != std::string::npos);
         const auto found = grammar.find("| `" + option.scene_key() + "` |", begin);
         CHECK(found < grammar.find("### [", begin + 1));
         if (option.kind != abut::OptionKind::path)
-            CHECK(abut::run::with_keys(option.flag()) == table + "." + option.scene_key() + " (" + option.flag() + ")");
+            CHECK(abut::run::with_keys(option.flag()) == table + "." + option.scene_key() + " (" + on_command_line + ")");
     }
 }

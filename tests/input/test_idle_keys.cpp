@@ -62,7 +62,7 @@ TEST_CASE("a key that nothing reads is refused by its name, and those beside it 
         // of contact
         {"[contact]\ndecay_speed = 1\nfriction = 0.3", {}, {"contact.decay_speed"}},
         {"[contact]\nrelaxation_time = 1", {}, {"contact.relaxation_time"}},
-        {"[contact]\nself_contact_rings = 2", {}, {"contact.self_contact_rings"}},
+        {"[laboratory]\nself_contact_rings = 2", {}, {"laboratory.self_contact_rings"}},
         {"kinematics = \"rigid\"\n[contact]\nself = true", {}, {"contact.self"}},
         {"[contact]\nenabled = false\nfriction = 0.3\nskin = 1\n[[contact.pairs]]\nbodies = [\"left\", \"right\"]\n"
          "friction = 0.1\n[obstacles.floor]\nshape = \"plane\"\npoint = [0, -1]\nnormal = [0, 1]\n[output]\nforces = true",
@@ -71,15 +71,15 @@ TEST_CASE("a key that nothing reads is refused by its name, and those beside it 
         {"[[contact.pairs]]\nbodies = [\"left\", \"right\"]\ninterference_time = 1e-3\nfriction = 0.1",
          {},
          {"contact.pairs[0].interference_time"}},
-        {"[contact]\nlaw = \"pair_potential\"\nquadrature = 1", {}, {"contact.quadrature"}},
-        {"[contact]\nlaw = \"pair_potential\"\ncorners = \"fixed\"", {}, {"contact.corners"}},
-        {"kinematics = \"finite\"\n[contact]\nneumann = \"extrapolate\"", {}, {"contact.neumann"}},
+        {"[contact]\nlaw = \"pair_potential\"\n[laboratory]\nquadrature = 1", {}, {"laboratory.quadrature"}},
+        {"[contact]\nlaw = \"pair_potential\"\n[laboratory]\ncorners = \"fixed\"", {}, {"laboratory.corners"}},
+        {"kinematics = \"finite\"\n[laboratory]\nfree_faces = \"extrapolate\"", {}, {"laboratory.free_faces"}},
         // of the run and its files
         {"steps = 3\ntime = 1", {}, {"run.steps"}},
         {"dt = 1e-3\ncfl = 0.5", {}, {"run.cfl"}},
-        {"levels = 3\ngauge = 2", {}, {"run.levels", "run.gauge"}},
+        {"[laboratory]\nlevels = 3\ngauge = 2", {}, {"laboratory.levels", "laboratory.gauge"}},
         {"integrator = \"leapfrog\"\nrestart = 10\nfilter = \"neutral\"", {}, {"run.restart", "run.filter"}},
-        {"mean_force = \"trapezoid\"", {}, {"run.mean_force"}},
+        {"[laboratory]\nmean_force = \"trapezoid\"", {}, {"laboratory.mean_force"}},
         {"rebalance_above = 2", {}, {"run.rebalance_above"}},
         {"[output]\nframes = 0\nformat = \"xdmf\"\nfields = [\"stress\"]", {}, {"output.format", "output.fields"}},
         // of bonds and springs
@@ -109,12 +109,13 @@ TEST_CASE("with what reads them the same keys are in order", "[input][idle]") {
          "1\nsize = 0.5\nplace = [9, 9]\nmaterial = \"brass\"\ntemperature_rise = 1",
          {}},
         {"[contact]\ndecay_speed = 1\nfriction = 0.3\nsliding_friction = 0.2\nrelaxation_time = 1", {}},
-        {"[contact]\nself_contact_rings = 2\nself = true", {}},
+        {"[contact]\nself = true\nlaw = \"reconstruction\"\n[laboratory]\nself_contact_rings = 2", {}},
         {"[contact]\nself = true", {}},
-        {"[contact]\nenabled = false\nneumann = \"extrapolate\"", {}},  // of all free faces, whatever touches them
+        {"[contact]\nenabled = false\n[laboratory]\nfree_faces = \"extrapolate\"",
+         {}},  // of all free faces, whatever touches them
         {"[[contact.pairs]]\nbodies = [\"left\", \"right\"]\ninterference = \"resolve\"\ninterference_time = 1e-3", {}},
-        {"levels = 3\nintegrator = \"memm_async\"", {}},
-        {"mean_force = \"trapezoid\"", {"bodies.left.kinematics=finite"}},
+        {"integrator = \"memm_async\"\n[contact]\nlaw = \"reconstruction\"\n[laboratory]\nlevels = 3", {}},
+        {"[laboratory]\nmean_force = \"trapezoid\"", {"bodies.left.kinematics=finite"}},
         {"[output]\nframes = 3\nformat = \"xdmf\"\nfields = [\"stress\"]\nforces = true\nsample_interval = 3", {}},
         {"[[bonds]]\nbodies = [\"left\", \"right\"]\nfracture_energy = 1\nstrength = 1e-3",
          {"bodies.right.place=[-0.5, 0]"}}};
@@ -127,7 +128,7 @@ TEST_CASE("with what reads them the same keys are in order", "[input][idle]") {
 }
 
 TEST_CASE("0, false and the default ask for nothing, and a sweep may go through 0", "[input][idle]") {
-    CHECK(faults_of("[contact]\nself = false\nquadrature = 0\nfriction = 0\nrelaxation_time = 1", {}).empty());
+    CHECK(faults_of("[laboratory]\nquadrature = 0\n[contact]\nself = false\nfriction = 0\nrelaxation_time = 1", {}).empty());
     CHECK(faults_of("", {"bodies.left.hardening=0", "bodies.left.law=st_venant_kirchhoff"}).empty());
     CHECK(faults_of("[contact]\nfriction = 0.3\nrelaxation_time = 1", {"contact.friction=0"}).empty());
 }

@@ -83,38 +83,39 @@ TEST_CASE("the estimate of a check is what the run takes", "[input][check]") {
         CHECK(input::text_of(*checked.estimate).find(word) != std::string::npos);
 }
 
-TEST_CASE("every key of [run], [contact] and [output] reaches its option", "[input][scenes]") {
+TEST_CASE("every key of [run], [contact], [output] and [laboratory] reaches its option", "[input][scenes]") {
     const WrittenScene written(two_blocks(R"toml(steps = 3
 time = 2
 cfl = 0.5
 dt = 1e-3
 allow_unstable = true
 integrator = "memm_async"
-levels = 3
-contact_margin = 2
-contact_levels = 1
 kinematics = "floating"
 threads = 2
 [contact]
 enabled = false
 law = "pair_potential"
-broad_phase = "brute_force"
-overlap = "frozen"
-weights = "half"
-area = "exact"
-events = false
-quadrature = 1
-facing_cosine = -0.3
 facing_full = -0.4
 facing_none = -0.1
 skin = 0.25
 compression_limit = 7
-neumann = "adjacent"
-corners = "fixed"
 [output]
 out = "somewhere"
 interval = 5
 frames = 4
+[laboratory]
+levels = 3
+contact_margin = 2
+contact_levels = 1
+broad_phase = "brute_force"
+overlap = "frozen"
+weighting = "half"
+area = "exact"
+events = false
+quadrature = 1
+facing_cosine = -0.3
+free_faces = "adjacent"
+corners = "fixed"
 )toml"));
     // Not all of them act beside each other (test_idle_keys.cpp): the scene is read, and no run.
     const auto settings = [&](const std::vector<std::string>& set) {
@@ -145,7 +146,7 @@ frames = 4
     CHECK(o.facing.none == -0.1);
     CHECK(o.contact.search.skin == 0.25);
     CHECK(o.contact.compression_limit == 7.0);
-    CHECK(o.neumann == solid::FreeFaceRule::adjacent);
+    CHECK(o.free_faces == solid::FreeFaceRule::adjacent);
     CHECK(o.corners == solid::CornerRule::fixed);
     CHECK(o.out == "somewhere");
     CHECK(o.interval == 5);
@@ -155,14 +156,14 @@ frames = 4
     const run::RunOptions memm = settings({"run.integrator=memm", "run.filter=neutral", "run.restart=9"}).options;
     CHECK(memm.filter);
     CHECK(memm.restart == 9);
-    CHECK(settings({"run.integrator='bilbao'", "run.gauge=3"}).options.gauge == 3.0);
-    const run::RunOptions single = settings({"run.integrator=leapfrog", "run.precision=single"}).options;
+    CHECK(settings({"run.integrator='bilbao'", "laboratory.gauge=3"}).options.gauge == 3.0);
+    const run::RunOptions single = settings({"run.integrator=leapfrog", "laboratory.precision=single"}).options;
     CHECK(single.precision == solid::Precision::single_precision);
     CHECK(o.precision == solid::Precision::double_precision);
 }
 
 TEST_CASE("a preset stands below all other keys, wherever it stands", "[input][scenes]") {
-    const WrittenScene written(two_blocks("cfl = 0.5\npreset = \"exact\"\n[contact]\nevents = true\n"));
+    const WrittenScene written(two_blocks("cfl = 0.5\npreset = \"exact\"\n[laboratory]\nevents = true\n"));
     const run::RunOptions exact = input::SceneFile(written.path()).options();
     CHECK(exact.cfl == 0.5);
     CHECK(exact.filter);

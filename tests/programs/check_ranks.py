@@ -109,9 +109,13 @@ def check_one_file(program, scene, folder):
 
 
 def check_choices(program, scene, folder):
-    """Bodies that turn in a frame, that bend, and that are rigid, under the other law of contact; the filter; neutral restarts."""
-    for choice in (("--kinematics", "floating", "--law", "pair_potential"), ("--kinematics", "finite", "--law", "pair_potential"), ("--kinematics", "rigid", "--law", "pair_potential"), ("--filter", "neutral"), ("--restart", "5")):
-        alone, shared = folder / choice[1], folder / (choice[1] + "_on_3")
+    """Bodies that turn in a frame, that bend, and that are rigid, under the other law of contact; friction under both laws; the filter;
+    neutral restarts."""
+    pairs, rubs = ("--law", "pair_potential"), ("--set", "contact.friction=0.3")
+    for choice in (("--kinematics", "floating", *pairs), ("--kinematics", "finite", *pairs), ("--kinematics", "rigid", *pairs),
+                   rubs, (*rubs, *pairs), ("--filter", "neutral"), ("--restart", "5")):
+        name = "_".join(choice[1::2])
+        alone, shared = folder / name, folder / (name + "_on_3")
         subprocess.run(command(program, scene, alone, *choice), check=True)
         subprocess.run(command(program, scene, shared, *choice, "--ranks", "3"), check=True)
         require_same(files_of(alone), files_of(shared), choice)
@@ -128,7 +132,7 @@ def check_refused(program, studies, scene, folder):
     """Each by its name, on all ranks, with one message."""
     not_made = "not made for a run on several ranks"
     for name, *options in (("pilot run", "--kinematics", "automatic"),
-                           ("memm_async", "--integrator", "memm_async"), ("a bulk in single precision", "--precision", "single"),
+                           ("memm_async", "--integrator", "memm_async"), ("a bulk in single precision", "--lab", "precision=single"),
                            ("a bulk on a device", "--device", "kokkos")):
         run = subprocess.run(command(program, scene, folder / "wrong", "--ranks", "2", *options), capture_output=True, text=True)
         check_one_message(run, (name, not_made), options)

@@ -302,12 +302,12 @@ TEST_CASE("the manual page has all commands, options and topics, and troff finds
 
 TEST_CASE("every option of a run is in help, manual page and completions, and in keys where scenes have it",
           "[programs][asked][options]") {
-    const std::string help = answer("run --help"), page = answer("man"), keys = answer("keys");
+    const std::string help = answer("run --help-all"), page = answer("man"), keys = answer("keys");
     const std::string bash = answer("completion bash"), zsh = answer("completion zsh"), fish = answer("completion fish");
     for (const auto& option : run::run_options()) {
         CAPTURE(option.name);
         if (option.places.scene) CHECK_THAT(keys, Contains("| `" + option.scene_key() + "` |"));
-        if (!option.places.command_line) continue;
+        if (!option.places.command_line || option.depth == OptionDepth::laboratory) continue;
         const std::string flag = option.flag();
         std::string in_troff;
         for (const char c : flag) in_troff += c == '-' ? "\\-" : std::string(1, c);

@@ -174,7 +174,7 @@ TEST_CASE("programs with bars leave values, curves and a picture", "[programs][b
 
 TEST_CASE("programs with bars say what is wrong with their options", "[programs][bars]") {
     const auto [program, options, word] = GENERATE(
-        table<std::string, std::string, std::string>({{"study bar_impact", "--body chain --weights half", "--weights"},
+        table<std::string, std::string, std::string>({{"study bar_impact", "--body chain --weighting half", "--weighting"},
                                                       {"study bar_impact", "--cells 50,x", "--cells"},
                                                       {"study bar_impact", "--cells 50,", "--cells"},
                                                       {"study bar_impact", "--cells 50 --body strip3d --cfl 0.9", "--cfl"},

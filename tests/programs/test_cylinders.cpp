@@ -68,10 +68,10 @@ TEST_CASE("pseudo-energy and momentum hold to round-off through impact, slip and
 }
 
 TEST_CASE("without events, or with one point too few, the energy drifts at least 1,000 times more", "[programs]") {
-    const auto [scene, inexact] = GENERATE(table<SmallScene, std::string>({{slipping_2d, "--events off"},
-                                                                           {slipping_2d, "--quadrature 1"},
-                                                                           {slipping_3d, "--events off"},
-                                                                           {slipping_3d, "--quadrature 2"}}));
+    const auto [scene, inexact] = GENERATE(table<SmallScene, std::string>({{slipping_2d, "--lab events=off"},
+                                                                           {slipping_2d, "--lab quadrature=1"},
+                                                                           {slipping_3d, "--lab events=off"},
+                                                                           {slipping_3d, "--lab quadrature=2"}}));
     CAPTURE(scene.folder, inexact);
     const auto exact = run_small(scene, "", "_exact");
     const auto other = run_small(scene, inexact, "_inexact");
@@ -81,9 +81,9 @@ TEST_CASE("without events, or with one point too few, the energy drifts at least
 TEST_CASE("the broad phase and the number of threads do not change a bit of energy.csv", "[programs]") {
     const SmallScene scene = GENERATE(slipping_2d, slipping_3d);
     const std::string other =
-        GENERATE("--broad-phase fcl", "--broad-phase brute_force", "--threads 1", "--threads 2", "--threads 4");
+        GENERATE("--lab broad_phase=fcl", "--lab broad_phase=brute_force", "--threads 1", "--threads 2", "--threads 4");
     CAPTURE(scene.folder, other);
-    const auto outcome_1 = run_small(scene, "--broad-phase embree", "_reference");
+    const auto outcome_1 = run_small(scene, "--lab broad_phase=embree", "_reference");
     const auto outcome_2 = run_small(scene, other, "_other");
     CHECK(read_text(outcome_1.directory / "energy.csv") == read_text(outcome_2.directory / "energy.csv"));
     const auto summary_1 = read_summary(outcome_1);

@@ -106,6 +106,7 @@ TEST_CASE("detect: the nearest faces of two bodies are named with their points a
     CHECK(nearest[0]["point_1"][2] == 0.0);
     CHECK(nearest[0]["point_2"][0].get<double>() == Approx(0.2 + std::sqrt(0.5)).epsilon(1e-14));
     CHECK((nearest[1]["body_1"] == 1 && nearest[1]["body_2"] == 2));
+    CHECK(outcome.out.starts_with("'flat' and 'tilted' are 0.09289 m apart at (0.9071, "));  // the answer comes first
     CHECK_THAT(outcome.out, Contains("nearest bodies") && Contains("0.0928932188 m: 'flat', face 0 at (0.907107, "));
     CHECK_THAT(read_text(outcome.directory / "nearest.csv"),
                Contains("step,body_1,face_1,body_2,face_2,distance [m],x_1 [m]") && Contains("0,flat,0,tilted,"));

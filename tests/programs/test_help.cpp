@@ -14,17 +14,13 @@ using namespace abut::test::programs;
 /// Programs, with a command, and options of theirs that their help has to explain.
 const std::vector<std::pair<std::string, std::string>> explained = {
     {"abut run",
-     "--set --sweep --cfl --time --steps "
-     "--dt --skin --overlap --weights --area --events --quadrature --neumann --corners --filter --restart "
-     "--integrator --precision --device "
-     "--levels --contact-margin --contact-levels --gauge --frames --threads --out "
-     "--broad-phase --interval --allow-unstable --compression-limit --preset --facing-cosine --facing-full --facing-none "
-     "--quiet --json"},
+     "--set --sweep --cfl --time --steps --dt --filter --restart --integrator --frames --threads --out --interval --preset "
+     "--friction --self-contact --settle --quiet --json"},
     {"study bouncing_strip",
      "--cells --eta --steps --cfl --dt --filter --restart --compression-limit --out --interval --frames --quiet --json"},
     {"study bouncing_bar",
      "--cells --gravity --cfl --steps --integrator --gauge --parts --fast --filter --patch --restart --out --interval"},
-    {"study bar_impact", "--body --cells --cfl --filter --out --overlap --weights --neumann --skin"},
+    {"study bar_impact", "--body --cells --cfl --filter --out --overlap --weighting --free-faces --skin"},
     {"study falling_bar", "--body --cells --cfl --filter --out"},
     {"study fixed_bar", "--body --cells --cfl --filter --out"},
     {"study two_bars", "--body --cells --cells-2 --speed --cfl --filter --out"},
@@ -34,16 +30,16 @@ const std::vector<std::pair<std::string, std::string>> explained = {
      "--max-memory --verify --verify-tests --verify-samples --seed --out --no-files --write-every --threads"},
     {"study fpu", "--omega --dt --time --integrator --mean --gauge --parts --fast --start --out --interval"},
     {"study hertz",
-     "--dim --support --load --radius --young --poisson --ratio --coarse --faces --tolerance --weights --area "
-     "--neumann --corners --out"},
+     "--dim --support --load --radius --young --poisson --ratio --coarse --faces --tolerance --weighting --area "
+     "--free-faces --corners --out"},
     {"study contact_patch", "--dim --mesh --strain --out"},
     {"study extremes", "--only --steps --quick --cfl --overlap --events --facing-cosine --out"},
     {"study long_runs", "--only --steps --period"},
     {"study turning", "--only --quick --scheme --filter --restart --cfl --steps --frames --out"},
     {"study trade", "--only --settings --also --levels --repetitions --limit --out"},
-    {"study disc_on_plane", "--preset --cells --cfl --integrator --weights --events --neumann --out"},
-    {"study disc_collision", "--preset --size --cfl --integrator --weights --events --neumann --out"},
-    {"study sphere_collision", "--preset --faces --coarse --cfl --integrator --weights --out"},
+    {"study disc_on_plane", "--preset --cells --cfl --integrator --weighting --events --free-faces --out"},
+    {"study disc_collision", "--preset --size --cfl --integrator --weighting --events --free-faces --out"},
+    {"study sphere_collision", "--preset --faces --coarse --cfl --integrator --weighting --out"},
     {"study manufactured", "--dim --cells --levels --tolerance --out"},
     {"study bulk_patch", "--cells --mode-cells --out"},
     {"study spectrum", "--cells --poisson --eta --out"},
@@ -113,16 +109,11 @@ TEST_CASE("the list of studies has a sentence for each, and a name that is not i
 }
 
 TEST_CASE("the text of --help names the default that a run uses", "[programs]") {
-    const auto help = run_program("abut", slip("--help"), "").out;
+    const auto help = run_program("abut", slip("--help-all"), "").out;
     const auto outcome = run_well("abut", slip("--set values.size=0.25 --steps 1 --frames 0"), "defaults");
     const auto used = read_summary(outcome)["options"];
-    for (const auto& [option, key] :
-         std::vector<std::pair<std::string, std::string>>{{"--cfl", "cfl"},
-                                                          {"--overlap", "overlap"},
-                                                          {"--weights", "weights"},
-                                                          {"--neumann", "neumann"},
-                                                          {"--filter", "filter"},
-                                                          {"--compression-limit", "compression_limit"}}) {
+    for (const auto& [option, key] : std::vector<std::pair<std::string, std::string>>{
+             {"--cfl", "cfl"}, {"--filter", "filter"}, {"--compression-limit", "compression_limit"}}) {
         INFO(option);
         std::ostringstream value;
         if (used[key].is_string())

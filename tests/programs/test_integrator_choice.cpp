@@ -87,9 +87,9 @@ TEST_CASE("on a mesh refined where the bodies touch, local steps keep the energy
 }
 
 TEST_CASE("local steps give the same bits for any number of threads and any broad phase", "[programs]") {
-    const std::string options = refined(6) + "--time 2 --contact-levels 1 ";
+    const std::string options = refined(6) + "--time 2 --lab contact_levels=1 ";
     const auto reference = run_scheme("memm_async", options + "--threads 1");
-    const std::string other = GENERATE("--threads 2", "--threads 4", "--broad-phase fcl");
+    const std::string other = GENERATE("--threads 2", "--threads 4", "--lab broad_phase=fcl");
     CAPTURE(other);
     const auto outcome = run_scheme("memm_async", options + other);
     CHECK(read_text(reference.directory / "energy.csv") == read_text(outcome.directory / "energy.csv"));
@@ -109,7 +109,7 @@ TEST_CASE("a body that falls from rest runs under every scheme", "[programs]") {
 TEST_CASE("single precision is said in the summary, misses no contact, and parts the bodies as double does", "[programs]") {
     const std::string integrator = GENERATE("memm", "leapfrog");
     const auto of_double = read_summary(run_scheme(integrator));
-    const auto outcome = run_scheme(integrator, "--precision single");
+    const auto outcome = run_scheme(integrator, "--lab precision=single");
     const auto summary = read_summary(outcome);
     CHECK(of_double["options"]["precision"] == "double");
     CHECK(summary["options"]["precision"] == "single");
@@ -123,7 +123,8 @@ TEST_CASE("single precision is said in the summary, misses no contact, and parts
 
 TEST_CASE("a run in single precision has the same bits for any number of threads", "[programs]") {
     const auto energies = [](const char* threads) {
-        const std::string options = std::string("--set values.size=0.25 --frames 0 --precision single --threads ") + threads;
+        const std::string options =
+            std::string("--set values.size=0.25 --frames 0 --lab precision=single --threads ") + threads;
         return read_text(run_well("abut", slip_3d(options), "threads").directory / "energy.csv");
     };
     CHECK(energies("1") == energies("2"));

@@ -45,21 +45,21 @@ void write_square(const std::filesystem::path& path, double x, double y, double 
 TEST_CASE("the energy holds to round-off for every choice that is exact", "[programs]") {
     const auto [dim, choice] =
         GENERATE(table<int, std::string>({{2, ""},
-                                          {2, "--weights half"},
-                                          {2, "--area exact"},
-                                          {2, "--neumann extrapolate"},
-                                          {2, "--neumann adjacent"},
+                                          {2, "--lab weighting=half"},
+                                          {2, "--lab area=exact"},
+                                          {2, "--lab free_faces=extrapolate"},
+                                          {2, "--lab free_faces=adjacent"},
                                           {2, set_both("eta", 0.5, 0.5)},
                                           {2, set_both("eta", 0.5, 2.0)},
                                           {2, set_both("poisson", 0.0, 0.45)},
                                           {2, "--cfl 0.4"},
                                           {2, "--skin 0.3"},
                                           {2, "--set values.offset=0.3"},
-                                          {2, "--quadrature 3"},
+                                          {2, "--lab quadrature=3"},
                                           {2, "--filter neutral"},
                                           {2, set_both("young", 1.0, 100.0) + set_both("density", 1.0, 10.0)},
                                           {3, "--set bodies.left.length=0.6"},
-                                          {3, "--corners fixed"}}));
+                                          {3, "--lab corners=fixed"}}));
     CAPTURE(dim, choice);
     const auto outcome = run_coarse(choice, "choice", dim);
     const auto summary = read_summary(outcome);
@@ -70,16 +70,17 @@ TEST_CASE("the energy holds to round-off for every choice that is exact", "[prog
 }
 
 TEST_CASE("a frozen overlap does not keep the energy", "[programs]") {
-    const auto moving = run_coarse("--overlap moving", "moving");
-    const auto frozen = run_coarse("--overlap frozen", "frozen");
+    const auto moving = run_coarse("--lab overlap=moving", "moving");
+    const auto frozen = run_coarse("--lab overlap=frozen", "frozen");
     CHECK(relative_drift(frozen) >= 1e3 * relative_drift(moving));
     CHECK(relative_drift(frozen) >= 1e-9);
     CHECK(read_summary(frozen)["options"]["overlap"] == "frozen");
 }
 
 TEST_CASE("each choice of the method changes the motion", "[programs]") {
-    const std::string choice = GENERATE(as<std::string>(), "--weights half", "--neumann extrapolate", "--neumann adjacent",
-                                        set_both("eta", 0.5, 0.5), set_both("poisson", 0.1, 0.1));
+    const std::string choice =
+        GENERATE(as<std::string>(), "--lab weighting=half", "--lab free_faces=extrapolate", "--lab free_faces=adjacent",
+                 set_both("eta", 0.5, 0.5), set_both("poisson", 0.1, 0.1));
     CAPTURE(choice);
     // unequal bodies: between equal ones the weights are halves
     const std::string bodies = set_both("young", 1.0, 5.0);
@@ -89,7 +90,7 @@ TEST_CASE("each choice of the method changes the motion", "[programs]") {
 }
 
 TEST_CASE("what free faces do beside one in contact changes the motion of bodies with edges", "[programs]") {
-    const auto relaxed = run_coarse("", "relaxed", 3), fixed = run_coarse("--corners fixed", "fixed", 3);
+    const auto relaxed = run_coarse("", "relaxed", 3), fixed = run_coarse("--lab corners=fixed", "fixed", 3);
     CHECK(read_summary(fixed)["options"]["corners"] == "fixed");
     CHECK(read_summary(fixed)["bodies"][0]["velocity_final"] != read_summary(relaxed)["bodies"][0]["velocity_final"]);
 }
@@ -248,8 +249,8 @@ TEST_CASE("summary.json holds all that a reader is promised", "[programs]") {
         if (name != std::string("total")) parts += summary["seconds"][name].get<double>();
     }
     CHECK(parts <= summary["seconds"]["total"].get<double>());
-    for (const char* name : {"scene", "set",      "cfl",        "time",       "broad_phase", "overlap",          "weights",
-                             "area",  "events",   "quadrature", "neumann",    "corners",     "filter",           "threads",
+    for (const char* name : {"scene", "set",      "cfl",        "time",       "broad_phase", "overlap",          "weighting",
+                             "area",  "events",   "quadrature", "free_faces", "corners",     "filter",           "threads",
                              "out",   "interval", "skin",       "integrator", "frames",      "compression_limit"})
         CHECK(summary["options"].contains(name));
 }

@@ -60,8 +60,8 @@ TEST_CASE("a cylinder meets Hertz at 10 faces in the contact, closer than at 5",
 }
 
 TEST_CASE("the weights of halves give a worse traction than those by stiffness where cells differ in size", "[programs]") {
-    const auto halves = run_well("study hertz", "--faces 5 --ratio 0.4 --weights half", "hertz_half");
-    const auto stiffness = run_well("study hertz", "--faces 5 --ratio 0.4 --weights stiffness", "hertz_stiffness");
+    const auto halves = run_well("study hertz", "--faces 5 --ratio 0.4 --weighting half", "hertz_half");
+    const auto stiffness = run_well("study hertz", "--faces 5 --ratio 0.4 --weighting stiffness", "hertz_stiffness");
     const std::string traction = "traction of the cells, error in L2";
     CHECK(error_of(stiffness, 0, traction) < 0.5 * error_of(halves, 0, traction));
 }

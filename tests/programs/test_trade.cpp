@@ -147,8 +147,8 @@ TEST_CASE("a preset is the options that it names, and options beside it win wher
     CHECK(without_folder(options_used("--preset balanced")) == without_folder(options_used("")));
     const auto fast = options_used("--preset fast");
     CHECK(fast != options_used(""));
-    const auto after = options_used("--preset fast --cfl 0.4 --events on"),
-               before = options_used("--cfl 0.4 --events on --preset fast");
+    const auto after = options_used("--preset fast --cfl 0.4 --lab events=on"),
+               before = options_used("--cfl 0.4 --lab events=on --preset fast");
     CHECK(without_folder(after) == without_folder(before));
     CHECK(after["cfl"] == 0.4);
     CHECK(after["events"] == "on");

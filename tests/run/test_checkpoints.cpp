@@ -88,7 +88,10 @@ TEST_CASE("a run that was stopped and goes on leaves the files of the run that w
         options.integrator = SolidIntegrator::bilbao;
         options.gauge = 1.0;
     }
-    SECTION("local steps") { options.integrator = SolidIntegrator::memm_async; }
+    SECTION("local steps") {
+        options.integrator = SolidIntegrator::memm_async;
+        options.law = solid::ContactLaw::reconstruction;
+    }
     SECTION("bodies that turn") { options.kinematics = run::BodyKinematics::floating; }
     SECTION("rigid bodies") { options.kinematics = run::BodyKinematics::rigid; }
     const Folder folder;

@@ -154,7 +154,8 @@ TEST_CASE("files of a failure can be read back, and go with the next run in that
         CHECK(entry.path().filename().string().find("failed") == std::string::npos);
 }
 
-TEST_CASE("a failure has its pictures also where contact was last searched far from the last sound state", "[run][failure]") {
+TEST_CASE("a failure has its pictures also where contact was last searched far from the last sound state",
+          "[run][failure]") {
     const Folder folder;
     run::Scene<2> scene = coarse_and_fine();
     scene.contact = true;

@@ -160,8 +160,8 @@ TEST_CASE("a run refuses every option that its scheme does not read, and says wh
             if (std::ranges::find(option.schemes, word) != option.schemes.end())
                 CHECK_NOTHROW(run::check(options));
             else
-                CHECK_THROWS_WITH(run::check(options),
-                                  Contains(option.flag()) && Contains("--integrator " + option.schemes.front()));
+                CHECK_THROWS_WITH(run::check(options), Contains(option.table + "." + option.scene_key()) &&
+                                                           Contains("--integrator " + option.schemes.front()));
         }
     }
 }

@@ -23,7 +23,8 @@ TEST_CASE("options of a command line become keys, once", "[run][words]") {
     CHECK(with_keys("--filter neutral: take --filter none.") ==
           "run.filter = \"neutral\" (--filter neutral): take run.filter = \"none\" (--filter none).");
     CHECK(with_keys("with --restart 50 and") == "with run.restart = 50 (--restart 50) and");
-    CHECK(with_keys("take a --facing-cosine nearer to 0") == "take a contact.facing_cosine (--facing-cosine) nearer to 0");
+    CHECK(with_keys("take a --facing-cosine nearer to 0") ==
+          "take a laboratory.facing_cosine (--lab facing_cosine) nearer to 0");
     for (const char* kept : {"--out DIR, --verify, a--cfl, --", "", "run.cfl (--cfl)", "StepDevice (--device host)"})
         CHECK(with_keys(kept) == kept);
     const std::string once = with_keys("--filter neutral, --time, --levels 3.");

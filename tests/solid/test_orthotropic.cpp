@@ -402,7 +402,7 @@ TEST_CASE("what an orthotropic material must not be is refused by name, value an
     CHECK_THROWS_WITH(of(space, alone_as<3>(turned_ply<2>(0.4), Kinematics::small)), Contains("axis_1 and axis_2"));
     auto options = alone_as<2>(ply(), Kinematics::small);
     options.precision = solid::Precision::single_precision;
-    CHECK_THROWS_WITH(of(plane, options), Contains("orthotropic") && Contains("--precision double"));
+    CHECK_THROWS_WITH(of(plane, options), Contains("orthotropic") && Contains("Precision::double_precision"));
     options = alone_as<2>(ply(), Kinematics::finite);
     options.materials[0].stiffness_damping = 0.1;
     CHECK_THROWS_WITH(of(plane, options), Contains("orthotropic") && Contains("mass_damping"));

@@ -270,7 +270,7 @@ TEST_CASE("a temperature that a body cannot have is refused by name", "[solid][m
     refused(options, "thermal_expansion of 0");
     options = warm<2>(steel());
     options.precision = solid::Precision::single_precision;
-    refused(options, "--precision double");
+    refused(options, "Precision::double_precision");
     options = warm<2>(steel(), Kinematics::small, std::nan(""));
     refused(options, "is not finite");
     options = warm<2>(steel());
