@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <string>
 
 #include "abut/base/error.hpp"
 #include "abut/base/text.hpp"
@@ -133,10 +135,22 @@ mesh::Mesh<Dim> round_body(const BodySettings& body) {
         return round_body_in_space(body);
 }
 
+/// A file of a surface has no cells, and another key fills it with some.
+void refuse_surface(const BodySettings& body) {
+    const std::string extension = body.mesh.extension().string();
+    const auto is_extension = [&](const char* one) { return extension == one; };
+    if (std::ranges::none_of(std::array{".stl", ".obj", ".off", ".ply", ".vtp"}, is_extension)) return;
+    throw mesh::MeshError(fmt::format(
+        "bodies.{0}.mesh: {1} is a surface, without cells. Write surface = \"{1}\" in place of mesh, and size, the "
+        "edge length of its cells [m]; scale = \"1 mm\" where the file is in millimetres.",
+        body.name, body.mesh.string()));
+}
+
 mesh::Mesh<3> filled_surface(const BodySettings& body, const std::filesystem::path& folder) {
     mesh::SurfaceMesh surface = mesh::read_surface(folder / body.surface);
     for (Vector<3>& x : surface.vertices) x *= body.scale;
-    return mesh::fill(surface, {.size = body.size, .name = body.name}, mesh_options(body));
+    return mesh::fill(surface, {.size = body.size, .name = body.name, .keeps_triangles = body.keep_triangles},
+                      mesh_options(body));
 }
 
 template <int Dim>
@@ -154,6 +168,7 @@ mesh::Mesh<Dim> unplaced(const BodySettings& body, const std::filesystem::path& 
                 fmt::format("bodies.{}.mesh is a mesh of {}D in a scene of {}D. Give one of {}D, or another dim.", body.name,
                             5 - Dim, Dim, Dim));
     }
+    refuse_surface(body);
     return mesh::read_mesh<Dim>(folder / body.mesh, mesh_options(body));
 }
 

@@ -60,6 +60,7 @@ struct BodySettings : Named {
     std::filesystem::path mesh;
     std::filesystem::path surface;
     double scale = 1.0;  ///< of the lengths of `surface` [m]
+    bool keep_triangles = false;
     mesh::NonPlanarFaces non_planar = mesh::NonPlanarFaces::fail;
     double planarity_tolerance = mesh::MeshOptions{}.planarity_tolerance;  ///< [-]
     double most_cells = run::not_given;

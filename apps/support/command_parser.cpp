@@ -78,7 +78,7 @@ CommandOption described(const CLI::Option& option) {
 Command described(const CLI::App& app) {
     Command command{.name = app.get_name(), .meaning = app.get_description(), .options = {}, .positionals = {}};
     for (const CLI::Option* option : app.get_options())
-        if (option != app.get_help_ptr() && option != app.get_help_all_ptr())
+        if (option != app.get_help_ptr())
             (option->get_positional() ? command.positionals : command.options).push_back(described(*option));
     return command;
 }

@@ -3,6 +3,8 @@
 
 #include <gmsh.h>
 
+#include <numbers>
+
 extern "C" const abut::mesh::GmshFunctions abut_gmsh_functions;
 
 const abut::mesh::GmshFunctions abut_gmsh_functions{
@@ -69,6 +71,8 @@ const abut::mesh::GmshFunctions abut_gmsh_functions{
         [](int entity, int type, const std::vector<std::size_t>& nodes) {
             gmsh::model::mesh::addElementsByType(entity, type, {}, nodes);
         },
+    .classify_surfaces = [](double angle) { gmsh::model::mesh::classifySurfaces(angle, true, true, std::numbers::pi); },
+    .create_geometry = [] { gmsh::model::mesh::createGeometry(); },
     .add_surface_loop = [](const std::vector<int>& surfaces, int tag) { gmsh::model::geo::addSurfaceLoop(surfaces, tag); },
     .add_volume = [](const std::vector<int>& surface_loops, int tag) { gmsh::model::geo::addVolume(surface_loops, tag); },
     .synchronize_discrete = [] { gmsh::model::geo::synchronize(); },

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "abut/base/messages.hpp"
@@ -18,7 +20,11 @@
 namespace abut::mesh {
 namespace {
 
-constexpr int gmsh_triangle = 2, mesher_3d = 1, surface_tag = 1, volume_tag = 1;
+constexpr int gmsh_triangle = 2, surface_tag = 1, volume_tag = 1;
+constexpr int mesher_2d = 1, mesher_3d = 1;  // MeshAdapt and Delaunay: same bits each time, and the fewest slivers
+constexpr double least_quality = 0.5;        // in Gmsh's measure, of cells that are not optimised
+constexpr double sharp_edge = 40.0 * std::numbers::pi / 180.0;
+constexpr double least_volume = 0.5, good_volume = 0.9;  // of the cells, over that inside the surface
 
 void refuse(const SurfaceMesh& surface, const std::string& what) {
     throw MeshError(
@@ -42,21 +48,30 @@ void check_closed(const SurfaceMesh& surface) {
     if (health.components.size() != 1) refuse(surface, "it is in " + std::to_string(health.components.size()) + " parts.");
 }
 
-/// Cells grow from the triangles around them to `size` where these are smaller.
-double expected_cells(const SurfaceMesh& surface, double size) {
+struct Measures {
     double volume = 0.0, area = 0.0;
+};
+Measures measures_of(const SurfaceMesh& surface) {
+    Measures measures;
     const Vector<3>& origin = surface.vertices[static_cast<std::size_t>(surface.faces.values.front())];
     const auto corner = [&](std::int32_t face, std::size_t i) {
         return Vector<3>(surface.vertices[static_cast<std::size_t>(surface.faces[face][i])] - origin);
     };
     for (std::int32_t face = 0; face < surface.faces.size(); ++face) {
         const Vector<3> a = corner(face, 0), b = corner(face, 1), c = corner(face, 2);
-        volume += a.dot(b.cross(c)) / 6.0;
-        area += 0.5 * (b - a).cross(c - a).norm();
+        measures.volume += a.dot(b.cross(c)) / 6.0;
+        measures.area += 0.5 * (b - a).cross(c - a).norm();
     }
+    measures.volume = std::abs(measures.volume);
+    return measures;
+}
+
+/// Cells grow from triangles that stay to `size` where these are smaller.
+double expected_cells(const SurfaceMesh& surface, const Measures& measures, const FillOptions& options) {
     // Of equilateral triangles of the mean area.
-    const double edge = std::sqrt(4.0 / std::numbers::sqrt3 * area / surface.faces.size());
-    return cells_in_unit<3> * std::abs(volume) / std::pow(std::min(size, edge), 3);
+    const double edge = std::sqrt(4.0 / std::numbers::sqrt3 * measures.area / surface.faces.size());
+    const double size = options.keeps_triangles ? std::min(options.size, edge) : options.size;
+    return cells_in_unit<3> * measures.volume / std::pow(size, 3);
 }
 
 /// Gmsh measures with lengths of its own: it gets the surface about the origin and of about unit size.
@@ -87,27 +102,27 @@ void add_surface(const SurfaceMesh& surface, const Frame& frame) {
 }
 
 void mesh_inside(const FillOptions& options, const Frame& frame) {
-    gmsh().add_surface_loop({surface_tag}, surface_tag);
+    if (!options.keeps_triangles) {
+        gmsh().classify_surfaces(sharp_edge);
+        gmsh().create_geometry();
+    }
+    std::vector<int> surfaces;
+    for (const auto& [dimension, tag] : gmsh().entities(2)) surfaces.push_back(tag);
+    gmsh().add_surface_loop(surfaces, surface_tag);
     gmsh().add_volume({surface_tag}, volume_tag);
     gmsh().synchronize_discrete();
     gmsh().set_physical_name(3, gmsh().add_physical_group(3, {volume_tag}), options.name);
-    gmsh().set_physical_name(2, gmsh().add_physical_group(2, {surface_tag}), "boundary");
+    gmsh().set_physical_name(2, gmsh().add_physical_group(2, surfaces), "boundary");
+    gmsh().set_option("Mesh.Algorithm", mesher_2d);
     gmsh().set_option("Mesh.Algorithm3D", mesher_3d);
     gmsh().set_option("Mesh.Optimize", 1);
+    gmsh().set_option("Mesh.OptimizeThreshold", least_quality);
     gmsh().set_option("Mesh.MeshSizeMax", options.size / frame.unit);
+    if (!options.keeps_triangles) gmsh().set_option("Mesh.MeshSizeExtendFromBoundary", 0);
     gmsh().generate_mesh(3);
 }
 
-}  // namespace
-
-Mesh<3> fill(const SurfaceMesh& surface, const FillOptions& options, const MeshOptions& mesh_options) {
-    if (!(options.size > 0.0 && std::isfinite(options.size)))
-        throw MeshError(options.name + ": size is " + number(options.size) +
-                        " m, a finite length above 0 is needed. Change the option.");
-    check_closed(surface);
-    check_estimate(
-        options.name, expected_cells(surface, options.size), most_filled_cells, mesh_options,
-        "Raise size, see that scale is the length of the file's unit (1e-3 for millimetres), or coarsen " + surface.name);
+CellSoup<3> soup_inside(const SurfaceMesh& surface, const FillOptions& options) {
     const Frame frame = frame_of(surface);
     CellSoup<3> soup;
     {
@@ -123,7 +138,47 @@ Mesh<3> fill(const SurfaceMesh& surface, const FillOptions& options, const MeshO
     soup.vertex_label.clear();
     soup.cell_label.clear();
     for (Vector<3>& x : soup.vertices) x = Vector<3>(frame.origin + frame.unit * x);
-    return build_mesh(std::move(soup), mesh_options);
+    return soup;
+}
+
+double volume_of(const Mesh<3>& mesh) { return std::accumulate(mesh.cell_measure.begin(), mesh.cell_measure.end(), 0.0); }
+
+/// Nothing where the surface cannot be meshed anew.
+std::optional<Mesh<3>> remeshed(const SurfaceMesh& surface, const FillOptions& options, const MeshOptions& mesh_options,
+                                double volume) {
+    try {
+        Mesh<3> mesh = build_mesh(soup_inside(surface, options), mesh_options);
+        const double share = volume_of(mesh) / volume;
+        if (share < least_volume || share > 1.0 / least_volume) return std::nullopt;
+        if (share < good_volume || share > 1.0 / good_volume)
+            mesh.report.warnings.push_back(options.name + ": its cells fill " + number(share) + " of the volume inside " +
+                                           surface.name + ". A smaller size follows its curves more closely");
+        return mesh;
+    } catch (const MeshError&) {
+        return std::nullopt;
+    }
+}
+
+}  // namespace
+
+Mesh<3> fill(const SurfaceMesh& surface, const FillOptions& options, const MeshOptions& mesh_options) {
+    if (!(options.size > 0.0 && std::isfinite(options.size)))
+        throw MeshError(options.name + ": size is " + number(options.size) +
+                        " m, a finite length above 0 is needed. Change the option.");
+    check_closed(surface);
+    const Measures measures = measures_of(surface);
+    check_estimate(
+        options.name, expected_cells(surface, measures, options), most_filled_cells, mesh_options,
+        "Raise size, see that scale is the length of the file's unit (1e-3 for millimetres), or coarsen " + surface.name);
+    if (options.keeps_triangles) return build_mesh(soup_inside(surface, options), mesh_options);
+    if (auto mesh = remeshed(surface, options, mesh_options, measures.volume)) return std::move(*mesh);
+    FillOptions kept = options;
+    kept.keeps_triangles = true;
+    Mesh<3> mesh = build_mesh(soup_inside(surface, kept), mesh_options);
+    mesh.report.warnings.push_back(options.name + ": " + surface.name +
+                                   " cannot be meshed anew, and its triangles stay as they are: cells beside them are as "
+                                   "large as these, whatever size says. Mesh it in another program for cells of one size");
+    return mesh;
 }
 
 }  // namespace abut::mesh

@@ -1,5 +1,8 @@
+#include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 #include "abut/mesh/quality.hpp"
@@ -18,11 +21,24 @@ SurfaceMesh box_of_triangles() {
     return boundary_of(structured_box<3>({100.0, 0.0, 0.0}, {101.0, 2.0, 3.0}, {3, 4, 5}, CellShape::tetrahedron));
 }
 
+double volume_of(const Mesh<3>& mesh) { return std::accumulate(mesh.cell_measure.begin(), mesh.cell_measure.end(), 0.0); }
+
+double longest_edge(const Mesh<3>& mesh, std::int32_t face) {
+    const auto corners = mesh.face_vertices[face];
+    double longest = 0.0;
+    for (std::size_t i = 0; i < corners.size(); ++i)
+        longest = std::max(longest, (mesh.vertices[static_cast<std::size_t>(corners[i])] -
+                                     mesh.vertices[static_cast<std::size_t>(corners[(i + 1) % corners.size()])])
+                                        .norm());
+    return longest;
+}
+
 }  // namespace
 
-TEST_CASE("a closed surface is filled: its volume, its triangles, and the laws of a mesh", "[mesh][fill]") {
+TEST_CASE("a closed surface is filled: its volume, its triangles where these are kept, and the laws of a mesh",
+          "[mesh][fill]") {
     const SurfaceMesh surface = box_of_triangles();
-    const Mesh<3> mesh = fill(surface, {.size = 0.5, .name = "brick"});
+    const Mesh<3> mesh = fill(surface, {.size = 0.5, .name = "brick", .keeps_triangles = true});
     CHECK(std::accumulate(mesh.cell_measure.begin(), mesh.cell_measure.end(), 0.0) == Approx(6.0).epsilon(1e-12));
     CHECK(mesh.boundary_faces.size() == static_cast<std::size_t>(surface.faces.size()));
     double area = 0.0;
@@ -33,9 +49,43 @@ TEST_CASE("a closed surface is filled: its volume, its triangles, and the laws o
     test::check_two_sides(mesh);
 }
 
-TEST_CASE("smaller cells fill a surface with more of them", "[mesh][fill]") {
-    const SurfaceMesh surface = box_of_triangles();
-    CHECK(fill(surface, {.size = 0.2}).n_cells() > 2 * fill(surface, {.size = 1.0}).n_cells());
+TEST_CASE("a surface is meshed anew with cells of the size that is asked for, whatever its triangles are", "[mesh][fill]") {
+    // The box has triangles of 0.6 m at most, the long box two for each side.
+    const SurfaceMesh fine = box_of_triangles(),
+                      coarse = boundary_of(structured_box<3>({0, 0, 0}, {3, 1, 1}, {1, 1, 1}, CellShape::tetrahedron));
+    for (const auto& [surface, volume] : {std::pair{fine, 6.0}, std::pair{coarse, 3.0}})
+        for (const double size : {0.5, 0.25}) {
+            CAPTURE(volume, size);
+            const Mesh<3> mesh = fill(surface, {.size = size, .name = "brick"});
+            CHECK(mesh.report.warnings.empty());
+            CHECK(volume_of(mesh) == Approx(volume).epsilon(1e-9));
+            // A regular tetrahedron of this edge has a volume of size^3/(6 sqrt 2).
+            const double expected = 6.0 * std::sqrt(2.0) * volume / std::pow(size, 3);
+            CHECK(mesh.n_cells() > 0.4 * expected);
+            CHECK(mesh.n_cells() < 2.5 * expected);
+            double longest = 0.0;
+            for (const std::int32_t face : mesh.boundary_faces) longest = std::max(longest, longest_edge(mesh, face));
+            CHECK(longest < 1.6 * size);
+            test::check_closed_cells(mesh);
+            test::check_two_sides(mesh);
+        }
+}
+
+TEST_CASE("cells in a surface that is meshed anew have no slivers, and follow it the more closely the smaller they are",
+          "[mesh][fill]") {
+    const SurfaceMesh torus = torus_surface({.n_around = 40, .n_tube = 16});
+    const double inside = volume_of(fill(torus, {.size = 0.2, .keeps_triangles = true}));
+    double before = 1.0;
+    for (const double size : {0.2, 0.1}) {
+        CAPTURE(size);
+        const Mesh<3> mesh = fill(torus, {.size = size});
+        const MeshQuality found = quality(mesh);
+        CHECK(found.smallest_inradius > 0.1 * size / (2.0 * std::sqrt(6.0)));  // that of a regular tetrahedron
+        const double off = std::abs(volume_of(mesh) / inside - 1.0);
+        CHECK(off < 0.6 * before);
+        before = off;
+        CHECK(fill(torus, {.size = size}).vertices == mesh.vertices);  // the same mesh each time
+    }
 }
 
 TEST_CASE("a surface in another unit is refused before it is filled, and the estimate is near what is made",

@@ -65,6 +65,12 @@ std::set<std::string> options_of(const std::string& help) {
     return options;
 }
 
+/// With those that --help-all alone shows.
+std::set<std::string> all_options_of(const std::string& command) {
+    const auto everyday = options_of(answer(command + " --help"));
+    return everyday.contains("--help-all") ? options_of(answer(command + " --help-all")) : everyday;
+}
+
 /// Whether a shell is installed; says so where it is not.
 bool has_shell(const std::string& shell) {
     if (std::system(fmt::format("command -v {} > /dev/null", shell).c_str()) == 0) return true;
@@ -226,7 +232,7 @@ TEST_CASE("bash completes commands, options, words and topics", "[programs][aske
     for (const std::string& command : commands) {
         CAPTURE(command);
         const auto offered = completed(command + " --");
-        const auto options = options_of(answer(command + " --help"));
+        const auto options = all_options_of(command);
         CHECK(std::set<std::string>(offered.begin(), offered.end()) == options);
     }
     const auto help = completed("help ''");
@@ -246,7 +252,7 @@ TEST_CASE("fish completes commands, options, words and files", "[programs][asked
     for (const std::string& command : commands) {
         CAPTURE(command);
         const auto offered = completed_by_fish(command + " --");
-        const auto options = options_of(answer(command + " --help"));
+        const auto options = all_options_of(command);
         CHECK(std::set<std::string>(offered.begin(), offered.end()) == options);
     }
     const auto files = completed_by_fish(fmt::format("run {}/falling_b", ABUT_SCENES));
@@ -267,7 +273,7 @@ TEST_CASE("zsh is told all commands and options, and which take words, folders a
     for (const std::string& command : commands) {
         CAPTURE(command);
         const auto asked = asked_of_zsh(command + " ''");
-        for (const std::string& option : options_of(answer(command + " --help")))
+        for (const std::string& option : all_options_of(command))
             CHECK(begins(asked, option + "[") + begins(asked, "*" + option + "[") == 1);
     }
     const auto run = asked_of_zsh("run ''");
@@ -281,7 +287,7 @@ TEST_CASE("the manual page has all commands, options and topics, and troff finds
           "[programs][asked]") {
     const std::string page = answer("man");
     for (const std::string& command : commands) CHECK_THAT(page, Contains(".SS \\fBabut " + command + "\\fR"));
-    for (std::string option : options_of(answer("run --help"))) {
+    for (std::string option : all_options_of("run")) {
         if (option == "--help") continue;
         for (std::size_t i = option.find('-'); i != std::string::npos; i = option.find('-', i + 2)) option.insert(i, "\\");
         CHECK_THAT(page, Contains(".TP\n\\fB" + option + "\\fR"));
