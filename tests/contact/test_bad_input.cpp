@@ -217,7 +217,7 @@ TEMPLATE_TEST_CASE_SIG("bad contact options are refused by name", "[contact][err
     }
     SECTION("a weighting that there is not") {
         options.weighting = static_cast<contact::InterfaceWeighting>(9);
-        says = "weights is 9; 0 (half) and 1 (stiffness)";
+        says = "weighting is 9; 0 (half) and 1 (stiffness)";
     }
     using contact::Contact;
     CHECK_THROWS_AS(Contact<Dim>(surface.view(), options), BadInput);
