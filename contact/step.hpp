@@ -55,14 +55,15 @@ struct PairStep {
     Vector<Dim> point = Vector<Dim>::Zero();  ///< where friction acts, at the middle of the step [m]
 };
 
-/// Friction of one face in a step: of a facet, where a face has two.
+/// Friction of one face in a step: of a facet, where a face has two. An evaluation of one state knows the face and the slip.
 struct FaceFriction {
     Face face;
-    double normal_force;  ///< that its friction is of [N]: half of that on the face, all of it where the partner is rigid
-    double force;         ///< along the face, mean over the step [N]
-    double limit;         ///< at which it slides [N]
-    double slip;          ///< in this step [m]; 0: it sticks
-    double dissipated;    ///< in this step [J]
+    double normal_force =
+        0.0;             ///< that its friction is of [N]: half of that on the face, all of it where the partner is rigid
+    double force = 0.0;  ///< along the face, mean over the step [N]
+    double limit = 0.0;  ///< at which it slides [N]
+    double slip = 0.0;   ///< in the last step [m]; 0: it stuck
+    double dissipated = 0.0;  ///< in this step [J]
 };
 
 /// Figures of friction in a step; all 0 without any. Energy and dissipation close the balance of a host: H~ with `energy` in V,

@@ -61,6 +61,7 @@ template <int Dim>
 void FaceFrictionLaw<Dim>::evaluate(const SurfaceView<Dim>& surface, const PairList<Dim>& list,
                                     const ActivePairs<Dim>& active, const FacetStore& facets, ContactStep<Dim>& step) {
     step.report.friction.energy = stick_energy<n_tangents>(facets);
+    list_friction<n_tangents>(facets, step.friction);
     const auto none = [](const ContactPair<Dim>&, const PairStep<Dim>&) -> Vector<Dim> { return Vector<Dim>::Zero(); };
     take_pairs(surface, list, active, none, step);
     pass_.weigh(halves_);

@@ -21,6 +21,7 @@ Memory<N> memory_of(const StickState<N>& state) {
     }
     memory[2 * N] = state.stiffness;
     memory[2 * N + 1] = state.slid;
+    memory[2 * N + 2] = state.last_slip;
     return memory;
 }
 
@@ -53,6 +54,7 @@ StickState<N> stick_state(std::span<const double> memory) {
     }
     state.stiffness = memory[2 * N];
     state.slid = memory[2 * N + 1];
+    state.last_slip = memory[2 * N + 2];
     return state;
 }
 
@@ -61,6 +63,14 @@ double stick_energy(const FacetStore& facets) {
     double energy = 0.0;
     for (const Facet facet : facets.used()) energy += stick_state<N>(facets[facet]).energy();
     return energy;
+}
+
+template <int N>
+void list_friction(const FacetStore& facets, std::vector<FaceFriction>& of_facets) {
+    of_facets.clear();
+    for (const Facet facet : facets.used())
+        if (const StickState<N> state = stick_state<N>(facets[facet]); state.stiffness != 0.0)
+            of_facets.push_back({.face = Face{number_of(facet)}, .slip = state.last_slip});
 }
 
 template <int N>
@@ -87,6 +97,7 @@ void FrictionPass<N>::apply(double dt, TakenForce take, std::span<FrictionHalf<N
 
         StickState<N> state = stick_state<N>(facets[facet]);
         const FaceFriction found = advance(dt, take, halves, of_facet, state);
+        state.last_slip = found.slip;
         facets.set_next(facet, memory_of(state));
         of_facets.push_back(found);
         book(found.dissipated);
@@ -165,9 +176,10 @@ FaceFriction FrictionPass<N>::advance(double dt, TakenForce take, std::span<Fric
             .dissipated = step.dissipated};
 }
 
-#define ABUT_INSTANTIATE(N)                                         \
-    template StickState<N> stick_state<N>(std::span<const double>); \
-    template double stick_energy<N>(const FacetStore&);             \
+#define ABUT_INSTANTIATE(N)                                                        \
+    template StickState<N> stick_state<N>(std::span<const double>);                \
+    template double stick_energy<N>(const FacetStore&);                            \
+    template void list_friction<N>(const FacetStore&, std::vector<FaceFriction>&); \
     template class FrictionPass<N>;
 ABUT_INSTANTIATE(1)
 ABUT_INSTANTIATE(2)

@@ -32,7 +32,7 @@ struct FrictionHalf {
 
 /// Numbers that a facet remembers.
 template <int N>
-inline constexpr std::int32_t friction_memory = 2 * N + 2;
+inline constexpr std::int32_t friction_memory = 2 * N + 3;
 
 template <int N>
 [[nodiscard]] StickState<N> stick_state(std::span<const double> memory);
@@ -61,6 +61,10 @@ private:
 
     std::vector<std::size_t> order_;  // halves by facet
 };
+
+/// The facets that had friction in the last step, increasing, with their index as face and their slip.
+template <int N>
+void list_friction(const FacetStore& facets, std::vector<FaceFriction>& of_facets);
 
 /// Energy of all springs [J].
 template <int N>

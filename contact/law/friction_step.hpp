@@ -18,6 +18,7 @@ struct StickState {
     Along<N> direction = Along<N>::Zero();  ///< m: the force over its limit when it was last known [-], |m| <= 1
     double stiffness = 0.0;                 ///< K [N/m]; 0: nothing presses on the face
     double slid = 0.0;                      ///< path that it has slid so far [m]
+    double last_slip = 0.0;                 ///< that of the last step [m]; 0: it stuck
 
     [[nodiscard]] double energy() const { return 0.5 * stiffness * stretch.squaredNorm(); }
 };

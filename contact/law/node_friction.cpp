@@ -2,8 +2,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace abut::contact {
+namespace {
+
+/// Facets come with their index as face.
+template <int Dim>
+void name_faces(const NodalSurface<Dim>& surface, std::vector<FaceFriction>& of_facets) {
+    for (FaceFriction& of_facet : of_facets) of_facet.face = surface.face_of(Facet{number_of(of_facet.face)});
+}
+
+}  // namespace
+
 template <int Dim>
 void NodeFriction<Dim>::begin(double dt, PointsView<Dim> x_0, PointsView<Dim> x_1, TakenForce take) {
     dt_ = dt;
@@ -40,7 +51,7 @@ void NodeFriction<Dim>::add(const NodalSurface<Dim>& surface, const NodalPair<Di
 template <int Dim>
 void NodeFriction<Dim>::apply(const NodalSurface<Dim>& surface, FacetStore& facets, NodalStep<Dim>& step) {
     pass_.apply(dt_, take_, halves_, facets, step.report.friction, step.friction);
-    for (FaceFriction& of_facet : step.friction) of_facet.face = surface.face_of(Facet{number_of(of_facet.face)});
+    name_faces(surface, step.friction);
     for (Pair& pair : pairs_) {
         take_weights<n_tangents>(halves_, pair.facets);
         const auto add = [&](const geometry::PairSlip<Dim>& slip, PointsView<Dim> x_0) {
@@ -60,8 +71,10 @@ void NodeFriction<Dim>::apply(const NodalSurface<Dim>& surface, FacetStore& face
 }
 
 template <int Dim>
-void NodeFriction<Dim>::evaluate(const FacetStore& facets, NodalStep<Dim>& step) {
+void NodeFriction<Dim>::evaluate(const NodalSurface<Dim>& surface, const FacetStore& facets, NodalStep<Dim>& step) {
     step.report.friction.energy = stick_energy<n_tangents>(facets);
+    list_friction<n_tangents>(facets, step.friction);
+    name_faces(surface, step.friction);
     pass_.weigh(halves_);
     for (Pair& pair : pairs_) {
         take_weights<n_tangents>(halves_, pair.facets);

@@ -37,7 +37,7 @@ public:
     void apply(const NodalSurface<Dim>& surface, FacetStore& facets, NodalStep<Dim>& step);
 
     /// A state: `begin` with it at both ends, `add`, then the forces of the springs as they are, which it adds to the normal forces.
-    void evaluate(const FacetStore& facets, NodalStep<Dim>& step);
+    void evaluate(const NodalSurface<Dim>& surface, const FacetStore& facets, NodalStep<Dim>& step);
 
 private:
     static constexpr int n_tangents = Dim - 1;

@@ -224,7 +224,7 @@ void PairPotential<Dim>::evaluate(const NodalSurface<Dim>& surface, const NodalP
     if (friction_.any()) {
         friction_.begin(0.0, x, x, TakenForce::end);
         add_pairs(surface, pairs);
-        friction_.evaluate(facets, step);
+        friction_.evaluate(surface, facets, step);
     }
     finish(surface, step);
 }

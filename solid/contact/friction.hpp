@@ -56,7 +56,7 @@ template <int Dim, class FacesOf>
     return friction;
 }
 
-/// Fields of friction: `pairs` of the state that was evaluated last, `faces` of the last step. `boundary_of`: the boundary face
+/// Fields of friction: `pairs` and `faces` of the state that was evaluated last. `boundary_of`: the boundary face
 /// of a face of contact, `no_face` if there is none here.
 template <int Dim, class BoundaryOf>
 void add_friction(std::span<const contact::PairStep<Dim>> pairs, std::span<const contact::FaceFriction> faces,
