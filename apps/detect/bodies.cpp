@@ -81,12 +81,14 @@ void log_lines(const InputReport& report) {
     for (const std::string& line : report.lines) spdlog::info("  {}", line);
 }
 
-/// What was done about it.
-void log_cleaning(const CleanSurface& clean) {
-    if (clean.n_skipped_faces > 0) spdlog::warn("  {} unusable faces are left out", clean.n_skipped_faces);
-    if (clean.n_cut_faces > 0)
-        spdlog::info("  {} faces that are not flat are cut into triangles, {} of them without area left out",
-                     clean.n_cut_faces, clean.n_flat_pieces);
+/// What is left of a surface; one that is refused is described first.
+CleanSurface cleaned(const SurfaceMesh& surface, const InputReport& report, const DetectOptions& options) {
+    try {
+        return with_option_names([&] { return mesh::clean(surface, report.health, options.unusable); });
+    } catch (...) {
+        log_lines(report);
+        throw;
+    }
 }
 
 /// Appends faces of a clean surface, with vertices for each body of its own.
@@ -205,10 +207,8 @@ Bodies read_bodies(const DetectOptions& options, ReadingTimes& times) {
         }
         const Stopwatch watch(times.health);
         InputReport report = examined(surface, options);
-        log_lines(report);
-        surfaces.push_back(with_option_names([&] { return mesh::clean(surface, report.health, options.unusable); }));
+        surfaces.push_back(cleaned(surface, report, options));
         const CleanSurface& clean = surfaces.back();
-        log_cleaning(clean);
         report.n_used_faces = clean.mesh.faces.size();
         report.n_skipped_faces = clean.n_skipped_faces;
         report.n_cut_faces = clean.n_cut_faces;

@@ -155,6 +155,18 @@ Json seconds_json(const DetectTimes& seconds) {
 
 void print_line(const std::string& name, const std::string& value) { say(fmt::format("  {:<44}{}\n", name, value)); }
 
+/// What was found in the files, and done about it.
+void print_inputs(const Bodies& bodies) {
+    for (const InputReport& input : bodies.inputs) {
+        say(input.name + ":\n");
+        for (const std::string& line : input.lines) say("  " + line + "\n");
+        if (input.n_skipped_faces > 0) say(fmt::format("  {} unusable faces are left out\n", input.n_skipped_faces));
+        if (input.n_cut_faces > 0)
+            say(fmt::format("  {} faces that are not flat are cut into triangles, {} of them without area left out\n",
+                            input.n_cut_faces, input.n_flat_pieces));
+    }
+}
+
 void print_bodies(const Bodies& bodies) {
     std::vector<std::int64_t> n_faces(bodies.names.size(), 0);
     for (const std::int32_t body : bodies.surface.body) ++n_faces[at(body)];
@@ -319,6 +331,7 @@ Json summary(const DetectReport& report, const DetectOptions& options) {
 void print(const DetectReport& report, const DetectOptions& options) {
     const Bodies& bodies = report.bodies;
     print_answer(report);
+    print_inputs(bodies);
     say(fmt::format("detect: {}, {} faces, step {}{}\n",
                     bodies.names.size() == 1 ? "1 body" : fmt::format("{} bodies", bodies.names.size()),
                     bodies.surface.size(), report.last.step,
