@@ -250,8 +250,8 @@ const std::vector<Variety<Body, Shape>>& body_varieties() {
            Of::number("scale", &Body::scale, a_length, "length of the file's unit, \"1 mm\" or 1e-3 for millimetres"),
            Of::truth(
                "keep_triangles", &Body::keep_triangles,
-               "true: the triangles of the file are faces of the mesh, and cells beside them as large as these; else the "
-               "surface is meshed anew with `size`, and edges sharper than 40 degrees stay"),
+               "true: triangles of the file become faces of the mesh. false: the surface is remeshed with `size`, and edges "
+               "sharper than 40 degrees stay"),
            most_cells()}}});
     return varieties;
 }

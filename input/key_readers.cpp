@@ -150,14 +150,17 @@ bool is_of_contact(const OptionFacts& option) {
 
 std::string path_of(const OptionFacts& option) { return option.table + "." + option.scene_key(); }
 
+solid::ContactLaw acting_law(const Settings& settings) {
+    const solid::ContactLaw law = settings.options.law;
+    return law == solid::ContactLaw::automatic ? solid::ContactLaw::pair_potential : law;
+}
+
 /// Whether the chosen scheme and law read an option; else the key is left with the names of those that do.
 bool read_by_scheme_and_law(const Settings& settings, const OptionFacts& option, const std::string& path) {
     const auto is_in = [](const std::vector<std::string>& all, const std::string& word) {
         return all.empty() || std::ranges::find(all, word) != all.end();
     };
-    const solid::ContactLaw acts =
-        settings.options.law == solid::ContactLaw::automatic ? solid::ContactLaw::pair_potential : settings.options.law;
-    const std::string scheme = name_of(settings.options.integrator), law = word_of(solid::law_words, acts);
+    const std::string scheme = name_of(settings.options.integrator), law = word_of(solid::law_words, acting_law(settings));
     const bool has_scheme = is_in(option.schemes, scheme);
     const bool has_law = is_in(option.laws, law);
     if (!has_scheme) settings.given.read_with(false, path, words("run.integrator", option.schemes));
@@ -187,7 +190,7 @@ bool depends_on_others(const Settings& settings, const std::string& path) {
         const bool may_be_bonded = !settings.bonds.empty() || any_body(settings, [](const BodySettings& body) {
             return body.shape == Shape::file || !body.parts.empty();
         });
-        const bool by_pairs = !settings.contact || settings.options.law == solid::ContactLaw::pair_potential;
+        const bool by_pairs = !settings.contact || acting_law(settings) == solid::ContactLaw::pair_potential;
         return given.read_with(may_be_bonded || !by_pairs, path, words("contact.law", {"reconstruction"})), true;
     }
     if (path == "contact.self") {
@@ -220,7 +223,7 @@ void read_contact(const Settings& settings) {
     for (const std::string& name : settings.given.names())
         if (name == "obstacles" || (name.starts_with("contact.") && name != "contact.enabled")) idle(name);
     for (const OptionFacts& option : run::run_options())
-        if (is_of_contact(option)) idle(path_of(option));
+        if (option.table == "laboratory" && is_of_contact(option)) idle(path_of(option));
 }
 
 void read_output(const Settings& settings) {

@@ -137,11 +137,13 @@ mesh::Mesh<Dim> round_body(const BodySettings& body) {
 
 /// A file of a surface has no cells, and another key fills it with some.
 void refuse_surface(const BodySettings& body) {
-    const std::string extension = body.mesh.extension().string();
+    std::string extension = body.mesh.extension().string();
+    for (char& c : extension)
+        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
     const auto is_extension = [&](const char* one) { return extension == one; };
     if (std::ranges::none_of(std::array{".stl", ".obj", ".off", ".ply", ".vtp"}, is_extension)) return;
     throw mesh::MeshError(fmt::format(
-        "bodies.{0}.mesh: {1} is a surface, without cells. Write surface = \"{1}\" in place of mesh, and size, the "
+        "bodies.{0}.mesh: {1} is a surface, without cells. In 3D write surface = \"{1}\" in place of mesh, and size, the "
         "edge length of its cells [m]; scale = \"1 mm\" where the file is in millimetres.",
         body.name, body.mesh.string()));
 }

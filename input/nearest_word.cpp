@@ -134,8 +134,12 @@ struct Elsewhere {
 constexpr std::string_view friction =
     " Friction is contact.friction = 0.3 for all, or a table [[contact.pairs]] with bodies = [\"a\", \"b\"] or groups for "
     "two.";
-constexpr std::array elsewhere = std::to_array<Elsewhere>(
-    {{"friction", friction}, {"friction_coefficient", friction}, {"coefficient_of_friction", friction}, {"mu", friction}});
+constexpr std::array elsewhere = std::to_array<Elsewhere>({{"weights", " It is weighting in [laboratory]."},
+                                                           {"neumann", " It is free_faces in [laboratory]."},
+                                                           {"friction", friction},
+                                                           {"friction_coefficient", friction},
+                                                           {"coefficient_of_friction", friction},
+                                                           {"mu", friction}});
 
 std::string in_small_letters(std::string word) {
     for (char& c : word)
@@ -151,7 +155,8 @@ std::string hint_of_key(const std::string& word, const std::vector<std::string>&
         if (one.word == small) return std::string(one.text);
     for (const OptionFacts& option : run::run_options())
         if (option.table == "laboratory" && option.scene_key() == small)
-            return fmt::format(" It is a key of [laboratory], which compares methods: --lab {}.", small);
+            return fmt::format(" It is a key of [laboratory], which compares methods; on a command line --lab {}=VALUE.",
+                               small);
     for (const Synonym& synonym : synonyms)
         if (synonym.word == small && std::ranges::find(known, synonym.key) != known.end())
             return fmt::format(" Did you mean '{}'?", synonym.key);

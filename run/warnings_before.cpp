@@ -8,7 +8,6 @@
 #include <cstdint>
 #include <limits>
 #include <numbers>
-#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -164,46 +163,57 @@ void add_inertia(Counts& counts, const Scene<Dim>& scene, const RunResult<Dim>& 
     }
 }
 
+/// Part of its force that a finite block of so many cells across bears between two planes, bricks and simplices:
+/// scripts/pressed_blocks.
+struct Bears {
+    int across;
+    double bricks, simplices;
+};
+constexpr std::array<Bears, 7> bears_in_2d{{{3, 0.56, 0.81},
+                                            {4, 0.73, 0.89},
+                                            {5, 0.81, 0.93},
+                                            {6, 0.87, 0.95},
+                                            {8, 0.93, 0.98},
+                                            {12, 0.97, 0.99},
+                                            {16, 0.99, 0.99}}};
+constexpr std::array<Bears, 6> bears_in_3d{
+    {{3, 0.37, 0.88}, {4, 0.53, 0.94}, {5, 0.64, 0.96}, {6, 0.73, 0.97}, {8, 0.83, 0.99}, {10, 0.89, 0.99}}};
+
+/// "0.56 to 0.89" for 4 cells, which may be 3: the least of the one and the most of the other.
+template <int Dim>
+std::string bears_text(int across) {
+    const auto& rows = []() -> const auto& {
+        if constexpr (Dim == 2)
+            return bears_in_2d;
+        else
+            return bears_in_3d;
+    }
+    ();
+    if (across < rows.front().across) return fmt::format("less than {:.2f}", rows.front().simplices);
+    const auto least =
+        std::ranges::find_if(rows.rbegin(), rows.rend() - 1, [&](const Bears& row) { return row.across < across; });
+    const auto most =
+        std::ranges::find_if(rows.begin(), rows.end() - 1, [&](const Bears& row) { return row.across >= across; });
+    return fmt::format("{:.2f} to {:.2f}", least->bricks, most->simplices);
+}
+
 /// Notes what the finite body with the fewest cells across bears where contact presses on whole sides of it: no balance shows it.
 template <int Dim>
 void add_pressed(Counts& counts, const Scene<Dim>& scene, const RunResult<Dim>& result) {
-    struct Bears {
-        int across;
-        const char* share;
-    };
-    // scripts/pressed_blocks: bricks and simplices, with so many cells across or more
-    static constexpr std::array<Bears, 6> in_2d{{{3, "0.56 to 0.81"},
-                                                 {4, "0.73 to 0.89"},
-                                                 {5, "0.81 to 0.93"},
-                                                 {6, "0.87 to 0.95"},
-                                                 {8, "0.93 to 0.98"},
-                                                 {12, "0.97 to 0.99"}}};
-    static constexpr std::array<Bears, 6> in_3d{{{3, "0.37 to 0.88"},
-                                                 {4, "0.53 to 0.94"},
-                                                 {5, "0.64 to 0.96"},
-                                                 {6, "0.73 to 0.97"},
-                                                 {8, "0.83 to 0.99"},
-                                                 {10, "0.89 to 0.99"}}};
-    static constexpr int enough = 16;
-    const auto is_finite = [&](std::size_t body) {
-        return solid::properties_of(kinematics_of(scene, result, body)).finite_strains;
-    };
-    if (!scene.contact) return;
+    constexpr int enough = 16;
+    std::vector<std::size_t> finite;
+    for (std::size_t body = 0; body < scene.mesh.body_names.size(); ++body)
+        if (solid::properties_of(kinematics_of(scene, result, body)).finite_strains) finite.push_back(body);
+    if (!scene.contact || finite.empty()) return;
     const std::vector<int> across = mesh::cells_across(scene.mesh);
-    std::optional<std::size_t> thinnest;
-    for (std::size_t body = 0; body < across.size(); ++body)
-        if (is_finite(body) && (!thinnest || across[body] < across[*thinnest])) thinnest = body;
-    if (!thinnest || across[*thinnest] >= enough) return;
-    const auto& rows = Dim == 2 ? in_2d : in_3d;
-    const auto row = std::ranges::find_if(rows.rbegin(), rows.rend() - 1, [&](const Bears& bears) {
-        return bears.across < across[*thinnest];  // which is rounded up to an even number
-    });
+    const std::size_t thinnest = *std::ranges::min_element(finite, {}, [&](std::size_t body) { return across[body]; });
+    if (across[thinnest] >= enough) return;
     counts.warnings.push_back(
         {WarningKind::pressed_finite, Severity::note,
          fmt::format("body '{}', which is finite, has at most {} cells across: where contact presses on whole sides of it, "
                      "it bears {} of its force. Take more cells, or floating where nothing bends far",
-                     scene.mesh.body_names[*thinnest], across[*thinnest], row->share),
-         static_cast<double>(across[*thinnest]), static_cast<double>(enough)});
+                     scene.mesh.body_names[thinnest], across[thinnest], bears_text<Dim>(across[thinnest])),
+         static_cast<double>(across[thinnest]), static_cast<double>(enough)});
 }
 
 }  // namespace

@@ -331,8 +331,8 @@ void Solid<Dim>::set_levels(std::int32_t n_levels, std::span<const std::int32_t>
     require_local_steps(mesh_.name, options_, !contact_ || contact_->makes_parts());
     if (options_.precision == Precision::single_precision)
         throw BadInput(mesh_.name +
-                       ": local steps are made in double precision alone. Take Precision::double_precision"
-                       ", or one step for all cells (memm).");
+                       ": local steps are made in double precision alone. Take Precision::double_precision, or one step for "
+                       "all cells (memm).");
     if (options_.device != StepDevice::host)
         throw BadInput(
             mesh_.name +

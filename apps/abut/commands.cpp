@@ -70,7 +70,7 @@ void add_scene_options(CommandParser& command, CommandLine& line) {
                "a value in place of that of the file, bodies.left.density=2, as often as you like; by default none")
         .several()
         .takes("KEY=VALUE");
-    add_preset_option(command, line.options);
+    add_preset_option(command, line.options, OptionDepth::expert);
     add_time_options(command, line.options, "that of the scene", OptionDepth::expert);
     add_contact_options(command, line.options, OptionDepth::expert);
     add_output_options(command, line.options, OptionDepth::expert);

@@ -38,8 +38,8 @@ Verification verified(const Bodies& bodies, const DetectOptions& options, const 
 }
 
 void log_step(const StepResult& result, int steps) {
+    if (steps == 0) return;  // `print` has it
     const int every = std::max(1, steps / most_logged_steps);
-    if (steps == 0) return;  // the report tells of it
     if (result.step % every != 0 && result.step != steps) return;
     spdlog::info(
         "step {}/{}: {}{} candidates, {} overlaps{}", result.step, steps, result.searched ? "new list, " : "",

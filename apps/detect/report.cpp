@@ -5,7 +5,12 @@
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <nlohmann/json.hpp>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "abut/base/index.hpp"
 #include "apps/support/choices.hpp"
@@ -160,7 +165,6 @@ void print_inputs(const Bodies& bodies) {
     for (const InputReport& input : bodies.inputs) {
         say(input.name + ":\n");
         for (const std::string& line : input.lines) say("  " + line + "\n");
-        if (input.n_skipped_faces > 0) say(fmt::format("  {} unusable faces are left out\n", input.n_skipped_faces));
         if (input.n_cut_faces > 0)
             say(fmt::format("  {} faces that are not flat are cut into triangles, {} of them without area left out\n",
                             input.n_cut_faces, input.n_flat_pieces));
@@ -216,44 +220,48 @@ std::vector<NearestBodies> by_distance(const DetectReport& report) {
     return nearest;
 }
 
-/// "0.2 m^2 within 0.1 m of each other": what lies opposite of each other between two bodies.
-std::string facing_text(const DetectReport& report, const BodyContacts& contacts, std::int32_t body_1, std::int32_t body_2) {
-    const auto contact = contacts.find({body_1, body_2});
-    if (contact == contacts.end())
-        return fmt::format("no faces within {:.4g} m of each other lie opposite", report.near.distance);
+/// "0.2 m^2 lie opposite each other within 0.1 m"
+std::string facing_text(const DetectReport& report, const BodyContact* contact) {
+    if (!contact) return fmt::format("no faces within {:.4g} m lie opposite each other", report.near.distance);
     const std::string deep =
-        contact->second.gap_min < 0.0 ? fmt::format(", inside each other by up to {:.4g} m", -contact->second.gap_min) : "";
-    return fmt::format("{:.4g} m^2 lie opposite within {:.4g} m{}", contact->second.area, report.near.distance, deep);
+        contact->gap_min < 0.0 ? fmt::format(", inside each other by up to {:.4g} m", -contact->gap_min) : "";
+    return fmt::format("{:.4g} m^2 lie opposite each other within {:.4g} m{}", contact->area, report.near.distance, deep);
 }
 
-/// The answer, before how it was found: which bodies touch or cross, which are inside of others, and how near the others are.
+/// The answer, before how it was found: which bodies are inside of others, how near each is to its nearest one, and which others
+/// have faces that lie opposite.
 void print_answer(const DetectReport& report) {
     constexpr std::size_t most_answers = 5;
     const std::vector<std::string>& names = report.bodies.names;
     const BodyContacts contacts = contacts_of(report.bodies, report.last);
+    std::set<std::pair<std::int32_t, std::int32_t>> told;
     std::vector<std::string> answers;
-    for (const InsideBody& body : report.last.neighbours.inside)
+    for (const InsideBody& body : report.last.neighbours.inside) {
+        told.insert(std::minmax(body.inner, body.outer));
         answers.push_back(fmt::format("'{}' is wholly inside of '{}', {:.4g} m from its surface", names[at(body.inner)],
                                       names[at(body.outer)], body.distance));
+    }
     for (const auto& [body_1, body_2, faces] : by_distance(report)) {
+        if (!told.insert({body_1, body_2}).second) continue;
         const auto& [x_1, x_2, distance] = faces.points;
         const std::string how =
             distance > 0.0 ? fmt::format("are {:.4g} m apart", distance) : std::string("touch or cross each other");
+        const auto contact = contacts.find({body_1, body_2});
         answers.push_back(fmt::format("'{}' and '{}' {} at ({:.4g}, {:.4g}, {:.4g}); {}", names[at(body_1)],
                                       names[at(body_2)], how, x_1[0], x_1[1], x_1[2],
-                                      facing_text(report, contacts, body_1, body_2)));
+                                      facing_text(report, contact == contacts.end() ? nullptr : &contact->second)));
     }
-    if (answers.empty())  // one body, or too many to look for the nearest of each
-        for (const auto& [pair, contact] : contacts) {
-            const std::string other = pair.first == pair.second ? "itself" : "'" + names[at(pair.second)] + "'";
-            answers.push_back(fmt::format("'{}' and {}: {}", names[at(pair.first)], other,
-                                          facing_text(report, contacts, pair.first, pair.second)));
-        }
-    if (answers.empty())
-        answers.push_back(fmt::format("no faces within {:.4g} m of each other lie opposite", report.near.distance));
+    for (const auto& [pair, contact] : contacts) {
+        if (told.contains(pair)) continue;
+        const std::string other = pair.first == pair.second ? "itself" : "'" + names[at(pair.second)] + "'";
+        answers.push_back(fmt::format("'{}' and {}: {}", names[at(pair.first)], other, facing_text(report, &contact)));
+    }
+    if (answers.empty()) answers.push_back(facing_text(report, nullptr));
     for (std::size_t i = 0; i < std::min(answers.size(), most_answers); ++i) say(answers[i] + "\n");
-    if (answers.size() > most_answers)
-        say(fmt::format("and {} more pairs of bodies, below\n", answers.size() - most_answers));
+    if (answers.size() > most_answers) say(fmt::format("and {} more\n", answers.size() - most_answers));
+    for (const InputReport& input : report.bodies.inputs)
+        if (input.n_skipped_faces > 0)
+            say(fmt::format("warning: {}: {} unusable faces are left out\n", input.name, input.n_skipped_faces));
 }
 
 void print_nearest(const DetectReport& report) {

@@ -18,15 +18,19 @@ std::string text_of(const run::Value& value) {
 
 }  // namespace
 
-std::string words_of(Preset preset) {
+std::string words_of(Preset preset, OptionDepth deepest) {
     run::RunOptions options;
+    const auto word = [&](const run::NamedValue& value) {
+        const bool is_in_laboratory = named(run::run_options(), value.name).depth > deepest;
+        return is_in_laboratory ? fmt::format("--lab {}={}", value.name, text_of(value.value))
+                                : fmt::format("--{} {}", value.name, text_of(value.value));
+    };
     const run::NamedValues before = run::named_values(options);
     run::apply(preset, options);
     const run::NamedValues after = run::named_values(options);
     std::string words;
     for (std::size_t i = 0; i < after.size(); ++i)
-        if (after[i].value != before[i].value)
-            words += fmt::format("{}--{} {}", words.empty() ? "" : " ", after[i].name, text_of(after[i].value));
+        if (after[i].value != before[i].value) words += (words.empty() ? "" : " ") + word(after[i]);
     return words;
 }
 
@@ -44,7 +48,7 @@ void apply_words(const std::string& words, run::RunOptions& options) {
     }
 }
 
-void add_preset_option(CommandParser& parser, run::RunOptions& options) {
+void add_preset_option(CommandParser& parser, run::RunOptions& options, OptionDepth deepest) {
     std::vector<std::string> names;
     for (const auto& [name, preset] : presets) names.push_back(name);
     const auto choose = [&options](const std::string& text) {
@@ -52,8 +56,8 @@ void add_preset_option(CommandParser& parser, run::RunOptions& options) {
             if (name == text) run::apply(preset, options);
     };
     add_word(parser, "--preset", choose,
-             "several choices at once, which other options overrule (docs/trade.md): fast is " + words_of(Preset::fast) +
-                 ", exact is " + words_of(Preset::exact),
+             "several choices at once, which other options overrule (docs/trade.md): fast is " +
+                 words_of(Preset::fast, deepest) + ", exact is " + words_of(Preset::exact, deepest),
              names, "balanced")
         .group("Preset");
 }

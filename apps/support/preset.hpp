@@ -11,14 +11,14 @@ using run::Preset;
 
 inline const Choices<Preset> presets = choices_of(run::preset_words);
 
-/// What a user would type instead of --preset NAME, "" for the defaults.
-[[nodiscard]] std::string words_of(Preset preset);
+/// What a user would type instead of --preset NAME, "" for the defaults; what lies deeper as keys of --lab.
+[[nodiscard]] std::string words_of(Preset preset, OptionDepth deepest = OptionDepth::laboratory);
 
 /// Takes options of time and contact as they would be typed, a preset among them; all else stays. Throws
 /// BadInput naming the words that no program would take.
 void apply_words(const std::string& words, run::RunOptions& options);
 
 /// --preset. To be added before the options that a preset chooses: those on the command line then win, wherever they stand.
-void add_preset_option(CommandParser& parser, run::RunOptions& options);
+void add_preset_option(CommandParser& parser, run::RunOptions& options, OptionDepth deepest = OptionDepth::laboratory);
 
 }  // namespace abut::apps

@@ -66,7 +66,7 @@ void take_laboratory(const std::vector<std::string>& keys, RunOptions& options) 
     }
     for (const std::string& key : keys) {
         const std::string name = key.substr(0, key.find('='));
-        if (name.size() == key.size() || std::ranges::find(known, name) == known.end())
+        if (name.size() == key.size() || key.find(' ') != std::string::npos || std::ranges::find(known, name) == known.end())
             throw BadInput(
                 fmt::format("--lab: '{}' is no KEY=VALUE of [laboratory]. Its keys are {}.", key, fmt::join(known, ", ")));
         std::string flag = "--" + key;

@@ -195,13 +195,14 @@ typedef struct abut_pair {
     double point[3];     /* where friction acts, at the middle of the step */
 } abut_pair;
 
-/* Friction of a face in a step; a face with four corners appears by halves. */
+/* Friction of a face in a step; a face with four corners appears by halves. After an evaluation: the faces with
+   friction in the last step and their slip, all else 0. */
 typedef struct abut_face_friction {
     int32_t face;
     double normal_force; /* that its friction is of: half of that on the face, all of it where the partner is rigid */
     double force;        /* along the face, mean over the step */
     double limit;        /* at which it slides */
-    double slip;         /* in this step; 0: it sticks */
+    double slip;         /* in the last step; 0: it stuck */
     double dissipated;   /* in this step; below 0 by rounding alone with ABUT_MEAN */
 } abut_face_friction;
 

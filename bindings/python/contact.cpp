@@ -413,7 +413,7 @@ PYBIND11_MODULE(_contact, module) {
         .def_property_readonly("body_pairs", &NodalContact::body_pairs, "Forces by pair of bodies, as a structured array.")
         .def_property_readonly("friction", &NodalContact::friction,
                                "Friction of each face in the last step, as a structured array; a face with four corners "
-                               "appears by halves.")
+                               "appears by halves. After evaluate: faces and their slip, all else 0.")
         .def_property_readonly("report", &NodalContact::report, "Counters since the start; missed_contacts must stay 0.")
         .def("stable_step", &NodalContact::stable_step, "mass"_a, "omega_free"_a,
              "How long a step may be, by estimate: mass of each node, highest frequency without contact [rad/s].")

@@ -3,6 +3,7 @@
 
 #include <cctype>
 #include <string>
+#include <string_view>
 
 #include "abut.h"
 #include "abut/base/error.hpp"
@@ -34,10 +35,15 @@ const char* class_of(abut::ErrorKind kind) {
 static_assert(static_cast<int>(abut::ErrorKind::bad_input) + 1 == ABUT_BAD_INPUT &&
               static_cast<int>(abut::ErrorKind::limit_exceeded) + 1 == ABUT_LIMIT_EXCEEDED);
 
-/// An option as it is written in Python: --contact-margin is contact_margin.
+/// An option as it is written in Python: --contact-margin is contact_margin, and --lab gauge is gauge.
 std::string in_python(const std::string& text) {
+    constexpr std::string_view laboratory = "--lab ";
     std::string changed;
     for (std::size_t i = 0; i < text.size();) {
+        if (text.compare(i, laboratory.size(), laboratory) == 0) {
+            i += laboratory.size();
+            continue;
+        }
         const bool is_option = text.compare(i, 2, "--") == 0 && i + 2 < text.size() && std::islower(text[i + 2]) != 0;
         if (!is_option) {
             changed += text[i++];

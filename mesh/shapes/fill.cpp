@@ -7,6 +7,7 @@
 #include <numbers>
 #include <numeric>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -143,20 +144,32 @@ CellSoup<3> soup_inside(const SurfaceMesh& surface, const FillOptions& options) 
 
 double volume_of(const Mesh<3>& mesh) { return std::accumulate(mesh.cell_measure.begin(), mesh.cell_measure.end(), 0.0); }
 
-/// Nothing where the surface cannot be meshed anew.
-std::optional<Mesh<3>> remeshed(const SurfaceMesh& surface, const FillOptions& options, const MeshOptions& mesh_options,
-                                double volume) {
+/// Cells inside the surface once it is remeshed, or why there are none.
+struct Remeshed {
+    std::optional<CellSoup<3>> soup;
+    std::string why;
+};
+Remeshed remeshed(const SurfaceMesh& surface, const FillOptions& options) {
     try {
-        Mesh<3> mesh = build_mesh(soup_inside(surface, options), mesh_options);
-        const double share = volume_of(mesh) / volume;
-        if (share < least_volume || share > 1.0 / least_volume) return std::nullopt;
-        if (share < good_volume || share > 1.0 / good_volume)
-            mesh.report.warnings.push_back(options.name + ": its cells fill " + number(share) + " of the volume inside " +
-                                           surface.name + ". A smaller size follows its curves more closely");
-        return mesh;
-    } catch (const MeshError&) {
-        return std::nullopt;
+        return {soup_inside(surface, options), ""};
+    } catch (const MeshError& error) {
+        return {std::nullopt, error.what()};
     }
+}
+
+void check_size(const SurfaceMesh& surface, const Measures& measures, const FillOptions& options,
+                const MeshOptions& mesh_options) {
+    check_estimate(
+        options.name, expected_cells(surface, measures, options), most_filled_cells, mesh_options,
+        "Raise size, see that scale is the length of the file's unit (1e-3 for millimetres), or coarsen " + surface.name);
+}
+
+/// The triangles of the surface are faces of the mesh.
+Mesh<3> with_triangles(const SurfaceMesh& surface, const Measures& measures, FillOptions options,
+                       const MeshOptions& mesh_options) {
+    options.keeps_triangles = true;
+    check_size(surface, measures, options, mesh_options);
+    return build_mesh(soup_inside(surface, options), mesh_options);
 }
 
 }  // namespace
@@ -167,17 +180,25 @@ Mesh<3> fill(const SurfaceMesh& surface, const FillOptions& options, const MeshO
                         " m, a finite length above 0 is needed. Change the option.");
     check_closed(surface);
     const Measures measures = measures_of(surface);
-    check_estimate(
-        options.name, expected_cells(surface, measures, options), most_filled_cells, mesh_options,
-        "Raise size, see that scale is the length of the file's unit (1e-3 for millimetres), or coarsen " + surface.name);
-    if (options.keeps_triangles) return build_mesh(soup_inside(surface, options), mesh_options);
-    if (auto mesh = remeshed(surface, options, mesh_options, measures.volume)) return std::move(*mesh);
-    FillOptions kept = options;
-    kept.keeps_triangles = true;
-    Mesh<3> mesh = build_mesh(soup_inside(surface, kept), mesh_options);
-    mesh.report.warnings.push_back(options.name + ": " + surface.name +
-                                   " cannot be meshed anew, and its triangles stay as they are: cells beside them are as "
-                                   "large as these, whatever size says. Mesh it in another program for cells of one size");
+    if (options.keeps_triangles) return with_triangles(surface, measures, options, mesh_options);
+    check_size(surface, measures, options, mesh_options);
+    Remeshed found = remeshed(surface, options);
+    if (found.soup) {
+        Mesh<3> mesh = build_mesh(std::move(*found.soup), mesh_options);
+        const double share = volume_of(mesh) / measures.volume;
+        if (share > least_volume && share < 1.0 / least_volume) {
+            if (share < good_volume || share > 1.0 / good_volume)
+                mesh.report.warnings.push_back(options.name + ": its cells fill " + number(share) +
+                                               " of the volume inside " + surface.name +
+                                               ". A smaller size follows its curves more closely");
+            return mesh;
+        }
+        found.why = "its cells fill " + number(share) + " of the volume";
+    }
+    Mesh<3> mesh = with_triangles(surface, measures, options, mesh_options);
+    mesh.report.warnings.push_back(
+        options.name + ": " + surface.name + " cannot be remeshed (" + found.why +
+        "). Its triangles stay as they are: cells beside them have their size, whatever `size` is");
     return mesh;
 }
 

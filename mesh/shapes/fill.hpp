@@ -18,7 +18,7 @@ struct FillOptions {
 /// Tetrahedra inside a closed surface of triangles, by Gmsh: one body, group "boundary". Calls from several threads wait for
 /// one another.
 ///
-/// The surface is meshed anew: patches between edges of more than 40 degrees get parameters from the triangles, and triangles of `size`.
+/// The surface is remeshed: patches between edges of more than 40 degrees get parameters from the triangles, and triangles of `size`.
 /// Sharp edges stay. Where that fails, or fills less than half of the volume, the triangles stay as they are, which
 /// BuildReport::warnings tells. It also tells of a volume that is off by more than a tenth.
 ///

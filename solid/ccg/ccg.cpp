@@ -59,8 +59,8 @@ std::unique_ptr<StepSweeps<Dim>> step_sweeps(const mesh::Mesh<Dim>& mesh, std::s
     refuse_finite(mesh, kinematics, "on a device", "StepDevice::host (--device host)");
     if (is_single)
         throw BadInput(mesh.name +
-                       ": steps on a device are made in double precision alone. Take Precision::double_precision"
-                       ", or StepDevice::host (--device host).");
+                       ": steps on a device are made in double precision alone. Take Precision::double_precision, or "
+                       "StepDevice::host (--device host).");
     return std::make_unique<DeviceSweeps<Dim>>(arrays, finite, sweeps);
 }
 

@@ -28,7 +28,7 @@ constexpr double allowed_error = 1e-12;
 constexpr double allowed_single = 1e-5;  // forces in single precision: 128 roundings of 2^-24
 constexpr double allowed_zero = 1e-8;    // the largest zero over the next eigenvalue
 
-const apps::Choices<FreeFaceRule> neumann_choices = {{"local_equilibrium", FreeFaceRule::local_equilibrium},
+const apps::Choices<FreeFaceRule> free_face_rules = {{"local_equilibrium", FreeFaceRule::local_equilibrium},
                                                      {"extrapolate", FreeFaceRule::extrapolate},
                                                      {"adjacent", FreeFaceRule::adjacent}};
 
@@ -85,9 +85,9 @@ Level level(const PatchOptions& options, BoxCells cells) {
                               single_precision_force(patch, PatchBoundary::mixed, FreeFaceRule::local_equilibrium),
                               allowed_single);
     add_patch(result, patch, PatchBoundary::displacement, "imposed", FreeFaceRule::local_equilibrium, allowed_error);
-    for (const auto& [name, free_faces] : neumann_choices)
+    for (const auto& [name, free_faces] : free_face_rules)
         add_patch(result, patch, PatchBoundary::mixed, name, free_faces, target(free_faces, allowed_error));
-    for (const auto& [name, free_faces] : neumann_choices) add_modes(result, free_body, name, free_faces);
+    for (const auto& [name, free_faces] : free_face_rules) add_modes(result, free_body, name, free_faces);
     return result;
 }
 
@@ -95,7 +95,7 @@ Level level(const PatchOptions& options, BoxCells cells) {
 apps::Table curve(const Study& study) {
     apps::Table table{.columns = {"mesh", "imposed"}, .rows = {}};
     for (const char* what : {"stress", "zero"})
-        for (const auto& [name, free_faces] : neumann_choices) table.columns.push_back(fmt::format("{}_{}", what, name));
+        for (const auto& [name, free_faces] : free_face_rules) table.columns.push_back(fmt::format("{}_{}", what, name));
     for (const Level& level : study.levels) {
         std::vector<double> row{static_cast<double>(table.rows.size())};
         for (const char* start : {"stress, ", "largest zero"})

@@ -99,8 +99,8 @@ std::string axis(const std::vector<std::string>& mesh_names) {
             "set arrow from {2},graph 0 to {2},graph 1.06 nohead lc rgb \"#404040\"\n",
             name, place + 0.5 * (width - 1.0), place - 0.5);
         for (const auto& [weight_name, weight] : weights)
-            for (const auto& [neumann_name, free_faces] : free_face_rules)
-                tics += fmt::format("{}\"{}, {}\" {}", tics.empty() ? "" : ", ", weight_name, neumann_name, place++);
+            for (const auto& [rule_name, free_faces] : free_face_rules)
+                tics += fmt::format("{}\"{}, {}\" {}", tics.empty() ? "" : ", ", weight_name, rule_name, place++);
     }
     return script + fmt::format("set xtics ({}) rotate by -40 noenhanced\nset xrange [-0.5:{}]\n", tics, place - 0.5);
 }
@@ -140,7 +140,7 @@ Study solve(const Options& options) {
         if (!options.meshes.empty() && std::ranges::find(options.meshes, mesh_name) == options.meshes.end()) continue;
         mesh_names.push_back(mesh_name);
         for (const auto& [weight_name, weight] : weights)
-            for (const auto& [neumann_name, free_faces] : free_face_rules) {
+            for (const auto& [rule_name, free_faces] : free_face_rules) {
                 PatchOptions patch{.mesh = mesh, .strain = options.strain, .free_faces = free_faces};
                 patch.contact.weighting = weight;
                 add_levels<Dim>(study, stress, patch);

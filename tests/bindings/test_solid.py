@@ -149,6 +149,10 @@ class Runs(unittest.TestCase):
         np.testing.assert_allclose(memm.displacement, before, atol=1e-15)
         np.testing.assert_allclose(memm.stress, np.broadcast_to([[p, 0.0], [0.0, 0.0]], memm.stress.shape), atol=1e-15)
 
+    def test_messages_name_options_as_python_does(self):
+        with self.assertRaisesRegex(abut.BadInput, r"laboratory.levels \(levels\) is for memm_async"):
+            solid.simulate(two_boxes(), **falling(), steps=1, levels=3)
+
     def test_steps_one_by_one_have_the_bits_of_a_run(self):
         mesh = two_boxes()
         for options in ({}, dict(filter="neutral", restart=20), dict(law="reconstruction", corners="fixed", weighting="half")):

@@ -74,6 +74,7 @@ TEST_CASE("a key that nothing reads is refused by its name, and those beside it 
         {"[contact]\nlaw = \"pair_potential\"\n[laboratory]\nquadrature = 1", {}, {"laboratory.quadrature"}},
         {"[contact]\nlaw = \"pair_potential\"\n[laboratory]\ncorners = \"fixed\"", {}, {"laboratory.corners"}},
         {"kinematics = \"finite\"\n[laboratory]\nfree_faces = \"extrapolate\"", {}, {"laboratory.free_faces"}},
+        {"[laboratory]\ncorners = \"fixed\"", {}, {"laboratory.corners"}},
         // of the run and its files
         {"steps = 3\ntime = 1", {}, {"run.steps"}},
         {"dt = 1e-3\ncfl = 0.5", {}, {"run.cfl"}},

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 #include <utility>
 #include <vector>
@@ -86,6 +87,18 @@ TEST_CASE("cells in a surface that is meshed anew have no slivers, and follow it
         before = off;
         CHECK(fill(torus, {.size = size}).vertices == mesh.vertices);  // the same mesh each time
     }
+}
+
+TEST_CASE("a size that is too coarse for a surface is told of, and one that loses it keeps the triangles", "[mesh][fill]") {
+    const SurfaceMesh ball = sphere_surface({.n_subdivisions = 3});
+    const Mesh<3> coarse = fill(ball, {.size = 1.0}), lost = fill(ball, {.size = 5.0});
+    REQUIRE(coarse.report.warnings.size() == 1);
+    CHECK_THAT(coarse.report.warnings[0], Catch::Matchers::Contains("of the volume inside"));
+    CHECK(volume_of(coarse) < 0.9 * 4.0 / 3.0 * std::numbers::pi);
+    REQUIRE(lost.report.warnings.size() == 1);
+    CHECK_THAT(lost.report.warnings[0],
+               Catch::Matchers::Contains("cannot be remeshed") && Catch::Matchers::Contains("triangles stay as they are"));
+    CHECK(lost.boundary_faces.size() == static_cast<std::size_t>(ball.faces.size()));
 }
 
 TEST_CASE("a surface in another unit is refused before it is filled, and the estimate is near what is made",
