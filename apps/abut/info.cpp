@@ -87,6 +87,23 @@ std::string mesh_info(const fs::path& path) {
     return text;
 }
 
+/// Files of surfaces tell no unit, and programs that draw write millimetres most often. Nothing where it is small.
+std::string unit_line(const mesh::SurfaceMesh& surface, const fs::path& path) {
+    constexpr double doubtful = 5.0;  // [m]
+    if (surface.vertices.empty()) return "";
+    Vector<3> lower = surface.vertices.front(), upper = lower;
+    for (const Vector<3>& x : surface.vertices) {
+        lower = lower.cwiseMin(x);
+        upper = upper.cwiseMax(x);
+    }
+    const double extent = (upper - lower).maxCoeff();
+    if (extent < doubtful) return "";
+    return info_line("unit?",
+                     fmt::format("{:.3g} m long as it stands. If it is in millimetres: scale = \"1 mm\" in a scene, "
+                                 "{}:unit=mm for abut detect",
+                                 extent, path.filename().string()));
+}
+
 std::string surface_info(const fs::path& path) {
     const mesh::SurfaceMesh surface = mesh::read_surface(path);
     const auto health = geometry::check_surface(surface.soup());
@@ -94,6 +111,7 @@ std::string surface_info(const fs::path& path) {
     text += info_line("bodies", fmt::format("{}", fmt::join(surface.body_names, ", ")));
     text += info_line("sound", health.sound() ? "yes" : "no: what is wrong is below");
     for (const std::string& line : geometry::describe(surface.soup(), health)) text += info_line("", line);
+    text += unit_line(surface, path);
     for (const std::string& warning : surface.warnings) text += info_line("warning", warning);
     return text;
 }

@@ -7,7 +7,7 @@
 
 #include "abut/base/parallel.hpp"
 #include "abut/base/sort_unique.hpp"
-#include "abut/solid/contact/friction.hpp"
+#include "abut/solid/contact/solid_friction.hpp"
 
 namespace abut::solid {
 

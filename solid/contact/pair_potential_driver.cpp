@@ -13,8 +13,8 @@
 #include "abut/base/stopwatch.hpp"
 #include "abut/geometry/box.hpp"
 #include "abut/geometry/polygon.hpp"
-#include "abut/solid/contact/friction.hpp"
-#include "abut/solid/contact/interference.hpp"
+#include "abut/solid/contact/solid_friction.hpp"
+#include "abut/solid/contact/solid_interference.hpp"
 
 namespace abut::solid {
 namespace {

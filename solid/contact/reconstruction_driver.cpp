@@ -13,7 +13,7 @@
 #include "abut/contact/blind_corners.hpp"
 #include "abut/contact/sharp_edges.hpp"
 #include "abut/solid/contact/contact_patches.hpp"
-#include "abut/solid/contact/friction.hpp"
+#include "abut/solid/contact/solid_friction.hpp"
 
 namespace abut::solid {
 namespace {

@@ -187,6 +187,8 @@ TEST_CASE("abut info says what is in scenes, surfaces and meshes", "[programs][a
                           Contains("2 kg") && Contains("'bar.xmin'"));  // 0.2 m x 10 m, 1 kg/m^3
     const std::string surface = answer(fmt::format("info '{}/ball.stl'", ABUT_SCENES));
     CHECK_THAT(surface, Contains("a surface") && Contains("80 faces") && Contains("closed"));
+    CHECK_THAT(surface,
+               Contains("200 m long") && Contains("scale = \"1 mm\"") && Contains("ball.stl:unit=mm"));  // it is in mm
 
     const Folder folder("info_meshes");
     const fs::path mesh = folder.path() / "square.msh";
