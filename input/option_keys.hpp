@@ -29,7 +29,7 @@ template <class Section, class Owner, class OwnerOf>
             }};
 }
 
-/// Those of a table of a scene, "contact", the everyday ones first.
+/// The keys of a table of a scene, such as "contact". Everyday ones come first.
 template <class Section, class Owner, class OwnerOf>
 [[nodiscard]] Keys<Section> keys_of_options(const OptionList<Owner>& options, const std::string& table, OwnerOf owner_of) {
     Keys<Section> keys;

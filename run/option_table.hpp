@@ -30,7 +30,7 @@ template <class Owner>
 /// Those of the options of a run; of `dt` and `cfl` the one that decided. The end of the run, the skin and the threads are in
 /// RunResult.
 [[nodiscard]] NamedValues named_values(const RunOptions& options);
-/// Those on which bodies at rest depend as well: "weighting", "area", "free_faces", "corners".
+/// The options on which bodies at rest depend as well: "weighting", "area", "free_faces", "corners".
 [[nodiscard]] NamedValues model_values(const RunOptions& options);
 
 /// As a summary shows it.

@@ -10,8 +10,8 @@ namespace abut::run {
 template <int Dim>
 [[nodiscard]] std::string summary_json(const std::string& program, const Scene<Dim>& scene, const RunResult<Dim>& result);
 
-/// What closes a run on a terminal: the verdict, then the figures that people look at first. All others are in the summary.
-/// Each line ends with a line feed.
+/// The lines that close a run on a terminal: the verdict, then the figures that people look at first. All others are in the
+/// summary. Each line ends with a line feed.
 template <int Dim>
 [[nodiscard]] std::string closing_table(const std::string& program, const Scene<Dim>& scene, const RunResult<Dim>& result);
 

@@ -43,8 +43,8 @@ inline constexpr double least_sliding_share = 0.4;
 inline constexpr double weak_friction_time = 0.1;
 /// (H - H~) over the energy in play above which the motion swings from step to step by more than belongs to it [-].
 inline constexpr double large_energy_excess = 0.02;
-/// |e|/m over the largest speed above which single cells near contact tell nothing [-]. Good impacts have 0.2 to 0.4 in single
-/// cells, with H - H~ below 0.1 % and velocities after impact that a filter changes by 1e-4.
+/// |e|/m over the largest speed above which values of single cells near contact are not usable [-]. Good impacts have 0.2 to
+/// 0.4 in single cells, with H - H~ below 0.1 % and velocities after impact that a filter changes by 1e-4.
 inline constexpr double large_parasitic_share = 0.5;
 /// The change of J~, where it is conserved, over what it may be with that energy, above which it is no round-off [-].
 inline constexpr double large_moment_drift = 1e-6;

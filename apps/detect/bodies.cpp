@@ -81,7 +81,7 @@ void log_lines(const InputReport& report) {
     for (const std::string& line : report.lines) spdlog::info("  {}", line);
 }
 
-/// What is left of a surface; one that is refused is described first.
+/// The surface without faces that cannot be used. One that is refused is described first.
 CleanSurface cleaned(const SurfaceMesh& surface, const InputReport& report, const DetectOptions& options) {
     try {
         return with_option_names([&] { return mesh::clean(surface, report.health, options.unusable); });

@@ -160,7 +160,7 @@ Json seconds_json(const DetectTimes& seconds) {
 
 void print_line(const std::string& name, const std::string& value) { say(fmt::format("  {:<44}{}\n", name, value)); }
 
-/// What was found in the files, and done about it.
+/// The health of the files, and what was done about it.
 void print_inputs(const Bodies& bodies) {
     for (const InputReport& input : bodies.inputs) {
         say(input.name + ":\n");

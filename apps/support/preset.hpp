@@ -11,7 +11,7 @@ using run::Preset;
 
 inline const Choices<Preset> presets = choices_of(run::preset_words);
 
-/// What a user would type instead of --preset NAME, "" for the defaults; what lies deeper as keys of --lab.
+/// Options that a user would type instead of --preset NAME, "" for the defaults. Those that lie deeper are keys of --lab.
 [[nodiscard]] std::string words_of(Preset preset, OptionDepth deepest = OptionDepth::laboratory);
 
 /// Takes options of time and contact as they would be typed, a preset among them; all else stays. Throws

@@ -192,7 +192,7 @@ private:
         }
     }
 
-    /// Of the chosen cells; nothing where the simplex is too small.
+    /// The simplex of the chosen cells; nothing where it is too small.
     [[nodiscard]] std::optional<Candidate<Dim>> candidate(double distances) const {
         Matrix<Dim> edges;
         const Vector<Dim>& origin = mesh_.cell_centroid[near_[chosen_[0]].cell];
@@ -211,7 +211,7 @@ private:
         return found;
     }
 
-    /// |sum w (x - x_f) (x - x_f)^T|: twice what second derivatives of 1 make of the value, at most [m^2].
+    /// |sum w (x - x_f) (x - x_f)^T|: twice the largest error of the value where second derivatives are 1 [m^2].
     [[nodiscard]] double spread_of(const FaceStencil<Dim>& stencil) const {
         Matrix<Dim> sum = Matrix<Dim>::Zero();
         for (std::size_t j = 0; j <= Dim; ++j) {

@@ -50,7 +50,7 @@ TEST_CASE("a closed surface is filled: its volume, its triangles where these are
     test::check_two_sides(mesh);
 }
 
-TEST_CASE("a surface is meshed anew with cells of the size that is asked for, whatever its triangles are", "[mesh][fill]") {
+TEST_CASE("a surface is remeshed with cells of the size that is asked for, whatever its triangles are", "[mesh][fill]") {
     // The box has triangles of 0.6 m at most, the long box two for each side.
     const SurfaceMesh fine = box_of_triangles(),
                       coarse = boundary_of(structured_box<3>({0, 0, 0}, {3, 1, 1}, {1, 1, 1}, CellShape::tetrahedron));
@@ -72,7 +72,7 @@ TEST_CASE("a surface is meshed anew with cells of the size that is asked for, wh
         }
 }
 
-TEST_CASE("cells in a surface that is meshed anew have no slivers, and follow it the more closely the smaller they are",
+TEST_CASE("cells in a surface that is remeshed have no slivers, and follow it the more closely the smaller they are",
           "[mesh][fill]") {
     const SurfaceMesh torus = torus_surface({.n_around = 40, .n_tube = 16});
     const double inside = volume_of(fill(torus, {.size = 0.2, .keeps_triangles = true}));
