@@ -1,5 +1,6 @@
 """check_site.py FOLDER [PART]: every link of the HTML pages in a folder leads to a file and a place that are there, and no page asks the
-network. In the folder PART of it, which another program wrote, places within pages are not looked for.
+network. In the folder PART of it, which another program wrote, places within pages are not looked for. No two links of the sidebar have
+one name.
 
 Links that a reader may follow to another site are left alone; pictures, scripts, styles and fonts must be in the folder.
 """
@@ -14,14 +15,19 @@ OF_STYLE = re.compile(r"url\(\s*['\"]?([^'\")]+)|@import\s+['\"]([^'\"]+)")
 
 
 class Page(html.parser.HTMLParser):
-    """Places of a page (ids and names), what it links to and what it loads, with lines."""
+    """Places of a page (ids and names), what it links to and what it loads, with lines, and the names of the links in its sidebar."""
 
     def __init__(self, path):
         super().__init__()
         self.places, self.links, self.loads = set(), [], []
+        self.sidebar, self.in_sidebar = [], False
         self.feed(path.read_text(errors="replace"))
 
     def handle_starttag(self, tag, attributes):
+        if "sidebar-tree" in (dict(attributes).get("class") or ""):
+            self.in_sidebar = True
+        if tag == "a" and self.in_sidebar:
+            self.sidebar.append("")
         for name, value in attributes:
             if name == "id" or (tag == "a" and name == "name"):
                 self.places.add(value)
@@ -31,6 +37,13 @@ class Page(html.parser.HTMLParser):
                 self.links.append((self.getpos()[0], value or ""))
             elif name == "style":
                 self.loads += [(self.getpos()[0], a or b) for a, b in OF_STYLE.findall(value or "")]
+
+    def handle_endtag(self, tag):
+        self.in_sidebar = self.in_sidebar and tag != "aside"
+
+    def handle_data(self, data):
+        if self.in_sidebar and self.sidebar:
+            self.sidebar[-1] += data.strip()
 
 
 def main():
@@ -66,6 +79,8 @@ def main():
             for a, b in OF_STYLE.findall(text):
                 if not (a or b).startswith("#"):
                     look(path, number, a or b, loads=True)
+    names = pages[root / "index.html"].sidebar if root / "index.html" in pages else []
+    wrong += [f"index.html: the sidebar has two links '{name}'" for name in names if names.count(name) > 1]
     if wrong:
         sys.exit("\n".join(dict.fromkeys(wrong)))
     print(f"all links of {len(pages)} pages lead somewhere, and none of them asks the network")
