@@ -32,8 +32,8 @@ def wrong_versions(root):
     if not (root / "CITATION.cff").exists():
         return
     version = re.search(r"^project\(abut VERSION ([0-9.]+)", (root / "CMakeLists.txt").read_text(), re.M)[1]
-    for name in ("CITATION.cff", "docs/cite.md"):
-        found = re.search(r"^ *version *[:=] *{?([0-9.]+)", (root / name).read_text(), re.M)
+    for name in ("CITATION.cff", "docs/cite.md", "docs/index.md"):
+        found = re.search(r"(?:^ *version *[:=] *{?|is version )([0-9]+[.][0-9]+[.][0-9]+)", (root / name).read_text(), re.M)
         if not found or found[1] != version:
             yield f"{name}: the version is {found and found[1]}, the build has {version}"
 
