@@ -415,12 +415,12 @@ def a_body_rubs_on_itself(programs):
     require(zero == none, "mu = 0 has other bits than no friction")
     for options in (keys(contact__friction=0.3), ["--kinematics", "small", *keys(contact__friction=0.3)]):
         done, rows = clip(*options)
-        require(rows[-1]["dissipated"] > 0, f"{options}: nothing is dissipated")
+        require(rows[-1]["dissipated_by_friction"] > 0, f"{options}: friction dissipates nothing")
         require(max(row["sliding_faces"] for row in rows) > 0, f"{options}: nothing slides")
         require(balance(rows) <= 1e-11, f"{options}: the balance is open by {balance(rows):.2g}")
     short = keys(contact__friction=0.3, run__time=0.4)
     _, one = clip(*short)
-    require(one[-1]["dissipated"] > 0, "arms do not touch within 0.4 s: this shows nothing of ranks")
+    require(one[-1]["dissipated_by_friction"] > 0, "arms do not touch within 0.4 s: this shows nothing of ranks")
     require(clip(*short, "--ranks", 2)[1] == one, "2 ranks have other bits")
 
 

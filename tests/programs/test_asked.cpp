@@ -183,7 +183,7 @@ TEST_CASE("messages are as wide as the terminal, and whole where there is none",
 
 TEST_CASE("abut info says what is in scenes, surfaces and meshes", "[programs][asked]") {
     const std::string scene = answer(fmt::format("info '{}/falling_bar.toml'", ABUT_SCENES));
-    CHECK_THAT(scene, Contains("a scene in 2D") && Contains("200 quadrangle") && Contains("(0, 5) to (0.2, 15) m") &&
+    CHECK_THAT(scene, Contains("a scene in 2D") && Contains("200 quadrangle") && Contains("(0, 0.5) to (0.2, 10.5) m") &&
                           Contains("2 kg") && Contains("'bar.xmin'"));  // 0.2 m x 10 m, 1 kg/m^3
     const std::string surface = answer(fmt::format("info '{}/ball.stl'", ABUT_SCENES));
     CHECK_THAT(surface, Contains("a surface") && Contains("80 faces") && Contains("closed"));
