@@ -35,6 +35,12 @@ class Run:
         return all(word in self.said for word in words) and (self.code != 0 or "warning" in self.said.lower())
 
 
+def scenes_that_warn():
+    """Scenes of scenes/ that need not end clean, each with the reason."""
+    lines = (pathlib.Path(__file__).parent.parent / "word/scenes_that_warn.txt").read_text().splitlines()
+    return dict(line.split(": ", 1) for line in lines if line and not line.startswith("#"))
+
+
 def rows_of(file):
     with open(file, newline="") as lines:
         return [{key.split(" [")[0]: number(value) for key, value in row.items()} for row in csv.DictReader(lines)]
