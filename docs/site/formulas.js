@@ -3,6 +3,15 @@ const formulas = [...document.querySelectorAll(".math")];
 for (const formula of formulas) {
     katex.render(formula.textContent, formula, {displayMode: formula.tagName === "DIV", strict: "error", trust: false});
 }
+// A comma or full stop behind a formula goes with it, so that no line begins with one.
+for (const formula of formulas) {
+    const behind = formula.nextSibling, parts = formula.querySelectorAll(".base");
+    const mark = behind?.nodeType === Node.TEXT_NODE && behind.data.match(/^[.,;:)]+/);
+    if (mark && formula.tagName === "SPAN") {
+        behind.data = behind.data.slice(mark[0].length);
+        parts[parts.length - 1].append(mark[0]);
+    }
+}
 // Where a part of a formula fits into no line, as on a telephone, the formula has a line of its own, which can be scrolled.
 const isWide = (formula) => {
     const room = 0.9 * formula.closest("p, li, td, div").clientWidth;
