@@ -1,11 +1,11 @@
-"""check_pages.py SOURCE: every file and every heading that a Markdown page links to is there, and what is to be cited has the version
-of the build."""
+"""check_pages.py SOURCE: every file and every heading that a Markdown page links to is there, every formula that begins ends in its
+paragraph, and what is to be cited has the version of the build."""
 import pathlib
 import re
 import sys
 
 LINK = re.compile(r"\]\(([^()\s]+)\)")
-CODE = re.compile(r"^```.*?^```", re.S | re.M)
+CODE = re.compile(r"^ *```.*?^ *```", re.S | re.M)
 
 
 def anchors(page):
@@ -26,6 +26,11 @@ def faults_of(root, page):
             yield f"{where}: there is no {target}"
         elif anchor and path.suffix == ".md" and anchor not in anchors(path):
             yield f"{where}: {path.name} has no heading #{anchor}"
+    lines = re.sub(r"`[^`]*`", lambda code: "\n" * code[0].count("\n"), re.sub(r"^ {4}.*", "", text, flags=re.M))
+    for paragraph in re.finditer(r"(?:.+\n?)+", lines):
+        if paragraph[0].count("$") % 2:
+            where = f"{page.relative_to(root).as_posix()}:{lines.count(chr(10), 0, paragraph.start()) + 1}"
+            yield f"{where}: a formula of this paragraph has one $; write code as `$HOME`"
 
 
 def wrong_versions(root):
