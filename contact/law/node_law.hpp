@@ -50,6 +50,8 @@ public:
     }
 
     void search(CandidateSearch<Dim>& candidates, State x_0, State x_1);
+    /// How far nodes may move before facets of one body that were left out for the way they look could come together [m].
+    [[nodiscard]] double list_reach() const { return reach_; }
     [[nodiscard]] bool is_wanted(FacetPair pair) const {
         return surface_.may_meet(number_of(pair.facet_1), number_of(pair.facet_2)) &&
                (!options_.wanted || options_.wanted(acting().face_of(pair.facet_1), acting().face_of(pair.facet_2)));
@@ -90,7 +92,15 @@ private:
         if (step.nodes.size() != listed_nodes().size()) step.nodes = listed_nodes();
     }
     void fold(NodalStep<Dim>& step) const { surface_.fold(step.nodes, step.gradient); }
+    /// A facet where a search begins.
+    struct PlacedFacet {
+        Vector<Dim> middle, normal;
+        double radius, width;  // of the circle about `middle`; the least distance of two lines that hold it between them [m]
+        double turn = 0.0;     // bound on the turn of `normal` while the list is valid [rad]
+    };
     void place_facets(State x);
+    [[nodiscard]] double mean_width() const;
+    void bound_turns(double reach);
     [[nodiscard]] bool may_come_together(FacetPair pair, double reach) const;
     [[nodiscard]] bool is_seen_from_outside(const NodalPair<Dim>& pair, State x) const;
     void set_inside_pairs_apart(std::vector<FacetPair>& pairs, State x_0);
@@ -103,12 +113,12 @@ private:
     Sharing* sharing_;
     SideOutlines<Dim> sides_;
     InsidePairs<Dim> inside_;
-    std::vector<NodalPair<Dim>> watched_;       // of these, that may be seen from outside while the list is valid
-    std::vector<Vector<Dim>> middle_, normal_;  // of each facet where a search begins
-    std::vector<double> radius_;                // and at rest
+    std::vector<NodalPair<Dim>> watched_;  // of these, that may be seen from outside while the list is valid
+    std::vector<PlacedFacet> placed_;      // only where bodies touch themselves
+    double reach_ = 0.0;                   // see list_reach
     NodalPairs<Dim> pairs_;
     InterferenceRamps ramps_;
-    double looks_away_;  // n_1 . n_2 of two facets of one body that have no weight for as long as a list is valid
+    double weightless_angle_;  // between the normals of two facets that have no weight, at most [rad]
     PairPotential<Dim> law_;
     std::int32_t least_force_size_ = 0;  // nodes up to the last one of a deformable face
 };

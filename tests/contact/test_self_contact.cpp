@@ -375,3 +375,45 @@ TEMPLATE_TEST_CASE_SIG("a body that touches itself goes on from its state with t
     fresh.restore(whole.state());
     CHECK(fresh.state() == whole.state());
 }
+
+TEST_CASE("contact within a body does not depend on how long its lists live, though its faces turn far",
+          "[contact][nodal][self]") {
+    // Two arms of one face a side stand on one foot, and close like a book by up to 1.35 rad.
+    const auto turned = [](const Vector<2>& x, const Vector<2>& centre, double angle) {
+        return Vector<2>(centre + Eigen::Rotation2Dd(angle) * (x - centre));
+    };
+    const auto arms = [&](double opening) {
+        std::vector<Vector<2>> x{{0.0, -0.3}, {1.0, -0.3}};
+        for (const Vector<2>& corner : {Vector<2>(1.0, 0.0), Vector<2>(1.0, 1.0), Vector<2>(0.8, 1.0), Vector<2>(0.8, 0.0)})
+            x.push_back(turned(corner, {0.8, 0.0}, -opening));
+        for (const Vector<2>& corner : {Vector<2>(0.2, 0.0), Vector<2>(0.2, 1.0), Vector<2>(0.0, 1.0), Vector<2>(0.0, 0.0)})
+            x.push_back(turned(corner, {0.2, 0.0}, opening));
+        return x;
+    };
+    const double ends_at = -0.45;
+    for (const auto& [begins_at, n_steps] :
+         {std::pair{0.9, 30}, std::pair{0.9, 300}, std::pair{0.5, 100}, std::pair{0.2, 100}}) {
+        NodalScene<2> scene;
+        scene.faces.stiffness.push_back(1.0);
+        scene.rest = arms(begins_at);
+        const auto n = static_cast<std::int32_t>(scene.rest.size());
+        scene.node_body.assign(scene.rest.size(), 0);
+        for (std::int32_t i = 0; i < n; ++i) scene.faces.append_face(std::array{i, (i + 1) % n}, 0.2, 0);
+        std::vector<double> energies;
+        for (const double skin : {1e-4, 0.0, 0.05, 0.5, 2.0, 10.0}) {
+            contact::NodalOptions options = touching_itself();
+            options.compression_limit = 1e9;
+            options.search.skin = skin;
+            NodalContact<2> contact(scene.surface(), options);
+            for (int i = 0; i < n_steps; ++i) {
+                const auto at = [&](int step) { return arms(begins_at + (ends_at - begins_at) * step / n_steps); };
+                contact.step(1e-3, at(i), at(i + 1));
+            }
+            CHECK(contact.report().missed_contacts == 0);
+            energies.push_back(contact.last().energy);
+        }
+        CAPTURE(begins_at, n_steps, energies);
+        CHECK(energies[0] > 1e-3);  // its list is made in each step
+        for (const double energy : energies) CHECK(energy == energies[0]);
+    }
+}
