@@ -57,7 +57,7 @@ ViscousCells<Dim>::ViscousCells(const mesh::Mesh<Dim>& mesh, std::span<const Mat
         const double measure = mesh.cell_measure[c];
         const bool is_simplex = mesh.cell_faces[c].size() == Dim + 1;
         const double size = std::pow((is_simplex ? simplices_in_a_cube<Dim> : 1.0) * measure, 1.0 / Dim);
-        cells_.push_back({&material, measure, size, {}, {}, {}, {}});
+        cells_.push_back({.material = &material, .measure = measure, .size = size});
     }
 }
 
@@ -107,8 +107,12 @@ template <int Dim>
 Vector<Dim> ViscousCells<Dim>::drag(std::ptrdiff_t cell, double mass, const Vector<Dim>& motion, double dt) {
     Cell& of = at(cell);
     of.of_drag = {};
-    const double damping = of.material->mass_damping * mass;
-    if (!(damping > 0.0)) return Vector<Dim>::Zero();
+    if (!(of.material->mass_damping > 0.0)) return Vector<Dim>::Zero();
+    if (of.drag_step != dt) {
+        of.drag_step = dt;
+        of.drag_rate = -std::expm1(-of.material->mass_damping * dt) / dt;
+    }
+    const double damping = of.drag_rate * mass;
     of.now.velocity = motion / dt;
     of.now.moves_known = true;
     const Vector<Dim> before = of.before.moves_known ? of.before.velocity : of.now.velocity;

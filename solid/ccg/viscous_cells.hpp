@@ -31,7 +31,8 @@ public:
     /// `free`: the free faces of the cell, where `g` is of affine ones; null: it has none, or `g` knows where they are.
     [[nodiscard]] Matrix<Dim> stress(std::ptrdiff_t cell, const Matrix<Dim>& g, const Matrix<Dim>& change, double dt,
                                      const FreeCell<Dim>* free = nullptr);
-    /// Force on a cell of this mass that moves by `motion` in a step [N].
+    /// Force of Material::mass_damping on a cell of this mass that moves by `motion` in a step [N]. A cell that flies freely is
+    /// slowed by exp(-alpha dt) in each step, to round-off.
     [[nodiscard]] Vector<Dim> drag(std::ptrdiff_t cell, double mass, const Vector<Dim>& motion, double dt);
     /// What both have dissipated in the step.
     [[nodiscard]] dynamics::Losses loss(std::ptrdiff_t cell) const;
@@ -61,8 +62,9 @@ private:
     struct Cell {
         const Material* material;
         double measure, size;
-        Rates before, now;
-        dynamics::Losses of_stress, of_drag;
+        Rates before = {}, now = {};
+        dynamics::Losses of_stress = {}, of_drag = {};
+        double drag_step = 0.0, drag_rate = 0.0;  // (1 - exp(-alpha dt))/dt of the step dt [s, 1/s]
     };
     [[nodiscard]] Cell& at(std::ptrdiff_t cell) {
         return cells_[static_cast<std::size_t>(index_[static_cast<std::size_t>(cell)])];
