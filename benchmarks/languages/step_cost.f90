@@ -28,8 +28,6 @@ program step_cost
   body = body + 1
   f = 0
 
-  error = abut_new_error()
-  result = abut_new_result()
   faces = abut_faces_of(corners, body, depth, stiffness)
   call check(abut_create(3, abut_points(x(:, :, 1)), faces, c_null_ptr, contact, error))
   call check(abut_step(contact, 1d0, abut_points(x(:, :, 1)), abut_points(x(:, :, 2)), abut_mean, abut_points(f), result, error))

@@ -1,7 +1,9 @@
 ! Contact between deformable solids whose surfaces are made of nodes, for Fortran 2003: the functions of abut.h under their own
 ! names, with arrays u(dim, n) as they lie. docs/languages.md walks through it; abut.h says what each function does.
 !
-! Indices count from 1 if `index_base` of the faces is 1, as `abut_faces_of` sets it.
+! Indices count from 1 if `index_base` of the faces is 1, as `abut_faces_of` sets it. Variables of these types are ready for use:
+! `struct_size` has the size of the type in C, which tests/bindings/test_abut.f90 compares with c_sizeof. Options alone begin with
+! a call of `abut_options_init`.
 module abut
   use, intrinsic :: iso_c_binding
   implicit none
@@ -12,11 +14,11 @@ module abut
   integer(c_int32_t), parameter, public :: abut_mean = 0, abut_end = 1
 
   type, bind(c), public :: abut_error
-    integer(c_size_t) :: struct_size
-    integer(c_int32_t) :: status
-    integer(c_int64_t) :: face_1, face_2
-    real(c_double) :: value, allowed
-    character(kind=c_char) :: message(1024)
+    integer(c_size_t) :: struct_size = 1072
+    integer(c_int32_t) :: status = abut_ok
+    integer(c_int64_t) :: face_1 = -1, face_2 = -1
+    real(c_double) :: value = 0, allowed = 0
+    character(kind=c_char) :: message(1024) = c_null_char
   end type
 
   type, bind(c), public :: abut_array
@@ -25,22 +27,23 @@ module abut
   end type
 
   type, bind(c), public :: abut_faces
-    integer(c_size_t) :: struct_size
-    integer(c_int64_t) :: n_faces
-    type(c_ptr) :: nodes
-    integer(c_int64_t) :: n_nodes
-    type(c_ptr) :: offsets, body, depth, stiffness, shear_stiffness
-    integer(c_int64_t) :: n_bodies
-    integer(c_int32_t) :: index_base
+    integer(c_size_t) :: struct_size = 88
+    integer(c_int64_t) :: n_faces = 0
+    type(c_ptr) :: nodes = c_null_ptr
+    integer(c_int64_t) :: n_nodes = 0
+    type(c_ptr) :: offsets = c_null_ptr, body = c_null_ptr, depth = c_null_ptr, stiffness = c_null_ptr, &
+      shear_stiffness = c_null_ptr
+    integer(c_int64_t) :: n_bodies = 0
+    integer(c_int32_t) :: index_base = 1
   end type
 
   type, bind(c), public :: abut_cells
-    integer(c_size_t) :: struct_size
-    integer(c_int64_t) :: n_cells
-    type(c_ptr) :: nodes
-    integer(c_int64_t) :: n_nodes
-    type(c_ptr) :: offsets, body
-    integer(c_int32_t) :: index_base
+    integer(c_size_t) :: struct_size = 56
+    integer(c_int64_t) :: n_cells = 0
+    type(c_ptr) :: nodes = c_null_ptr
+    integer(c_int64_t) :: n_nodes = 0
+    type(c_ptr) :: offsets = c_null_ptr, body = c_null_ptr
+    integer(c_int32_t) :: index_base = 1
   end type
 
   type, bind(c), public :: abut_friction_law
@@ -64,12 +67,12 @@ module abut
   end type
 
   type, bind(c), public :: abut_step_result
-    integer(c_size_t) :: struct_size
-    real(c_double) :: energy_0, energy, work
-    integer(c_int64_t) :: active_pairs, events
-    real(c_double) :: compression, correction, friction_energy, dissipated
-    integer(c_int64_t) :: sticking_faces, sliding_faces
-    real(c_double) :: interference_work
+    integer(c_size_t) :: struct_size = 104
+    real(c_double) :: energy_0 = 0, energy = 0, work = 0
+    integer(c_int64_t) :: active_pairs = 0, events = 0
+    real(c_double) :: compression = 0, correction = 0, friction_energy = 0, dissipated = 0
+    integer(c_int64_t) :: sticking_faces = 0, sliding_faces = 0
+    real(c_double) :: interference_work = 0
   end type
 
   type, bind(c), public :: abut_pair
@@ -96,19 +99,19 @@ module abut
   end type
 
   type, bind(c), public :: abut_report
-    integer(c_size_t) :: struct_size
-    integer(c_int64_t) :: candidates, candidates_max, active_pairs, active_pairs_max, events, rebuilds, missed_contacts, &
-      inadmissible_overlaps, compressed_steps, tilted_pairs_max
-    real(c_double) :: compression_max, correction_max, friction_dissipated, least_dissipated, friction_ratio_max, &
-      sliding_force, sliding_limit
-    integer(c_int64_t) :: sticking_faces, sliding_faces, sticking_faces_max, sliding_faces_max
+    integer(c_size_t) :: struct_size = 176
+    integer(c_int64_t) :: candidates = 0, candidates_max = 0, active_pairs = 0, active_pairs_max = 0, events = 0, rebuilds = 0, &
+      missed_contacts = 0, inadmissible_overlaps = 0, compressed_steps = 0, tilted_pairs_max = 0
+    real(c_double) :: compression_max = 0, correction_max = 0, friction_dissipated = 0, least_dissipated = 0, &
+      friction_ratio_max = 0, sliding_force = 0, sliding_limit = 0
+    integer(c_int64_t) :: sticking_faces = 0, sliding_faces = 0, sticking_faces_max = 0, sliding_faces_max = 0
   end type
 
   type, bind(c), public :: abut_stable
-    integer(c_size_t) :: struct_size
-    real(c_double) :: dt, omega, omega_free
-    integer(c_int64_t) :: node
-    character(kind=c_char) :: reason(256)
+    integer(c_size_t) :: struct_size = 296
+    real(c_double) :: dt = 0, omega = 0, omega_free = 0
+    integer(c_int64_t) :: node = -1
+    character(kind=c_char) :: reason(256) = c_null_char
   end type
 
   type, bind(c), public :: abut_overlap
@@ -120,8 +123,7 @@ module abut
     abut_pairs, abut_bodies, abut_body_pairs, abut_friction, abut_get_report, abut_stable_step, abut_save, abut_restore, &
     abut_replace_surface, abut_find_overlaps, abut_surface_of, abut_surface_faces, abut_surface_destroy
   public :: abut_version, abut_wanted, abut_interferes, abut_law_of, abut_own_coefficient, abut_cancel, abut_log, abut_columns
-  public :: abut_points, abut_nothing, abut_faces_of, abut_cells_of, abut_new_error, abut_new_result, abut_new_report, &
-    abut_new_stable, abut_message
+  public :: abut_points, abut_nothing, abut_faces_of, abut_cells_of, abut_message
 
   ! What the callbacks of abut_options look like: options%wanted = c_funloc(mine), options%user = c_loc(my_data).
   abstract interface
@@ -381,18 +383,14 @@ contains
     real(c_double), target, contiguous, intent(in) :: depth(:), stiffness(:)
     real(c_double), target, contiguous, intent(in), optional :: shear_stiffness(:)
     type(abut_faces) :: faces
-    faces%struct_size = c_sizeof(faces)
     faces%n_faces = size(body, kind=c_int64_t)
     faces%nodes = c_loc(nodes)
     faces%n_nodes = size(nodes, kind=c_int64_t)
-    faces%offsets = c_null_ptr
     faces%body = c_loc(body)
     faces%depth = c_loc(depth)
     faces%stiffness = c_loc(stiffness)
-    faces%shear_stiffness = c_null_ptr
     if (present(shear_stiffness)) faces%shear_stiffness = c_loc(shear_stiffness)
     faces%n_bodies = size(stiffness, kind=c_int64_t)
-    faces%index_base = 1
   end function
 
   ! All cells with as many corners: nodes(corners, n), counted from 1 as bodies are.
@@ -400,48 +398,10 @@ contains
     integer(c_int32_t), target, contiguous, intent(in) :: nodes(:, :)
     integer(c_int32_t), target, contiguous, intent(in), optional :: body(:)
     type(abut_cells) :: cells
-    cells%struct_size = c_sizeof(cells)
     cells%n_cells = size(nodes, 2, c_int64_t)
     cells%nodes = c_loc(nodes)
     cells%n_nodes = size(nodes, kind=c_int64_t)
-    cells%offsets = c_null_ptr
-    cells%body = c_null_ptr
     if (present(body)) cells%body = c_loc(body)
-    cells%index_base = 1
-  end function
-
-  function abut_new_error() result(error)
-    type(abut_error) :: error
-    error%struct_size = c_sizeof(error)
-    error%status = abut_ok
-    error%face_1 = -1
-    error%face_2 = -1
-    error%value = 0
-    error%allowed = 0
-    error%message = c_null_char
-  end function
-
-  function abut_new_result() result(empty)
-    type(abut_step_result) :: empty
-    integer(c_int64_t), parameter :: zero = 0
-    empty = abut_step_result(c_sizeof(empty), 0d0, 0d0, 0d0, zero, zero, 0d0, 0d0, 0d0, 0d0, zero, zero, 0d0)
-  end function
-
-  function abut_new_report() result(report)
-    type(abut_report) :: report
-    integer(c_int64_t), parameter :: zero = 0
-    report = abut_report(c_sizeof(report), zero, zero, zero, zero, zero, zero, zero, zero, zero, zero, 0d0, 0d0, &
-      0d0, 0d0, 0d0, 0d0, 0d0, zero, zero, zero, zero)
-  end function
-
-  function abut_new_stable() result(stable)
-    type(abut_stable) :: stable
-    stable%struct_size = c_sizeof(stable)
-    stable%dt = 0
-    stable%omega = 0
-    stable%omega_free = 0
-    stable%node = -1
-    stable%reason = c_null_char
   end function
 
   ! The text of an error.

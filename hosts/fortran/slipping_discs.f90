@@ -26,19 +26,16 @@ program slipping_discs
   call make_disc(0, 0d0, 0d0, 0d0)
   call make_disc(1, sqrt(2.02d0**2 - 0.8d0**2), 0.8d0, 0.1d0)
 
-  error = abut_new_error()
   call check(abut_skin_stiffness(lambda + 2*mu, depth, int(n_faces, c_int64_t), k, error))
   stiffness = k
   faces = abut_faces_of(face, body, depth, stiffness)
   call check(abut_create(2, abut_points(rest), faces, c_null_ptr, contact, error))
-  stable = abut_new_stable()
   call check(abut_stable_step(contact, mass, int(n_nodes, c_int64_t), highest_frequency(), stable, error))
 
   x = rest
   v = 0
   v(1, :disc_nodes) = 0.05d0  ! at half steps
   v(1, disc_nodes + 1:) = -0.05d0
-  result = abut_new_result()
   time = 0
   steps = 0
   do while (time < 15)
@@ -57,7 +54,6 @@ program slipping_discs
   do i = 1, 2
     left(i) = sum(mass(:disc_nodes)*v(i, :disc_nodes))/sum(mass(:disc_nodes))
   end do
-  report = abut_new_report()
   call check(abut_get_report(contact, report, error))
   print '(i0,a,f6.4,a,f8.4,a,f8.4,a,es8.1,a,i0,a)', steps, ' steps of ', stable%dt, ', left disc: (', left(1), ', ', left(2), &
     '), momentum of both ', norm2([sum(mass*v(1, :)), sum(mass*v(2, :))]), ', ', report%missed_contacts, ' missed'

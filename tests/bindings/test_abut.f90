@@ -96,8 +96,7 @@ program test_abut
   type(abut_error) :: error
   type(abut_step_result) :: result
 
-  error = abut_new_error()
-  result = abut_new_result()
+  call types_have_the_sizes_that_they_say()
   call presses_by_the_spring_in_series()
   call mean_force_is_exact_for_energy()
   call any_strides_are_read_and_written_in_place()
@@ -122,6 +121,20 @@ contains
     if (condition) return
     print '(2a)', 'failed: ', what
     failures = failures + 1
+  end subroutine
+
+  subroutine types_have_the_sizes_that_they_say()
+    type(abut_faces) :: faces
+    type(abut_cells) :: cells
+    type(abut_report) :: report
+    type(abut_stable) :: stable
+    call check(error%struct_size == c_sizeof(error), 'size of abut_error')
+    call check(faces%struct_size == c_sizeof(faces), 'size of abut_faces')
+    call check(cells%struct_size == c_sizeof(cells), 'size of abut_cells')
+    call check(result%struct_size == c_sizeof(result), 'size of abut_step_result')
+    call check(report%struct_size == c_sizeof(report), 'size of abut_report')
+    call check(stable%struct_size == c_sizeof(stable), 'size of abut_stable')
+    call check(abut_message(error) == '', 'an error without a text')
   end subroutine
 
   ! Statuses have a check of their own: Fortran may look at the other operands of an expression before it calls.
@@ -203,7 +216,6 @@ contains
     call check(n == 1 .and. of_bodies(1)%body_1 == 1 .and. of_bodies(1)%body_2 == 2, 'one pair of bodies')
     call check(of_bodies(1)%active_pairs == 1 .and. abs(of_bodies(1)%normal_force - up) < 1d-15, 'its force')
 
-    report = abut_new_report()
     call expect(abut_ok, abut_get_report(contact, report, error), 'report')
     call check(report%missed_contacts == 0 .and. report%active_pairs == 1 .and. report%rebuilds >= 1, 'its counters')
 
@@ -376,7 +388,6 @@ contains
     call expect(abut_ok, abut_friction(contact, of_faces, c_sizeof(of_faces(1)), two, n, error), 'friction of faces')
     call check(n == 2 .and. all(of_faces%face == [3, 5]), 'faces with friction')
     call check(all(abs(of_faces%force - 0.25d0*kappa*s) < 1d-15) .and. all(of_faces%slip == 0), 'their force')
-    report = abut_new_report()
     call expect(abut_ok, abut_get_report(contact, report, error), 'a report with friction')
     call check(report%sticking_faces == 2 .and. report%sticking_faces_max == 2 .and. report%sliding_faces_max == 0, 'its faces')
     call abut_destroy(contact)
@@ -510,7 +521,6 @@ contains
     call check(.not. c_associated(contact), 'no handle of what was refused')
 
     call expect(abut_misuse, step(c_null_ptr, rest, rest), 'a step without handle')
-    report = abut_new_report()
     call expect(abut_misuse, abut_get_report(c_null_ptr, report, error), 'a report without handle')
 
     contact = made(c_null_ptr)
@@ -537,8 +547,7 @@ contains
     call expect(abut_bad_input, abut_step(contact, 1d0, fewer, fewer, abut_mean, abut_nothing(), result, error), '-1 nodes')
     result%struct_size = 0
     call expect(abut_misuse, step(contact, rest, rest), 'a result with struct_size of 0')
-    result = abut_new_result()
-    of_another_version = abut_new_error()
+    result = abut_step_result()
     of_another_version%struct_size = 8
     call expect(abut_misuse, abut_step(contact, 1d0, at_rest, at_rest, abut_mean, abut_nothing(), result, of_another_version), &
       'an error of another version')
@@ -595,7 +604,6 @@ contains
     call check(abs(k - 4) < 1d-15, 'k of a skin')
     call expect(abut_bad_input, abut_skin_stiffness(-1d0, [1d0, 2d0], two, k, error), 'a negative modulus')
     contact = made(c_null_ptr)
-    stable = abut_new_stable()
     call expect(abut_ok, abut_stable_step(contact, mass, int(n_nodes, c_int64_t), 1d0, stable, error), 'stable_step')
     ! omega^2 = 1 + twice 2 times the share of two faces, 1/2 each, over 1 kg
     call check(abs(stable%omega - sqrt(5d0)) < 1d-14 .and. abs(stable%dt - 1.7d0/sqrt(5d0)) < 1d-14, 'its figures')

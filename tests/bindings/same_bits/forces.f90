@@ -36,8 +36,6 @@ program forces
   faces = abut_faces_of(corners, body, depth, stiffness, shear_stiffness)
   faces%offsets = c_loc(offsets)
 
-  error = abut_new_error()
-  result = abut_new_result()
   call check(abut_create(3, abut_points(x_0), faces, c_loc(options), contact, error))
   do step = 0, head(3) - 1
     read (in) x_1
