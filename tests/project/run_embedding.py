@@ -13,6 +13,9 @@ program = re.search(r"^```cpp\n(#include.*?)^```$", page, re.S | re.M)[1]
 project = textwrap.dedent(re.search(r"`CMakeLists.txt`:\n\n((?: {4,}\S[^\n]*\n)+)", page)[1])
 promised = re.search(r"It prints `([^`]+)`", page)[1]
 
+example = pathlib.Path(sys.argv[1]).parents[1] / "examples/two_squares/two_squares.cpp"
+assert example.read_text().endswith(program), f"{example} is another program than that of the page"
+
 with tempfile.TemporaryDirectory() as name:
     folder = pathlib.Path(name)
     (folder / "two_squares.cpp").write_text(program)
