@@ -6,29 +6,30 @@
 // The far end then moves with 2v, closes a gap of 1 mm, and presses on the second bar with p - p0.
 //
 // The gas is one-dimensional: finite volumes, minmod slopes, HLLC, Heun's method, cells that move with the bar. The coupling:
-// MEMM knows where the faces of the bar will be before it knows the load (Memm::next_q), so the gas takes the step first, on
-// a wall that moves so far, and hands its mean pressure on. Both book the same work: mass is exact and energy, too, except
-// what the half-cell behind the loaded face stores, which goes as h. The pressure answers to the motion of its own step, which
-// feeds the alternating mode of MEMM: neutral restarts take that out. To compare, with the argument `without_restarts` there
-// are none, and with `lagged` the bar feels the pressure of the step before (docs/loads.md).
+// the bars keep their own step, and the gas chooses each of its own (solid::ClockedRun). MEMM knows where the faces of the bar
+// will be before it knows the load, so the gas takes its step first, on a wall that moves so far, and hands its pressure on.
+// Both book the same work: mass is exact and energy, too, except what the half-cell behind the loaded face stores, which goes
+// as h. The pressure answers to the motion of its own step, which feeds the alternating mode of MEMM: neutral restarts take
+// that out. With the argument `jumping` the gas takes random steps of 0.1 to 1 of the longest. To compare, with
+// `without_restarts` there are none, and with `lagged` the bar feels the pressure of the step before (docs/loads.md).
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <memory>
+#include <random>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "abut/dynamics/ledger.hpp"
-#include "abut/dynamics/memm.hpp"
-#include "abut/dynamics/neutral_restart.hpp"
 #include "abut/dynamics/stable_step.hpp"
 #include "abut/mesh/shapes/shapes.hpp"
 #include "abut/solid/body_motion.hpp"
+#include "abut/solid/clocked_run.hpp"
 #include "abut/solid/contact_view.hpp"
-#include "abut/solid/outside_faces.hpp"
-#include "abut/solid/outside_view.hpp"
 #include "abut/solid/solid.hpp"
+#include "abut/solid/stepped_run.hpp"
 
 using namespace abut;
 
@@ -37,6 +38,7 @@ namespace {
 constexpr double ratio = 1.4, p_0 = 1e5, rho_0 = 1.2, mach = 2.0;          // of the gas at rest, and of the shock
 constexpr double length = 0.5, gap = 1e-3, density = 50.0, poisson = 0.3;  // of both bars [m, kg/m^3]
 constexpr double wave_speed = 2000.0, impedance = density * wave_speed;    // c, rho c of waves that cannot widen
+constexpr int restart_period = 20;                                         // steps of the bars
 constexpr double tube = 0.3, shock_at = -0.1;                              // of the gas: [-tube, 0] [m]
 
 // Gas ----------------------------------------------------------------------------------------------------------------
@@ -208,41 +210,48 @@ struct Result {
     double stored = 0.0;            // what they store, over the same
     double drift = 0.0, excess = 0.0, parasitic = 0.0;  // of H~ less work, H - H~, both over the work; |e|/m over v
     double momentum_defect = 0.0;                       // of both bars less the impulse of the gas, over that
-    std::int64_t steps = 0, events = 0, missed = 0;
+    std::int64_t steps = 0, gas_steps = 0, events = 0, missed = 0;
 };
 
 Result run(int n, const std::string& variant) {
     const mesh::Mesh<2> mesh = two_bars(n);
-    solid::Solid<2> bars(mesh, options_of_bars());
-    const std::vector<double> rest(bars.size(), 0.0);
-    const double stable = 0.9 * dynamics::stable_step(bars).dt;
-    dynamics::Memm memm(bars, rest, rest, stable);
-    dynamics::NeutralRestart restart(bars, {.period = 20});
-    if (variant.empty())
-        memm.set_node_restart([&](auto q, double dt, auto before, auto after) { restart(q, dt, before, after); });
+    auto made = std::make_unique<solid::Solid<2>>(mesh, options_of_bars());
+    const std::vector<double> rest(made->size(), 0.0);
+    const double step = 0.9 * dynamics::stable_step(*made).dt;  // of the bars, throughout
+    solid::SteppedRun<2> coupled_bars(std::move(made), rest, rest, step,
+                                      {.restart = variant == "without_restarts" ? 0 : restart_period});
+    solid::Solid<2>& bars = coupled_bars.solid();
+    auto& memm = coupled_bars.memm();
+    solid::ClockedRun<2> clock(coupled_bars);
     dynamics::Ledger<2> ledger;
     ledger.record(dynamics::measure(memm, bars));
-    Gas gas(static_cast<int>(std::lround(4.0 * n * tube / length)));  // cells of h/4: the gas dictates the step
+    Gas gas(static_cast<int>(std::lround(4.0 * n * tube / length)));  // cells of h/4, which choose their own steps
     const double mass = gas.closed_sum(0), energy = gas.closed_sum(2), width = 2.0 * length / n;
+    std::mt19937 random(7);
 
     const double p = coupled_pressure(), v = (p - p_0) / impedance, transit = length / wave_speed;
     const double arrival = -shock_at / (mach * std::sqrt(ratio * p_0 / rho_0)), touch = arrival + transit + gap / (2.0 * v);
     Result result;
     double last = p_0;  // the pressure of the step before
     double impulse = 0.0, weight = 0.0, early = 0.0, late = 0.0, early_time = 0.0, defect = 0.0;
-    while (memm.time() < arrival + 2.8 * transit) {
-        const double dt = std::min(stable, gas.stable_step());
-        memm.set_step(dt, dynamics::StepChange::keep);  // its changes are slow and smooth
-        const auto motion = bars.outside("bar.xmin").motion(memm.q(), memm.next_q(), memm.time(), dt);
+    while (clock.time() < arrival + 2.8 * transit) {
+        double chosen = gas.stable_step();
+        if (variant == "jumping") chosen *= 0.1 + 0.9 * static_cast<double>(random()) / std::mt19937::max();
+        const double dt = std::min(chosen, clock.time_to_node());
+        const auto motion = clock.motion("bar.xmin", dt);
         double on_wall = gas.step(dt, 0.5 * (motion[0].x() + motion[1].x()));
         if (variant == "lagged") std::swap(on_wall, last);
-        bars.set_traction("bar.xmin", std::vector<Vector<2>>(2, Vector<2>(on_wall - p_0, 0.0)));  // p_0 acts behind the bars
-        const double middle = (memm.time() + 0.5 * dt - arrival) / transit;                       // [L/c]
-        memm.step();
+        clock.set_traction("bar.xmin",
+                           std::vector<Vector<2>>(2, Vector<2>(on_wall - p_0, 0.0)));  // p_0 acts behind the bars
+        const double middle = (clock.time() + 0.5 * dt - arrival) / transit;           // [L/c]
+        const std::int64_t steps = memm.steps();
+        clock.advance(dt);
+        ++result.gas_steps;
 
         if (middle > 0.2 && middle < 1.8) result.pressure += dt * on_wall, weight += dt;
         if (middle < 1.8) result.pressure_error += dt * std::abs(on_wall - (middle > 0.0 ? p : p_0)) / (1.8 * transit * p);
         impulse += dt * (on_wall - p_0) * width;
+        if (memm.steps() == steps) continue;  // inside a step of the bars
         const auto bodies = solid::body_motions<2>(memm, bars);
         const double of_second = bodies[1].mass * bodies[1].velocity.x();
         if (memm.time() < touch + 0.2 * transit) early = of_second, early_time = memm.time();
@@ -274,8 +283,9 @@ Result run(int n, const std::string& variant) {
 
 int main(int argc, char** argv) {
     const std::string variant = argc > 1 ? argv[1] : "";
-    if (!variant.empty() && variant != "without_restarts" && variant != "lagged") {
-        std::fprintf(stderr, "shock_on_bar: '%s' is not known; there are without_restarts, lagged\n", variant.c_str());
+    if (!variant.empty() && variant != "jumping" && variant != "without_restarts" && variant != "lagged") {
+        std::fprintf(stderr, "shock_on_bar: '%s' is not known; there are jumping, without_restarts, lagged\n",
+                     variant.c_str());
         return 2;
     }
     const double p = coupled_pressure();
@@ -283,16 +293,16 @@ int main(int argc, char** argv) {
                 (p - p_0) / impedance);
     std::printf(
         "  h/L     p/p_ref-1  mean |p-p_ref|  contact   mass     energy   stored   H~-work  H-H~     |e|/m v  momentum "
-        "steps events missed\n");
+        "steps of gas events missed\n");
     bool good = true;
     double coarser = 0.0;
     for (const int n : {40, 80, 160}) {
         const Result r = run(n, variant);
         const double error = r.pressure / p - 1.0, contact = r.contact_pressure / (p - p_0) - 1.0;
-        std::printf("  1/%-4d  %+.1e   %.1e         %+.1e  %.1e  %.1e  %.1e  %.1e  %.1e  %.1e  %.1e  %lld %lld %lld\n", n,
-                    error, r.pressure_error, contact, r.mass_defect, r.energy_defect, r.stored, r.drift, r.excess,
-                    r.parasitic, r.momentum_defect, static_cast<long long>(r.steps), static_cast<long long>(r.events),
-                    static_cast<long long>(r.missed));
+        std::printf("  1/%-4d  %+.1e   %.1e         %+.1e  %.1e  %.1e  %.1e  %.1e  %.1e  %.1e  %.1e  %lld %lld %lld %lld\n",
+                    n, error, r.pressure_error, contact, r.mass_defect, r.energy_defect, r.stored, r.drift, r.excess,
+                    r.parasitic, r.momentum_defect, static_cast<long long>(r.steps), static_cast<long long>(r.gas_steps),
+                    static_cast<long long>(r.events), static_cast<long long>(r.missed));
         good = good && std::abs(error) < 5e-3 && std::abs(contact) < 0.02 && r.missed == 0;
         good = good && r.mass_defect < 1e-12 && r.energy_defect < 1e-11 && r.momentum_defect < 1e-11;
         if (coarser > 0.0) good = good && r.pressure_error < 0.6 * coarser;  // order 1: the shock is spread over some cells

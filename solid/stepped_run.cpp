@@ -37,6 +37,12 @@ void SteppedRun<Dim>::record() {
 }
 
 template <int Dim>
+void SteppedRun<Dim>::restore(const RunState& state, const dynamics::RestartReport& restarts) {
+    go_on_from(state, *solid_, *memm_);
+    remedies_->go_on_from(memm_->steps(), restarts);
+}
+
+template <int Dim>
 Left<Dim> SteppedRun<Dim>::change(std::unique_ptr<Solid<Dim>> after, std::span<const std::int32_t> old_cells) {
     const Change<Dim> changed = solid::change(*solid_, memm_->state(), *after, old_cells);
     const dynamics::IntegratorState& motion = changed.state.motion;

@@ -33,6 +33,10 @@ public:
     /// Adds the present state to the ledger. Throws Diverged where its energy is not finite.
     void record();
 
+    /// Goes back to a state of this run (run_state), with what restarts had reported then: what follows has the same bits. The
+    /// ledger keeps its entries. Throws as go_on_from.
+    void restore(const RunState& state, const dynamics::RestartReport& restarts);
+
     /// Goes on with another solid, whose mesh has fewer cells or other numbers: change.hpp, which says what it throws, and
     /// nothing has changed then. The one before is gone.
     Left<Dim> change(std::unique_ptr<Solid<Dim>> after, std::span<const std::int32_t> old_cells);

@@ -129,6 +129,28 @@ ABUT_API int abut_solid_set_step(abut_solid* solid, double dt, int32_t change, a
 /* After ABUT_TOO_DEEP or ABUT_DIVERGED the run is over. */
 ABUT_API int abut_solid_step(abut_solid* solid, abut_error* error);
 
+/* Times that you dictate, while the solid keeps its own step (docs/loads.md, Times that are dictated):
+       abut_solid_begin_clock(solid, ABUT_AS_GIVEN, &error);
+       abut_solid_clock(solid, &time, &time_to_node, &error);      your step: d <= time_to_node, where its motion is known before
+       abut_solid_motion(solid, "wet", d, motion, &error);
+       abut_solid_set_traction(solid, "wet", traction, &error);
+       abut_solid_advance(solid, d, &error);
+   `abut_solid_set_traction` acts at once then, and `abut_solid_faces` has the faces as they are now. */
+enum {
+    ABUT_AS_GIVEN = 0, /* the mean of the tractions acts in each step of the solid: works are the same to round-off */
+    ABUT_TRAPEZOID = 1 /* that of loads at both of its nodes: no restarts are needed where tractions answer to the motion */
+};
+ABUT_API int abut_solid_begin_clock(abut_solid* solid, int32_t impulse, abut_error* error);
+ABUT_API int abut_solid_clock(abut_solid* solid, double* time, double* time_to_node, abut_error* error);
+/* How far the centroids of a group move in the next `d`, whatever acts; `motion` has n_faces entries. */
+ABUT_API int abut_solid_motion(abut_solid* solid, const char* group, double d, abut_array motion, abut_error* error);
+/* By a time of any length > 0. */
+ABUT_API int abut_solid_advance(abut_solid* solid, double d, abut_error* error);
+/* Keeps the state in the solid, in place of that of the call before; and goes back to it, for a step that is rejected. What follows
+   has the same bits. */
+ABUT_API int abut_solid_keep(abut_solid* solid, abut_error* error);
+ABUT_API int abut_solid_go_back(abut_solid* solid, abut_error* error);
+
 /* H~ + work_held + dissipated = its start + work_steps + work_changes + work_heat + restart_jumps, to round-off; and also
    H~ + dissipated = its start + "work" (abut_solid_get_number) + restart_jumps, whatever acts. */
 typedef struct abut_solid_state {

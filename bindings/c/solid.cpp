@@ -221,6 +221,42 @@ int abut_solid_step(abut_solid* solid, abut_error* error) {
     return with_run(solid, true, error, [&](auto& run, auto) { run.run().step(); });
 }
 
+int abut_solid_begin_clock(abut_solid* solid, int32_t impulse, abut_error* error) {
+    return with_run(solid, true, error, [&](auto& run, auto) {
+        if (impulse != ABUT_AS_GIVEN && impulse != ABUT_TRAPEZOID)
+            throw BadInput("impulse is " + std::to_string(impulse) + "; ABUT_AS_GIVEN and ABUT_TRAPEZOID are allowed.");
+        run.begin_clock(impulse == ABUT_AS_GIVEN ? solid::LoadImpulse::as_given : solid::LoadImpulse::trapezoid);
+    });
+}
+
+int abut_solid_clock(abut_solid* solid, double* time, double* time_to_node, abut_error* error) {
+    return with_run(solid, true, error, [&](auto& run, auto) {
+        check_pointer(time, "time");
+        check_pointer(time_to_node, "time_to_node");
+        *time = run.clock().time();
+        *time_to_node = run.clock().time_to_node();
+    });
+}
+
+int abut_solid_motion(abut_solid* solid, const char* group, double d, abut_array motion, abut_error* error) {
+    return with_run(solid, true, error, [&](auto& run, auto) {
+        check_pointer(group, "group");
+        run.write_motion(group, d, motion);
+    });
+}
+
+int abut_solid_advance(abut_solid* solid, double d, abut_error* error) {
+    return with_run(solid, true, error, [&](auto& run, auto) { run.clock().advance(d); });
+}
+
+int abut_solid_keep(abut_solid* solid, abut_error* error) {
+    return with_run(solid, true, error, [&](auto& run, auto) { run.keep(); });
+}
+
+int abut_solid_go_back(abut_solid* solid, abut_error* error) {
+    return with_run(solid, true, error, [&](auto& run, auto) { run.go_back(); });
+}
+
 int abut_solid_get_state(abut_solid* solid, abut_solid_state* state, abut_error* error) {
     return with_run(solid, true, error, [&](auto& run, auto) {
         check_struct(state, "abut_solid_state");

@@ -162,12 +162,36 @@ void SolidRun<Dim>::set_traction(const std::string& group, const abut_array& tra
     const PointsView<Dim> view = view_of<Dim>(traction, "traction");
     std::vector<Vector<Dim>> values;
     for (std::int32_t i = 0; i < view.size(); ++i) values.push_back(view[i]);
-    run_->solid().set_traction(group, values);
+    if (clock_)
+        clock_->set_traction(group, values);
+    else
+        run_->solid().set_traction(group, values);
+}
+
+template <int Dim>
+solid::ClockedRun<Dim>& SolidRun<Dim>::clock() {
+    if (!clock_) throw Misuse("the clock of the solid has not begun: call abut_solid_begin_clock first.");
+    return *clock_;
+}
+
+template <int Dim>
+void SolidRun<Dim>::write_motion(const std::string& group, double d, const abut_array& motion) {
+    const std::vector<Vector<Dim>> values = clock().motion(group, d);
+    require_size(motion.count, std::ssize(values), "motion", "faces of the group", "abut_solid_n_faces");
+    write_items(numbers_of<Dim>(values), Dim, motion);
+}
+
+template <int Dim>
+void SolidRun<Dim>::go_back() {
+    if (!kept_)
+        throw Misuse("abut_solid_go_back: no state is kept. Call abut_solid_keep before the step that may be rejected.");
+    clock().restore(*kept_);
 }
 
 template <int Dim>
 void SolidRun<Dim>::write_faces(const std::string& group, const abut_solid_face_arrays& faces) {
-    const solid::OutsideFaces<Dim> now = solid::outside_faces<Dim>(run_->memm(), run_->solid(), group);
+    const solid::OutsideFaces<Dim> now =
+        clock_ ? clock_->faces(group) : solid::outside_faces<Dim>(run_->memm(), run_->solid(), group);
     const auto n = std::ssize(now.area);
     const auto check_size = [n](std::int64_t given, const char* name) {
         require_size(given, n, name, "faces of the group", "abut_solid_n_faces");
@@ -175,7 +199,8 @@ void SolidRun<Dim>::write_faces(const std::string& group, const abut_solid_face_
     check_size(faces.n_faces, "abut_solid_face_arrays");
     auto& memm = run_->memm();
     const std::vector<Vector<Dim>> motion =
-        run_->solid().outside(group).motion(memm.q(), memm.next_q(), memm.time(), memm.dt());
+        clock_ ? clock_->motion(group, clock_->time_to_node())
+               : run_->solid().outside(group).motion(memm.q(), memm.next_q(), memm.time(), memm.dt());
     const std::pair<const abut_array&, const std::vector<Vector<Dim>>&> arrays[] = {
         {faces.position, now.position}, {faces.velocity, now.velocity}, {faces.normal, now.normal}, {faces.motion, motion}};
     for (const auto& [to, values] : arrays)

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "abut/mesh/mesh.hpp"
+#include "abut/solid/clocked_run.hpp"
 #include "abut/solid/outside_view.hpp"
 #include "abut/solid/solid.hpp"
 #include "abut/solid/stepped_run.hpp"
@@ -51,6 +52,13 @@ public:
     void write_state(abut_solid_state& state);
     /// From the next step on. Throws BadInput for one above the stable step.
     void set_step(double dt, dynamics::StepChange change);
+    void begin_clock(solid::LoadImpulse impulse) { clock_.emplace(*run_, impulse); }
+    /// Throws Misuse where it has not begun.
+    [[nodiscard]] solid::ClockedRun<Dim>& clock();
+    void write_motion(const std::string& group, double d, const abut_array& motion);
+    void keep() { kept_ = clock().state(); }
+    /// Throws Misuse where nothing is kept.
+    void go_back();
     /// A number of the ledger, by the name of its column.
     [[nodiscard]] double ledger_value(const std::string& column);
 
@@ -81,6 +89,8 @@ private:
     std::vector<Vector<Dim>> velocity_;
     mesh::Mesh<Dim> mesh_;
     std::optional<solid::SteppedRun<Dim>> run_;
+    std::optional<solid::ClockedRun<Dim>> clock_;
+    std::optional<typename solid::ClockedRun<Dim>::State> kept_;
     double stable_dt_ = 0.0;
 };
 

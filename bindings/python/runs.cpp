@@ -21,6 +21,7 @@
 #include "abut/run/summary.hpp"
 #include "abut/run/verdict.hpp"
 #include "abut/run/warnings.hpp"
+#include "abut/solid/clocked_run.hpp"
 #include "abut/solid/contact_view.hpp"
 #include "abut/solid/options/option_words.hpp"
 #include "abut/solid/outside_view.hpp"
@@ -232,6 +233,16 @@ public:
         const State<Dim>* operator->() const { return &state; }
     };
 
+    /// A clock of this run, which is kept with it.
+    [[nodiscard]] solid::ClockedRun<Dim> clock(const std::string& impulse) {
+        const bindings::Use use(in_use_, run_in_use);
+        if (impulse != "as_given" && impulse != "trapezoid")
+            throw py::value_error("clock: impulse is '" + impulse + "'; there are 'as_given', 'trapezoid'");
+        return solid::ClockedRun<Dim>(*run_,
+                                      impulse == "as_given" ? solid::LoadImpulse::as_given : solid::LoadImpulse::trapezoid);
+    }
+    [[nodiscard]] std::atomic_flag& in_use() const { return in_use_; }
+
 private:
     [[nodiscard]] static run::RunOptions checked(const run::Scene<Dim>& scene, const run::RunOptions& given) {
         run::check(given);
@@ -251,6 +262,52 @@ private:
     std::unique_ptr<mesh::Mesh<Dim>> mesh_;      // null: that of the scene, as long as it has all its cells
     std::optional<solid::SteppedRun<Dim>> run_;  // always there
     mutable std::atomic_flag in_use_{};
+};
+
+/// Times that Python dictates.
+template <int Dim>
+class Clock {
+public:
+    using State = typename solid::ClockedRun<Dim>::State;
+
+    Clock(Memm<Dim>& run, const std::string& impulse) : run_(run), clock_(run.clock(impulse)) {}
+
+    void advance(double d) {
+        const bindings::Use use(run_.in_use(), run_in_use);
+        const py::gil_scoped_release release;
+        clock_.advance(d);
+    }
+    void set_traction(const std::string& group, const py::object& traction) {
+        const bindings::Use use(run_.in_use(), run_in_use);
+        clock_.set_traction(group, vectors_of<Dim>(traction, "traction"));
+    }
+    [[nodiscard]] py::array_t<double> motion(const std::string& group, double d) {
+        const bindings::Use use(run_.in_use(), run_in_use);
+        return copy_of_vectors<Dim>(clock_.motion(group, d));
+    }
+    [[nodiscard]] py::dict faces(const std::string& group) {
+        const bindings::Use use(run_.in_use(), run_in_use);
+        return faces_of<Dim>(clock_.faces(group), clock_.motion(group, clock_.time_to_node()));
+    }
+    [[nodiscard]] py::array_t<double> displacement() {
+        const bindings::Use use(run_.in_use(), run_in_use);
+        const std::vector<double> q = clock_.q();
+        return copy_of_vectors<Dim>(as_vectors<Dim>(std::span<const double>(q)));
+    }
+    [[nodiscard]] State state() const {
+        const bindings::Use use(run_.in_use(), run_in_use);
+        return clock_.state();
+    }
+    void restore(const State& state) {
+        const bindings::Use use(run_.in_use(), run_in_use);
+        clock_.restore(state);
+    }
+    [[nodiscard]] double time() const { return clock_.time(); }
+    [[nodiscard]] double time_to_node() const { return clock_.time_to_node(); }
+
+private:
+    Memm<Dim>& run_;
+    solid::ClockedRun<Dim> clock_;
 };
 
 /// Whether an option has a meaning for steps that Python asks for one by one.
@@ -342,6 +399,14 @@ void add_dimension(py::module_& module, const std::string& suffix) {
         .def_property_readonly("outside_work", &Memm<Dim>::outside_work,
                                "[J]: steps, sum of area traction . motion; changes, what the bodies take in where tractions "
                                "change; held, what H~ has less for the tractions that act; heat, of temperatures that vary.")
+        .def(
+            "clock", [](Memm<Dim>& self, const std::string& impulse) { return std::make_unique<Clock<Dim>>(self, impulse); },
+            "impulse"_a = "as_given", py::keep_alive<0, 1>(),
+            "For times that you dictate, while the solid keeps its dt: a Clock. impulse: 'as_given', the mean of your "
+            "tractions acts in "
+            "each step and works are the same to round-off; 'trapezoid', that of loads at both nodes, for tractions that "
+            "answer to the "
+            "motion in a run without restarts. Make another one after remove_cells.")
         .def("remove_cells", &Memm<Dim>::remove_cells, "cells"_a,
              "Goes on without these cells, by their numbers in `mesh`: the others keep their order. Returns what has left: "
              "cells, mass [kg], momentum [kg m/s], kinetic and potential (V before less V after) [J]. dt stays: look at "
@@ -357,6 +422,22 @@ void add_dimension(py::module_& module, const std::string& suffix) {
         .def_property_readonly("masses", &Memm<Dim>::masses, "of the cells [kg]")
         .def_property_readonly("bodies", &Memm<Dim>::bodies, "mass [kg], velocity [m/s] and rotation [rad] of each")
         .def_property_readonly("contact", &Memm<Dim>::contact, "Counters since the start; missed_contacts must stay 0.");
+
+    py::class_<typename Clock<Dim>::State>(module, ("ClockState" + suffix).c_str(), "What Clock.restore goes back to.");
+    py::class_<Clock<Dim>>(module, ("Clock" + suffix).c_str(), "Times that you dictate to a run; made by memm.clock.")
+        .def("advance", &Clock<Dim>::advance, "d"_a,
+             "Goes on by d [s], of any length; steps of the run are taken as nodes are passed.")
+        .def("set_traction", &Clock<Dim>::set_traction, "group"_a, "traction"_a,
+             "Tractions (n_faces, dim) [Pa] on a group of `outside`, from now on until they are set again.")
+        .def("motion", &Clock<Dim>::motion, "group"_a, "d"_a,
+             "How far the centroids go in the next d, at most time_to_node, whatever the traction (n_faces, dim) [m].")
+        .def("faces", &Clock<Dim>::faces, "group"_a, "As faces of the run, now; motion is that until the next node.")
+        .def("state", &Clock<Dim>::state, "For restore.")
+        .def("restore", &Clock<Dim>::restore, "state"_a,
+             "Goes back, for a step that is rejected: what follows has the same bits. The ledger keeps its rows.")
+        .def_property_readonly("displacement", &Clock<Dim>::displacement, "of the points that carry mass, now (n, dim) [m]")
+        .def_property_readonly("time", &Clock<Dim>::time, "[s]")
+        .def_property_readonly("time_to_node", &Clock<Dim>::time_to_node, "to the next node of the run [s], > 0");
 
     const std::map<std::string, py::object> none;
     module.def(

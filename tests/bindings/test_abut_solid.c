@@ -86,6 +86,44 @@ static void a_pressed_bar_gives_way_and_gets_the_work(void) {
     abut_solid_destroy(solid);
 }
 
+/* Your times, and the solid's own step; a step that is taken back. */
+static void times_are_dictated(void) {
+    abut_error error = ABUT_ERROR_INIT;
+    abut_solid* solid = two_bars();
+    double motion[n_faces][2], traction[n_faces][2], work = 0.0, time = -1.0, left = -1.0;
+    CHECK(abut_solid_begin(solid, NULL, &error) == ABUT_OK);
+    CHECK(abut_solid_advance(solid, 1e-3, &error) == ABUT_MISUSE && strstr(error.message, "abut_solid_begin_clock"));
+    CHECK(abut_solid_begin_clock(solid, 2, &error) == ABUT_BAD_INPUT);
+    CHECK(abut_solid_begin_clock(solid, ABUT_AS_GIVEN, &error) == ABUT_OK);
+    CHECK(abut_solid_go_back(solid, &error) == ABUT_MISUSE && strstr(error.message, "abut_solid_keep"));
+    abut_solid_state state = ABUT_SOLID_STATE_INIT, again = ABUT_SOLID_STATE_INIT;
+    CHECK(abut_solid_get_state(solid, &state, &error) == ABUT_OK);
+    for (int i = 0; i < 90; ++i) {
+        CHECK(abut_solid_clock(solid, &time, &left, &error) == ABUT_OK && left > 0.0 && left <= state.dt * (1.0 + 1e-12));
+        const double part = state.dt * (0.1 + 0.17 * (i % 5)), d = i == 89 || part > left ? left : part;
+        CHECK(abut_solid_motion(solid, pressed, d, packed(motion, n_faces), &error) == ABUT_OK);
+        for (int face = 0; face < n_faces; ++face) {
+            traction[face][0] = pressure * (1.0 + 0.5 * (i % 3)), traction[face][1] = 0.0;
+            work += 0.025 * traction[face][0] * motion[face][0];
+        }
+        CHECK(abut_solid_set_traction(solid, pressed, packed(traction, n_faces), &error) == ABUT_OK);
+        CHECK(abut_solid_advance(solid, d, &error) == ABUT_OK);
+    }
+    CHECK(abut_solid_get_state(solid, &state, &error) == ABUT_OK);
+    CHECK(work > 0.0 && fabs(state.work_steps - work) < 1e-12 * work);
+    CHECK(abut_solid_motion(solid, pressed, 2.0 * state.dt, packed(motion, n_faces), &error) == ABUT_BAD_INPUT);
+    CHECK(abut_solid_motion(solid, pressed, 0.5 * state.dt, packed(motion, 1), &error) == ABUT_BAD_INPUT);
+    CHECK(abut_solid_advance(solid, 0.0, &error) == ABUT_BAD_INPUT && strstr(error.message, "finite time > 0"));
+    CHECK(abut_solid_keep(solid, &error) == ABUT_OK);
+    CHECK(abut_solid_advance(solid, 7.3 * state.dt, &error) == ABUT_OK);
+    CHECK(abut_solid_get_state(solid, &state, &error) == ABUT_OK);
+    CHECK(abut_solid_go_back(solid, &error) == ABUT_OK);
+    CHECK(abut_solid_advance(solid, 7.3 * state.dt, &error) == ABUT_OK);
+    CHECK(abut_solid_get_state(solid, &again, &error) == ABUT_OK);
+    CHECK(again.pseudo_energy == state.pseudo_energy && again.time == state.time && again.steps == state.steps);
+    abut_solid_destroy(solid);
+}
+
 /* They are those of abut run --dt, --cfl and --restart; 0 stands for the default. */
 static void numbers_outside_the_limits_of_runs_are_refused(void) {
     abut_error error = ABUT_ERROR_INIT;
@@ -275,6 +313,7 @@ static void a_file_brings_bodies_and_groups(const char* folder) {
 
 int main(int argc, char** argv) {
     a_pressed_bar_gives_way_and_gets_the_work();
+    times_are_dictated();
     numbers_outside_the_limits_of_runs_are_refused();
     friction_takes_what_the_balance_says();
     glued_pieces_are_one_until_they_part();

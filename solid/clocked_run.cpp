@@ -1,0 +1,124 @@
+#include "abut/solid/clocked_run.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "abut/base/error.hpp"
+#include "abut/base/messages.hpp"
+#include "abut/solid/outside_view.hpp"
+
+namespace abut::solid {
+
+template <int Dim>
+ClockedRun<Dim>::ClockedRun(SteppedRun<Dim>& run, LoadImpulse impulse) : run_(run), impulse_(impulse), clock_(run.memm()) {
+    for (const TractionCondition<Dim>& condition : run_.solid().options().boundary.traction) {
+        if (!condition.from_outside) continue;
+        const std::span<const Vector<Dim>> traction = run_.solid().outside(condition.group).traction();
+        const std::vector<Vector<Dim>> nothing(traction.size(), Vector<Dim>::Zero());
+        loads_.push_back({condition.group, {traction.begin(), traction.end()}, nothing, nothing, nothing});
+    }
+}
+
+template <int Dim>
+typename ClockedRun<Dim>::Load& ClockedRun<Dim>::load_on(const std::string& group) {
+    return *std::ranges::find(loads_, group, &Load::group);
+}
+
+template <int Dim>
+void ClockedRun<Dim>::set_traction(const std::string& group, std::span<const Vector<Dim>> traction) {
+    run_.solid().set_traction(group, traction);  // which knows groups and their sizes; at the node the mean takes its place
+    load_on(group).traction.assign(traction.begin(), traction.end());
+}
+
+/// The traction of the step that ends.
+template <int Dim>
+void ClockedRun<Dim>::set_mean(Load& load) {
+    const double tau = run_.memm().dt();
+    std::vector<Vector<Dim>> mean(load.impulse.size());
+    for (std::size_t face = 0; face < mean.size(); ++face) {
+        const Vector<Dim> given = load.impulse[face] / tau;
+        mean[face] = given;
+        if (impulse_ == LoadImpulse::trapezoid) {
+            const Vector<Dim> next = 1.5 * given - 0.5 * load.mean_before[face];
+            mean[face] = 0.5 * (load.at_node[face] + next);
+            load.at_node[face] = next;
+            load.mean_before[face] = given;
+        }
+        load.impulse[face].setZero();
+    }
+    run_.solid().set_traction(load.group, mean);
+}
+
+template <int Dim>
+void ClockedRun<Dim>::advance(double d) {
+    const auto piece = [&](double s) {
+        for (Load& load : loads_) {
+            if (!has_begun_) load.at_node = load.mean_before = load.traction;
+            for (std::size_t face = 0; face < load.impulse.size(); ++face) load.impulse[face] += s * load.traction[face];
+        }
+        has_begun_ = true;
+    };
+    const auto node = [&] {
+        for (Load& load : loads_) set_mean(load);
+    };
+    clock_.advance(d, piece, node, [&] { run_.step(); });
+}
+
+template <int Dim>
+std::vector<Vector<Dim>> ClockedRun<Dim>::motion(const std::string& group, double d) {
+    constexpr double nearness = 1e-9;  // of the step
+    dynamics::Memm<Solid<Dim>>& memm = run_.memm();
+    if (!(d > 0.0) || d > time_to_node() + nearness * memm.dt())
+        throw BadInput("the motion of '" + group + "' over " + number(d) + " s: it is known for " + number(time_to_node()) +
+                           " s, until the next node of the solid. Ask for a time > 0 up to that (time_to_node).",
+                       {.value = d, .allowed = time_to_node()});
+    std::vector<Vector<Dim>> motion = run_.solid().outside(group).motion(memm.q(), memm.next_q(), memm.time(), memm.dt());
+    for (Vector<Dim>& of_face : motion) of_face *= d / memm.dt();
+    return motion;
+}
+
+template <int Dim>
+OutsideFaces<Dim> ClockedRun<Dim>::faces(const std::string& group) {
+    dynamics::Memm<Solid<Dim>>& memm = run_.memm();
+    OutsideFaces<Dim> faces = outside_faces<Dim>(memm, run_.solid(), group);
+    const std::vector<Vector<Dim>> motion =
+        run_.solid().outside(group).motion(memm.q(), memm.next_q(), memm.time(), memm.dt());
+    for (std::size_t face = 0; face < motion.size(); ++face) {
+        faces.position[face] += clock_.since() / memm.dt() * motion[face];
+        faces.velocity[face] = motion[face] / memm.dt();
+    }
+    return faces;
+}
+
+template <int Dim>
+typename ClockedRun<Dim>::State ClockedRun<Dim>::state() const {
+    State state{run_state(run_.solid(), run_.memm()), run_.restarts(), clock_.time(), {}};
+    for (const Load& load : loads_)
+        for (const std::vector<Vector<Dim>>* values : load.all()) state.loads.push_back(*values);
+    state.has_begun = has_begun_;
+    return state;
+}
+
+template <int Dim>
+void ClockedRun<Dim>::restore(const State& state) {
+    std::vector<Load> loads = loads_;
+    const auto is_of_this_run = [&] {
+        if (state.loads.size() != 4 * loads.size()) return false;
+        for (std::size_t i = 0; i < state.loads.size(); ++i)
+            if (state.loads[i].size() != loads[i / 4].traction.size()) return false;
+        return true;
+    };
+    if (!is_of_this_run())
+        throw BadInput(
+            "ClockedRun: the state has loads on other groups or faces than this run. Restore one that it has given.");
+    for (std::size_t i = 0; i < state.loads.size(); ++i) *loads[i / 4].all()[i % 4] = state.loads[i];
+    run_.restore(state.run, state.restarts);
+    clock_.restore(state.time);
+    loads_ = std::move(loads);
+    has_begun_ = state.has_begun;
+}
+
+template class ClockedRun<2>;
+template class ClockedRun<3>;
+
+}  // namespace abut::solid
