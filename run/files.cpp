@@ -10,6 +10,7 @@
 #include "abut/base/error.hpp"
 #include "abut/base/text.hpp"
 #include "abut/dynamics/ledger.hpp"
+#include "abut/mesh/io/write_vtu.hpp"
 #include "abut/run/animation.hpp"
 #include "abut/run/failure_files.hpp"
 #include "abut/run/paraview_script.hpp"
@@ -28,17 +29,27 @@ bool take(std::string_view& text, std::string_view start) {
     return true;
 }
 
-/// <series>.pvd, .xmf, .h5, .h5.journal, <series>_000012.vtu, and the same with .vtp behind _surface, _pairs and _obstacles; of frames in pieces
-/// <series>_000012.pvtu and <series>_000012_3.vtu; and, with a dot in front, what a frame
-/// is called while it is written.
-bool belongs_to_series(std::string_view name, std::string_view series) {
+/// Drops the name of a series, and of those beside it, and a dot in front: what a file is called while it is written. Says whether it is
+/// that of the cells.
+bool take_series(std::string_view& name, std::string_view series, bool& is_of_cells) {
     take(name, ".");
     if (!take(name, series)) return false;
-    const bool cells = !take(name, "_surface") && !take(name, pairs_series("")) && !take(name, obstacles_series(""));
-    if (name == ".pvd" || name == ".part.pvd" || name == ".xmf" || name == ".xmf.partial" ||
-        (cells && (name == ".h5" || name == ".h5.journal" || name == ".h5.journal.partial")))
-        return true;
-    if (!take(name, "_")) return false;
+    is_of_cells = !take(name, "_surface") && !take(name, pairs_series("")) && !take(name, obstacles_series(""));
+    return true;
+}
+
+/// <series>.pvd, .xmf, .h5, .h5.journal, and .pvd of those beside it.
+bool is_list(std::string_view name, std::string_view series) {
+    bool cells = false;
+    if (!take_series(name, series, cells)) return false;
+    return name == ".pvd" || name == ".part.pvd" || name == ".xmf" || name == ".xmf.partial" ||
+           (cells && (name == ".h5" || name == ".h5.journal" || name == ".h5.journal.partial"));
+}
+
+/// <series>_000012.vtu, and .vtp of those beside it; of frames in pieces <series>_000012.pvtu and <series>_000012_3.vtu.
+bool is_frame(std::string_view name, std::string_view series) {
+    bool cells = false;
+    if (!take_series(name, series, cells) || !take(name, "_")) return false;
     const std::size_t digits = std::min(name.find_first_not_of("0123456789"), name.size());
     if (digits < 6) return false;
     name.remove_prefix(digits);
@@ -62,14 +73,23 @@ void remove_result(const fs::path& path) {
                         path.string(), error.message()));
 }
 
-/// Names of the files of a series that are there.
-std::vector<std::string> files_of_series(const fs::path& directory, const std::string& series) {
+/// Names of the files in a folder that belong to a series, which `belongs` tells.
+template <class Belongs>
+std::vector<std::string> names_in(const fs::path& directory, const std::string& series, const Belongs& belongs) {
     std::vector<std::string> names;
     std::error_code error;
     for (fs::directory_iterator entry(directory, error), end; !error && entry != end; entry.increment(error))
-        if (const std::string name = entry->path().filename().string(); belongs_to_series(name, series))
-            names.push_back(name);
+        if (const std::string name = entry->path().filename().string(); belongs(name, series)) names.push_back(name);
     if (error) refuse_directory(directory, error.message());
+    return names;
+}
+
+/// The lists and frames of a series that are there, from the folder of results.
+std::vector<std::string> files_of_series(const fs::path& directory, const std::string& series) {
+    std::vector<std::string> names = names_in(directory, series, is_list);
+    if (const fs::path frames = directory / mesh::frames_folder; fs::is_directory(frames))
+        for (const std::string& name : names_in(frames, series, is_frame))
+            names.push_back((fs::path(mesh::frames_folder) / name).string());
     return names;
 }
 
@@ -113,10 +133,13 @@ void claim_results(const fs::path& directory, const std::vector<std::string>& na
 
 void remove_files(const fs::path& directory, const std::vector<std::string>& names) {
     for (const fs::path name : names) {
-        const std::string stem = name.stem().string(), extension = name.extension().string();
-        for (const std::string& present : {name.string(), name.string() + ".partial", stem + ".partial" + extension})
-            remove_result(directory / present);
+        const std::string file = name.filename().string(), stem = name.stem().string(),
+                          extension = name.extension().string();
+        for (const std::string& present : {file, file + ".partial", stem + ".partial" + extension})
+            remove_result(directory / name.parent_path() / present);
     }
+    std::error_code in_use;
+    fs::remove(directory / mesh::frames_folder, in_use);  // where nothing is left in it
 }
 
 void write_whole(const fs::path& path, const std::string& text) {

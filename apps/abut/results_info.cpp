@@ -11,6 +11,7 @@
 
 #include "abut/base/error.hpp"
 #include "abut/base/input_file.hpp"
+#include "abut/mesh/io/write_vtu.hpp"
 #include "apps/abut/info_lines.hpp"
 
 namespace abut::apps {
@@ -90,16 +91,15 @@ std::string unfinished_lines(const fs::path& path) {
 /// One by one, frames by their ending.
 std::string file_lines(const fs::path& folder) {
     std::vector<std::string> names;
-    std::map<std::string, int> frames;
-    for (const auto& entry : fs::directory_iterator(folder)) {
-        const std::string extension = entry.path().extension().string();
-        if (extension == ".vtu" || extension == ".vtp" || extension == ".pvtu" || extension == ".pvtp")
-            ++frames[extension];
-        else
-            names.push_back(entry.path().filename().string());
-    }
+    for (const auto& entry : fs::directory_iterator(folder))
+        if (const std::string name = entry.path().filename().string(); name != mesh::frames_folder) names.push_back(name);
     std::ranges::sort(names);
-    for (const auto& [extension, count] : frames) names.push_back(fmt::format("{} {} files", count, extension));
+    if (const fs::path of_frames = folder / mesh::frames_folder; fs::is_directory(of_frames)) {
+        std::map<std::string, int> frames;
+        for (const auto& entry : fs::directory_iterator(of_frames)) ++frames[entry.path().extension().string()];
+        for (const auto& [extension, count] : frames)
+            names.push_back(fmt::format("{} {} files in {}", count, extension, mesh::frames_folder));
+    }
     return info_line("files", fmt::format("{}", fmt::join(names, ", ")));
 }
 

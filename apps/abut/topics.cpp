@@ -95,7 +95,8 @@ const Topic output{"output", "Results",
   energy.svg           their picture
   animation.html       the run as a film, in any browser (--animation 100)
   bodies.pvd           cells over time for ParaView (--frames), bodies_surface.pvd boundary faces,
-                       bodies_pairs.pvd pairs of faces in contact; with --format xdmf
+                       bodies_pairs.pvd pairs of faces in contact. The frames that they list are in
+                       the folder frames; with --format xdmf
                        bodies.xmf and bodies_surface.xmf, all frames in bodies.h5
   view_in_paraview.py  opens them with sensible views: paraview --script=...
 

@@ -6,6 +6,7 @@
 
 #include "abut/mesh/io/series_files.hpp"
 #include "abut/mesh/io/vtk_output.hpp"
+#include "abut/mesh/io/write_vtu.hpp"
 
 namespace abut::mesh {
 namespace {
@@ -30,7 +31,7 @@ OutputGrid grid_of(const PointFrame<Dim>& frame) {
 template <int Dim>
 PointSeries<Dim>::PointSeries(std::filesystem::path directory, std::string basename)
     : directory_(std::move(directory)), basename_(std::move(basename)) {
-    make_directory(directory_);
+    make_directory(directory_ / frames_folder);
 }
 
 template <int Dim>
@@ -41,7 +42,7 @@ void PointSeries<Dim>::write(const PointFrame<Dim>& frame) {
     add_fields<Dim>(grid.point_data, frame.fields, frame.position.size(), "points", "PointSeries");
     auto times = times_;
     times.push_back(frame.time);
-    auto file = prepared_grid(grid, directory_ / frame_name(basename_, times_.size(), extension));
+    auto file = prepared_grid(grid, directory_ / frame_path(basename_, times_.size(), extension));
     auto list = prepared_list(directory_, basename_, extension, times);
     file.move_into_place();
     list.move_into_place();

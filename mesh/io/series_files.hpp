@@ -11,6 +11,8 @@ namespace abut::mesh {
 
 /// BASENAME_000012.vtp, with the extension given.
 [[nodiscard]] std::string frame_name(const std::string& basename, std::size_t frame, const char* extension);
+/// frames/BASENAME_000012.vtp
+[[nodiscard]] std::filesystem::path frame_path(const std::string& basename, std::size_t frame, const char* extension);
 /// BASENAME.pvd: the frames with their times [s]. Throws MeshError.
 [[nodiscard]] PreparedFile prepared_list(const std::filesystem::path& directory, const std::string& basename,
                                          const char* extension, const std::vector<double>& times);

@@ -8,6 +8,7 @@
 #include "abut/mesh/io/series_files.hpp"
 #include "abut/mesh/io/vtk_grids.hpp"
 #include "abut/mesh/io/vtk_output.hpp"
+#include "abut/mesh/io/write_vtu.hpp"
 
 namespace abut::mesh {
 namespace {
@@ -85,8 +86,9 @@ void write_piece(const std::filesystem::path& directory, const std::string& base
     add_fields<Dim>(surface.cell_data, frame.boundary_fields, surface.n_cells, "boundary faces", writer);
 
     const auto path = [&](const std::string& name, const char* extension) {
-        return directory / frame_name(name, frame_number, piece_extension(piece, extension).c_str());
+        return directory / frame_path(name, frame_number, piece_extension(piece, extension).c_str());
     };
+    make_directory(directory / frames_folder);  // which another rank may not have made yet
     auto of_cells = prepared_grid(cells, path(basename, ".vtu"));
     auto of_surface = prepared_grid(surface, path(surface_name(basename), ".vtp"));
     of_cells.move_into_place();
@@ -95,7 +97,7 @@ void write_piece(const std::filesystem::path& directory, const std::string& base
 
 PieceSeries::PieceSeries(std::filesystem::path directory, std::string basename)
     : directory_(std::move(directory)), basename_(std::move(basename)) {
-    make_directory(directory_);
+    make_directory(directory_ / frames_folder);
 }
 
 template <int Dim>
@@ -104,13 +106,13 @@ void PieceSeries::publish(int n_pieces, const Mesh<Dim>& mesh, const PieceFrame<
     const std::string numbers = array_line("body", 1, "Int32");
     std::string groups;
     for (const BoundaryGroup& group : mesh.groups) groups += array_line(group_array(group.name), 1, "UInt8");
-    prepared_text(directory_ / frame_name(basename_, n_frames(), cells_extension),
+    prepared_text(directory_ / frame_path(basename_, n_frames(), cells_extension),
                   head_of_pieces("PUnstructuredGrid", frame.time,
                                  numbers + array_line("cell", 1, "Int32") + array_line("displacement", 3) +
                                      field_lines(frame.cell_fields),
                                  piece_names(basename_, n_frames(), n_pieces, ".vtu")))
         .move_into_place();
-    prepared_text(directory_ / frame_name(surface, n_frames(), surface_extension),
+    prepared_text(directory_ / frame_path(surface, n_frames(), surface_extension),
                   head_of_pieces("PPolyData", frame.time,
                                  numbers + groups + array_line("face", 1, "Int32") + field_lines(frame.boundary_fields),
                                  piece_names(surface, n_frames(), n_pieces, ".vtp")))

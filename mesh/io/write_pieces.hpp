@@ -25,7 +25,7 @@ struct PieceFrame {
     std::vector<Field<Dim>> boundary_fields{};         ///< each of n_faces
 };
 
-/// A series for ParaView, written in pieces: as VtuSeries, but a frame is BASENAME_000000.pvtu, which names the files of its
+/// A series for ParaView, written in pieces: as VtuSeries, but a frame is frames/BASENAME_000000.pvtu, which names the files of its
 /// pieces BASENAME_000000_0.vtu, ..., and so is that of the surfaces (.pvtp, .vtp). Cells have a cell array more, "cell", their
 /// number in the mesh; boundary faces have "face", their index in Mesh::boundary_faces.
 ///

@@ -76,7 +76,7 @@ void VtuSeries<Dim>::Files::add_vertex_displacement(std::span<const Vector<Dim>>
 
 template <int Dim>
 VtuSeries<Dim>::VtuSeries(const Path& directory, const std::string& basename, const Mesh<Dim>& mesh) {
-    make_directory(directory);
+    make_directory(directory / frames_folder);
     const std::vector<std::int32_t> boundary = all_of(mesh.boundary_faces.size());
     auto vertices = surface_vertices(mesh, boundary);
     auto surface = grid_of_surface(mesh, boundary, vertices);
@@ -116,10 +116,10 @@ void VtuSeries<Dim>::write(const Frame<Dim>& frame) {
 
     auto times = files_->times;
     const std::string time = field_time(frame.time);
-    auto of_cells = prepared_grid(files_->cells, files_->directory / frame_name(files_->basename, times.size(), ".vtu"),
+    auto of_cells = prepared_grid(files_->cells, files_->directory / frame_path(files_->basename, times.size(), ".vtu"),
                                   time, data.of_points, data.of_cells);
     auto of_surface =
-        prepared_grid(files_->surface, files_->directory / frame_name(files_->surface_name(), times.size(), ".vtp"), time,
+        prepared_grid(files_->surface, files_->directory / frame_path(files_->surface_name(), times.size(), ".vtp"), time,
                       data.of_surface_points, data.of_faces);
     of_cells.move_into_place();
     of_surface.move_into_place();

@@ -38,9 +38,12 @@ struct Frame {
     std::vector<Field<Dim>> boundary_fields{};  ///< each of boundary_faces.size(), in that order
 };
 
-/// The mesh in motion, as files for ParaView: BASENAME_000000.vtu, ... with the cells and
-/// BASENAME_surface_000000.vtp, ... with the boundary faces, and BASENAME.pvd and BASENAME_surface.pvd that list
-/// them with their times (open these two).
+/// The folder of the frames of a series, in that of its lists.
+inline constexpr const char* frames_folder = "frames";
+
+/// The mesh in motion, as files for ParaView: frames/BASENAME_000000.vtu, ... with the cells and
+/// frames/BASENAME_surface_000000.vtp, ... with the boundary faces. BASENAME.pvd and BASENAME_surface.pvd list them with their
+/// times: open these two.
 ///
 /// Both carry the cell array "body", the number "body: <name>" of each body and the time, "TimeValue"; boundary faces an array
 /// "group: <name>" for each group of the mesh, 1 on its faces and 0 elsewhere. The displacement is written on cells and on points, where the filter Warp By Vector

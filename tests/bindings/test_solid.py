@@ -222,7 +222,7 @@ class Runs(unittest.TestCase):
             self.assertEqual(len(rows), len(result["ledger"]))
             energy = "pseudo_energy [J/m]"
             np.testing.assert_array_equal([float(row[energy]) for row in rows], result["ledger"]["pseudo_energy"])
-            frames = sorted(pathlib.Path(folder).glob("bodies_0*.vtu"))
+            frames = sorted(pathlib.Path(folder).glob("frames/bodies_0*.vtu"))
             self.assertEqual(len(frames), 3)
             for frame in frames:
                 np.testing.assert_allclose(solid.read_mesh(frame, 2).measures.sum(), two_boxes().measures.sum(), rtol=1e-12)
@@ -305,6 +305,45 @@ class Runs(unittest.TestCase):
         self.assertAlmostEqual(gained, booked["steps"] + booked["changes"], delta=1e-12 * last["kinetic"])
         self.assertNotEqual(last["restart_jumps"], 0.0)
         np.testing.assert_array_equal(now["normal"], np.tile([1.0, 0.0], (n, 1)))
+
+    def test_a_clock_takes_loads_at_any_times_and_goes_back_with_the_same_bits(self):
+        run = solid.memm(two_boxes(), outside=["upper.xmax"], **falling(restart=20))
+        clock = run.clock()
+        random = np.random.default_rng(5)
+        n, work = len(clock.faces("upper.xmax")["area"]), 0.0
+
+        def go(steps):
+            nonlocal work
+            for _ in range(steps):
+                d = min(random.uniform(0.1, 1.0) * run.dt, clock.time_to_node)
+                faces, motion = clock.faces("upper.xmax"), clock.motion("upper.xmax", d)
+                traction = 1e-3 * random.uniform(-1.0, 1.0, (n, 2)) + [2e-3, 0.0]
+                clock.set_traction("upper.xmax", traction)
+                clock.advance(d)
+                work += np.sum(faces["area"][:, None] * traction * motion)
+
+        go(60)
+        faces, d = clock.faces("upper.xmax"), clock.time_to_node
+        work += np.sum(faces["area"][:, None] * faces["traction"] * clock.motion("upper.xmax", d))
+        clock.advance(d)
+        self.assertEqual(clock.time, run.time)
+        self.assertAlmostEqual(run.outside_work["steps"], work, delta=1e-12 * abs(work))
+        state, seed = clock.state(), random.bit_generator.state
+        go(30)
+        end = clock.displacement
+        clock.restore(state)
+        clock.advance(5.3 * run.dt)
+        clock.restore(state)
+        random.bit_generator.state = seed
+        go(30)
+        np.testing.assert_array_equal(clock.displacement, end)
+        for d in (0.0, -1.0, np.nan):
+            with self.assertRaisesRegex(abut.BadInput, "give a finite time > 0"):
+                clock.advance(d)
+        with self.assertRaisesRegex(abut.BadInput, "until the next node"):
+            clock.motion("upper.xmax", 2.0 * run.dt)
+        with self.assertRaisesRegex(ValueError, "there are 'as_given', 'trapezoid'"):
+            run.clock("given")
 
     def test_loads_from_outside_that_cannot_be_are_refused(self):
         run = solid.memm(two_boxes(), outside=["upper.xmax"], **falling())

@@ -121,7 +121,7 @@ def check_numbers(data, what):
 
 def check_written_by_abut(folder):
     subprocess.run([PROGRAM, "write", str(folder)], check=True)
-    paths = sorted(path for path in folder.iterdir() if path.suffix in (".vtu", ".vtp"))
+    paths = sorted(path for path in folder.rglob("*") if path.suffix in (".vtu", ".vtp"))
     check(len(paths) == 19, f"files that Abut wrote: {len(paths)}")
     for path, grid in zip(paths, read_by_abut(paths)):
         data = vtk_data(path)
@@ -143,7 +143,7 @@ def check_written_by_abut(folder):
                 check(same(numpy.concatenate(blocks), grid.data["cell_data"][name][1]), f"{path.name}: '{name}' of meshio")
     check(grid_names(folder) == {"body", "displacement", "a < b & \"c\" [J]", "stress [Pa]"}, "names of arrays")
     for kind in ("vtu", "vtp"):
-        heads = folder / f"pieces{'' if kind == 'vtu' else '_surface'}_000000.p{kind}"
+        heads = folder / f"frames/pieces{'' if kind == 'vtu' else '_surface'}_000000.p{kind}"
         pieces = read_by_abut([heads.with_name(f"{heads.stem}_{i}.{kind}") for i in (0, 1)])
         whole = as_grid(vtk_data(heads))
         check_numbers(vtk_data(heads).GetFieldData(), heads.name)
@@ -159,7 +159,7 @@ def check_written_by_abut(folder):
 
 
 def grid_names(folder):
-    return set(read_by_abut([folder / "plane_0_000000.vtu"])[0].data["cell_data"])
+    return set(read_by_abut([folder / "frames/plane_0_000000.vtu"])[0].data["cell_data"])
 
 
 TYPES = {core.vtkSignedCharArray: (-2**7, 2**7), core.vtkUnsignedCharArray: (0, 2**8), core.vtkShortArray: (-2**15, 2**15),

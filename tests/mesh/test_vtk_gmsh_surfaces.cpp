@@ -116,7 +116,7 @@ TEST_CASE("VTU gives its surface cells, or the boundary of its volume with the d
     std::vector<Vector<3>> u(static_cast<std::size_t>(box.n_cells()), Vector<3>(1, 2, 3));
     VtuSeries<3> series(folder.path(), "run", box);
     series.write({.displacement = u});
-    const SurfaceMesh boundary = read_surface(folder / "run_000000.vtu");
+    const SurfaceMesh boundary = read_surface(folder / "frames/run_000000.vtu");
     CHECK(boundary.faces.size() == 2 * (4 * 3 + 3 * 5 + 5 * 4));
     check_is_solid(boundary, 2.0 * 1.0 * 3.0, box.body_names[0]);
     CHECK(boundary.displacement == std::vector<Vector<3>>(boundary.vertices.size(), Vector<3>(1, 2, 3)));

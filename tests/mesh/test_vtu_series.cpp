@@ -31,12 +31,14 @@ std::vector<Listed> list_of(const std::filesystem::path& path) {
 }
 
 std::size_t n_files(const std::filesystem::path& folder) {
-    return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(folder), {}));
+    std::size_t n = 0;
+    for (const auto& file : std::filesystem::recursive_directory_iterator(folder)) n += file.is_regular_file();
+    return n;
 }
 
 std::size_t n_half_written(const std::filesystem::path& folder) {
     std::size_t n = 0;
-    for (const auto& file : std::filesystem::directory_iterator(folder))
+    for (const auto& file : std::filesystem::recursive_directory_iterator(folder))
         n += file.path().filename().string().find(".part") != std::string::npos;
     return n;
 }
@@ -74,7 +76,7 @@ TEMPLATE_TEST_CASE_SIG("a series that is read back holds the fields, padded to t
     const auto listed = list_of(folder / "out/run.pvd");
     REQUIRE(listed.size() == 3);
     CHECK(listed[2].time == 1.0 / 3.0);
-    CHECK(listed[2].file == "run_000002.vtu");
+    CHECK(listed[2].file == "frames/run_000002.vtu");
     const auto surfaces = list_of(folder / "out/run_surface.pvd");
     REQUIRE(surfaces.size() == 3);
     CHECK(n_files(folder / "out") == 8);  // nothing half-written left behind
@@ -115,7 +117,7 @@ TEST_CASE("a frame says its time, the numbers of bodies by name, and which bound
     const Mesh<2> mesh = build_mesh<2>(soup);
     VtuSeries<2> series(folder.path(), "run", mesh);
     series.write({.time = 0.1});
-    for (const char* name : {"run_000000.vtu", "run_surface_000000.vtp"}) {
+    for (const char* name : {"frames/run_000000.vtu", "frames/run_surface_000000.vtp"}) {
         std::ifstream file(folder / name, std::ios::binary);
         const std::string text{std::istreambuf_iterator<char>(file), {}};
         CHECK_THAT(text,
@@ -123,7 +125,7 @@ TEST_CASE("a frame says its time, the numbers of bodies by name, and which bound
                        Contains("Name=\"body: left\" NumberOfTuples=\"1\" format=\"ascii\">0<") &&
                        Contains("Name=\"body: a &lt; b &amp; &quot;c&quot;\" NumberOfTuples=\"1\" format=\"ascii\">1<"));
     }
-    const VtkGrid surface = read_grid(folder / "run_surface_000000.vtp");
+    const VtkGrid surface = read_grid(folder / "frames/run_surface_000000.vtp");
     REQUIRE(surface.n_cells() == 6);
     for (std::size_t face = 0; face < surface.n_cells(); ++face) {
         const auto corners = surface.corners_of(face);
@@ -157,7 +159,7 @@ TEST_CASE("the displacement of a vertex is the mean of its own body's cells", "[
     for (std::size_t c = 6; c < 12; ++c) u[c] = {-3, 2};
     VtuSeries<2> series(folder.path(), "pair", mesh);
     series.write({.displacement = u});
-    const VtkGrid grid = read_grid(folder / "pair_000000.vtu");
+    const VtkGrid grid = read_grid(folder / "frames/pair_000000.vtu");
     const VtkArray* displacement = find_array(grid.point_data, "displacement");
     for (std::size_t point = 0; point < grid.points.size(); ++point)
         CHECK(component(displacement, point, 0) == (point < 7 ? 1.0 : -3.0));
@@ -170,7 +172,7 @@ TEST_CASE("a displacement that is known at the vertices is written there as it i
     for (const Vector<2>& x : mesh.vertices) u.emplace_back(x[1], -x[0]);
     VtuSeries<2> series(folder.path(), "turned", mesh);
     series.write({.vertex_displacement = u});
-    const VtkGrid grid = read_grid(folder / "turned_000000.vtu");
+    const VtkGrid grid = read_grid(folder / "frames/turned_000000.vtu");
     const VtkArray* displacement = find_array(grid.point_data, "displacement");
     CHECK(find_array(grid.cell_data, "displacement") == nullptr);
     for (std::size_t point = 0; point < grid.points.size(); ++point)
@@ -216,8 +218,8 @@ TEST_CASE("a frame that cannot be finished leaves the lists of the frames before
     VtuSeries<2> series(folder.path(), "run", mesh);
     series.write({.time = 1.0});
     // Folders in the way: of a frame's second file, of its first, of the second list, and of where either list is prepared.
-    const std::string obstacle = GENERATE("run_surface_000001.vtp", "run_000001.vtu", "run_surface.pvd", ".run.part.pvd",
-                                          ".run_surface.part.pvd", ".run_surface_000001.part.vtp");
+    const std::string obstacle = GENERATE("frames/run_surface_000001.vtp", "frames/run_000001.vtu", "run_surface.pvd",
+                                          ".run.part.pvd", ".run_surface.part.pvd", "frames/.run_surface_000001.part.vtp");
     CAPTURE(obstacle);
     const bool is_list = obstacle == "run_surface.pvd";
     if (is_list) std::filesystem::remove(folder / obstacle);
@@ -251,7 +253,7 @@ TEST_CASE("numbers in files and messages do not follow the locale of the program
     series.write({.time = 1234567.25});
     series.write({.time = 1.0 / 3.0});
     CHECK_THROWS_WITH(disc({.radius = -1.5}), Contains("radius is -1.5 m"));
-    CHECK(std::ssize(read_grid(folder / "run_000001.vtu").cell_types) == mesh.n_cells());
+    CHECK(std::ssize(read_grid(folder / "frames/run_000001.vtu").cell_types) == mesh.n_cells());
     std::locale::global(std::locale::classic());
     const auto listed = list_of(folder / "run.pvd");
     REQUIRE(listed.size() == 2);

@@ -90,10 +90,10 @@ def check_pieces(program, scene, folder, expected):
     """Each rank leaves its own cells of a frame; a run in the same folder leaves nothing of them."""
     pieces = folder / "pieces"
     subprocess.run(command(program, scene, pieces, "--ranks", "2", "--pieces"), check=True)
-    for name in ("bodies_000002.pvtu", "bodies_000002_0.vtu", "bodies_000002_1.vtu", "bodies_surface_000002.pvtp"):
+    for name in ("frames/bodies_000002.pvtu", "frames/bodies_000002_0.vtu", "frames/bodies_000002_1.vtu", "frames/bodies_surface_000002.pvtp"):
         assert (pieces / name).exists(), sorted(os.listdir(pieces))
-    assert "bodies_000002.pvtu" in (pieces / "bodies.pvd").read_text()
-    for name in ("energy.csv", "bodies_pairs_000002.vtp"):
+    assert "frames/bodies_000002.pvtu" in (pieces / "bodies.pvd").read_text()
+    for name in ("energy.csv", "frames/bodies_pairs_000002.vtp"):
         assert (pieces / name).read_bytes() == expected[name], name
     subprocess.run(command(program, scene, pieces, "--ranks", "2"), check=True)
     require_same(expected, files_of(pieces), "after frames in pieces")

@@ -61,9 +61,9 @@ def in_hdf5(name):
 
 
 def compare(vtu, xdmf):
-    frames = sorted(vtu.glob("bodies_0*.vtu"))
+    frames = sorted(vtu.glob("frames/bodies_0*.vtu"))
     assert len(frames) == 4
-    assert not list(xdmf.glob("bodies_0*")) and not list(xdmf.glob("bodies_surface_0*")), "frames of the other format"
+    assert not [*xdmf.glob("frames/bodies_0*"), *xdmf.glob("frames/bodies_surface_0*")], "frames of the other format"
     with h5py.File(xdmf / "bodies.h5") as h5, meshio.xdmf.TimeSeriesReader(xdmf / "bodies.xmf") as series:
         assert sorted(h5["frames"]) == [f"{i:06}" for i in range(len(frames))]
         points, cells = series.read_points_cells()
@@ -85,7 +85,7 @@ def compare(vtu, xdmf):
             for name, blocks in mesh.cell_data.items():
                 same(numpy.concatenate(cell_data[name]), numpy.concatenate(blocks), name)
                 same(h5["body"] if name == "body" else group["cells"][in_hdf5(name)], numpy.concatenate(blocks), name)
-            surface(vtu / path.name.replace("bodies_", "bodies_surface_").replace(".vtu", ".vtp"), h5, i)
+            surface(path.with_name(path.name.replace("bodies_", "bodies_surface_").replace(".vtu", ".vtp")), h5, i)
     with meshio.xdmf.TimeSeriesReader(xdmf / "bodies_surface.xmf") as series:
         series.read_points_cells()
         assert "contact pressure [Pa]" in series.read_data(3)[2]

@@ -211,7 +211,7 @@ TEST_CASE("a run that breaks off says at which step, and leaves no result", "[pr
                                           "lower the speed", "energy.csv.partial", "bodies_failed.pvd"}});
     const auto outcome = run_program("abut", slip(bad.arguments), "broken_off");
     check_refused(bad, outcome);
-    for (const char* name : {"energy.csv.partial", "failed.csv", "bodies_failed.pvd", "bodies_failed_000000.vtu"})
+    for (const char* name : {"energy.csv.partial", "failed.csv", "bodies_failed.pvd", "frames/bodies_failed_000000.vtu"})
         CHECK(fs::exists(outcome.directory / name));
 }
 
@@ -268,8 +268,9 @@ TEST_CASE("a bad run leaves no results of an earlier good one, and nobody else's
     const Refusal bad = GENERATE(Refusal{"--dt 1", {"--dt"}}, Refusal{"--set values.gap=-0.1", {"overlap"}},
                                  Refusal{"--set values.gap=10 --dt 0.1 --allow-unstable --frames 0", {"diverged"}});
     const auto good = run_well("abut", slip("--set values.size=0.25 --steps 4 --frames 2"), "twice");
-    REQUIRE(fs::exists(good.directory / "bodies_surface_000001.vtp"));
-    const std::vector<std::string> mine = {"bodies_2.vtu", "bodies_new_000001.vtu", "notes.txt", "otherbodies_000001.vtu"};
+    REQUIRE(fs::exists(good.directory / "frames/bodies_surface_000001.vtp"));
+    const std::vector<std::string> mine = {"bodies_2.vtu", "frames/bodies_new_000001.vtu", "notes.txt",
+                                           "frames/otherbodies_000001.vtu"};
     for (const auto& name : mine) std::ofstream(good.directory / name) << "mine\n";
     check_refused(bad, run_into(good.directory, "abut", slip(bad.arguments)));
     auto left = files_in(good.directory);

@@ -39,7 +39,7 @@ TEST_CASE("the bouncing strip leaves the files of all programs that run a scene 
           "[programs]") {
     const auto outcome = run_well("study bouncing_strip", "--steps 1200 --frames 3", "strip_files");
     for (const char* file :
-         {"energy.csv", "energy.svg", "summary.json", "strip.pvd", "strip_surface.pvd", "strip_000002.vtu"})
+         {"energy.csv", "energy.svg", "summary.json", "strip.pvd", "strip_surface.pvd", "frames/strip_000002.vtu"})
         CHECK(std::filesystem::exists(outcome.directory / file));
     const auto summary = read_summary(outcome);
     CHECK(read_energies(outcome).rows.size() == 1 + 1200 / 100);

@@ -151,10 +151,10 @@ TEST_CASE("the series for ParaView lists as many frames as asked for, and all of
         CHECK(names.size() == 5);
         for (const auto& name : names) CHECK(std::filesystem::file_size(outcome.directory / name) > 0);
     }
-    const std::string last = read_text(outcome.directory / "bodies_000004.vtu");
+    const std::string last = read_text(outcome.directory / "frames/bodies_000004.vtu");
     for (const char* field : {"displacement", "velocity [m/s]", "stress [Pa]", "von Mises [Pa]"})
         CHECK(last.find(field) != std::string::npos);
-    const std::string surface = read_text(outcome.directory / "bodies_surface_000004.vtp");
+    const std::string surface = read_text(outcome.directory / "frames/bodies_surface_000004.vtp");
     for (const char* field : {"contact pressure [Pa]", "gap [m]"}) CHECK(surface.find(field) != std::string::npos);
 }
 

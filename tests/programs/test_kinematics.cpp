@@ -61,7 +61,8 @@ TEST_CASE("blocks that spin freely in floating frames keep their size, and small
     const auto summary = read_summary(outcome);
     CHECK(value_of(summary, "square, small", stretch) > 10.0);
     CHECK(value_of(summary, "square, floating", stretch) < 0.02);
-    for (const char* file : {"energy.csv", "summary.json", "bodies.pvd", "bodies_000002.vtu", "bodies_surface_000002.vtp"})
+    for (const char* file :
+         {"energy.csv", "summary.json", "bodies.pvd", "frames/bodies_000002.vtu", "frames/bodies_surface_000002.vtp"})
         CHECK(std::filesystem::exists(outcome.directory / "square_floating" / file));
 }
 
@@ -81,7 +82,8 @@ TEST_CASE("what tumbles, slides and bounces keeps pseudo-energy and loses no con
         INFO(row["name"]);
         CHECK(row["run"]["pair_steps"] > 0);
     }
-    const auto shown = abut::mesh::read_surface(outcome.directory / "tumbling_cuboid_rigid" / "bodies_surface_000001.vtp");
+    const auto shown =
+        abut::mesh::read_surface(outcome.directory / "tumbling_cuboid_rigid" / "frames/bodies_surface_000001.vtp");
     REQUIRE(shown.displacement.size() == shown.vertices.size());
     double longest = 0.0, change = 0.0;
     for (std::size_t i = 1; i < shown.vertices.size(); ++i) {

@@ -90,7 +90,7 @@ TEST_CASE("a user's own file in the folder of --out stays, and the run is refuse
         GENERATE(table<std::string, std::string, std::string>({{"abut", short_run, "summary.json"},
                                                                {"abut", short_run, "energy.csv"},
                                                                {"abut", short_run, "failed.csv"},
-                                                               {"abut", short_run, "bodies_000003.vtu"},
+                                                               {"abut", short_run, "frames/bodies_000003.vtu"},
                                                                {"abut", "detect torus:n=500", "overlaps.csv"},
                                                                {"study bouncing_bar", "--cells 10", "bouncing_bar.png"},
                                                                {"study trade", "--only bar --levels 1", "trade.csv"}}));

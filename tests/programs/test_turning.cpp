@@ -28,7 +28,7 @@ TEST_CASE("bodies that slip and turn keep pseudo-energy and momenta, and lose no
     }
     CHECK(touched == 14);
     const auto folder = outcome.directory / "spinning_discs_memm";
-    for (const char* file : {"energy.csv", "bodies.pvd", "bodies_000002.vtu", "bodies_surface_000002.vtp"})
+    for (const char* file : {"energy.csv", "bodies.pvd", "frames/bodies_000002.vtu", "frames/bodies_surface_000002.vtp"})
         CHECK(std::filesystem::exists(folder / file));
 }
 

@@ -89,19 +89,21 @@ void check_pieces(const run::Scene<Dim>& scene, int steps, const fs::path& folde
         run::Frames<Dim> whole(folder / "whole", "bodies", 4);
         static_cast<void>(run::simulate<Dim>(scene, options, whole));
         for (int frame = 0; frame < 4; ++frame) {
-            const std::string name = "bodies_00000" + std::to_string(frame);
+            const std::string name = "frames/bodies_00000" + std::to_string(frame);
             CAPTURE(name);
             good = good && fs::exists(folder / "pieces" / (name + "_" + std::to_string(all.size() - 1) + ".vtu"));
             good = good && same(cells_of(folder / "whole" / (name + ".vtu"), "cell"),
                                 cells_of(folder / "pieces" / (name + ".pvtu"), "cell"));
-            const std::string surface = "bodies_surface_00000" + std::to_string(frame);
+            const std::string surface = "frames/bodies_surface_00000" + std::to_string(frame);
             good = good && same(cells_of(folder / "whole" / (surface + ".vtp"), "face"),
                                 cells_of(folder / "pieces" / (surface + ".pvtp"), "face"));
             CHECK(good);
         }
-        CHECK(text_of(folder / "pieces" / "bodies.pvd").find("bodies_000003.pvtu") != std::string::npos);
-        CHECK(text_of(folder / "pieces" / "bodies_surface.pvd").find("bodies_surface_000003.pvtp") != std::string::npos);
-        CHECK(fs::exists(folder / "pieces" / "bodies_pairs_000003.vtp") == (scene.contact && scene.outputs.fields.pairs));
+        CHECK(text_of(folder / "pieces" / "bodies.pvd").find("frames/bodies_000003.pvtu") != std::string::npos);
+        CHECK(text_of(folder / "pieces" / "bodies_surface.pvd").find("frames/bodies_surface_000003.pvtp") !=
+              std::string::npos);
+        CHECK(fs::exists(folder / "pieces" / "frames/bodies_pairs_000003.vtp") ==
+              (scene.contact && scene.outputs.fields.pairs));
     }
     REQUIRE(test::everywhere(all, good));
 }

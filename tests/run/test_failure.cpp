@@ -139,8 +139,8 @@ TEST_CASE("files of a failure can be read back, and go with the next run in that
     CHECK(table.front() == "body,cell,x [m],y [m],speed [m/s]");
     CHECK(table.back().starts_with("fine,"));  // the fastest one
     CHECK(fs::exists(folder.path() / "blocks_failed.pvd"));
-    CHECK(abut::mesh::read_vtu<2>(folder.path() / "blocks_failed_000000.vtu").n_cells() == scene.mesh.n_cells());
-    CHECK(read_text(folder.path() / "blocks_failed_000000.vtu").find("speed when lost [m/s]") != std::string::npos);
+    CHECK(abut::mesh::read_vtu<2>(folder.path() / "frames/blocks_failed_000000.vtu").n_cells() == scene.mesh.n_cells());
+    CHECK(read_text(folder.path() / "frames/blocks_failed_000000.vtu").find("speed when lost [m/s]") != std::string::npos);
     const std::string picture = read_text(folder.path() / "failed.svg");
     for (const char* word : {"Last sound state", "Ring: ", "<circle ", "speed [m/s]", "x [m]"})
         CHECK(picture.find(word) != std::string::npos);

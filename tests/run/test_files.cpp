@@ -50,10 +50,10 @@ TEST_CASE("a program of a few lines leaves the files of a run, and a summary of 
     run::RunResult<2> result = run::simulate<2>(scene, options, files);
     files.finish(scene, result);
 
-    for (const char* name :
-         {"energy.csv", "energy.svg", "summary.json", "block.pvd", "block_000002.vtu", "block_surface_000002.vtp"})
+    for (const char* name : {"energy.csv", "energy.svg", "summary.json", "block.pvd", "frames/block_000002.vtu",
+                             "frames/block_surface_000002.vtp"})
         CHECK(fs::exists(options.out / name));
-    CHECK_FALSE(fs::exists(options.out / "block_000003.vtu"));
+    CHECK_FALSE(fs::exists(options.out / "frames/block_000003.vtu"));
     CHECK_FALSE(fs::exists(options.out / "energy.csv.partial"));
 
     std::istringstream energies(read_text(options.out / "energy.csv"));
@@ -101,12 +101,12 @@ TEST_CASE(
     run::ResultFiles<3> files(options, "mine", "block");
     run::RunResult<3> result = run::simulate<3>(scene, options, files);
     files.finish(scene, result);
-    const std::string text = read_text(options.out / "block_obstacles_000002.vtp");
+    const std::string text = read_text(options.out / "frames/block_obstacles_000002.vtp");
     CHECK_THAT(text, Catch::Contains("Name=\"obstacle: floor\" NumberOfTuples=\"1\" format=\"ascii\">0<") &&
                          Catch::Contains("Name=\"obstacle: wall\" NumberOfTuples=\"1\" format=\"ascii\">1<"));
     for (const auto& [frame, depth] :
          {std::pair{"000000", 0.0}, {"000002", 0.5 * result.dt * static_cast<double>(result.steps)}}) {
-        const auto shown = mesh::read_surface(options.out / (std::string("block_obstacles_") + frame + ".vtp"));
+        const auto shown = mesh::read_surface(options.out / (std::string("frames/block_obstacles_") + frame + ".vtp"));
         REQUIRE(shown.faces.size() == 2);
         for (const std::int32_t v : shown.faces[0]) {  // around the block, and not 5 km away
             CHECK(shown.vertices[static_cast<std::size_t>(v)][2] == Approx(-depth).margin(1e-15));
@@ -141,7 +141,7 @@ TEST_CASE("files of a folder that no run has claimed are the user's: none is rem
           "[run][files]") {
     const Folder folder;
     const run::RunOptions options{.out = folder.path(), .frames = 0};
-    for (const char* name : {"summary.json", "forces.csv", "block_000007.vtu", "block_surface.pvd", "failed.svg"}) {
+    for (const char* name : {"summary.json", "forces.csv", "frames/block_000007.vtu", "block_surface.pvd", "failed.svg"}) {
         fs::create_directories(folder.path());
         std::ofstream(folder.path() / name) << "mine";
         CHECK_THROWS_WITH(run::ResultFiles<2>(options, "mine", "block"),

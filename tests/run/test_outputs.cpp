@@ -156,8 +156,8 @@ TEST_CASE("frames hold as many points as there are pairs in contact, and none wh
     run::RunResult<2> result = run::simulate<2>(scene, options, observers);
     files.finish(scene, result);
     REQUIRE(witness.last_pairs > 0);
-    const std::string first = read_text(folder.path() / "bodies_pairs_000000.vtp");
-    const std::string last = read_text(folder.path() / "bodies_pairs_000001.vtp");
+    const std::string first = read_text(folder.path() / "frames/bodies_pairs_000000.vtp");
+    const std::string last = read_text(folder.path() / "frames/bodies_pairs_000001.vtp");
     CHECK(first.find("NumberOfPoints=\"0\"") != std::string::npos);
     CHECK(last.find("NumberOfPoints=\"" + std::to_string(witness.last_pairs) + "\"") != std::string::npos);
     for (const char* name : {"body 1", "body 2", "normal", "force [N]", "normal force [N]", "gap [m]", "area [m]"})
@@ -309,8 +309,8 @@ TEST_CASE("frames hold the fields that are asked for", "[run][outputs]") {
     const run::RunOptions options{.steps = 2, .out = folder.path(), .frames = 1};
     run::ResultFiles<2> files(options, "outputs", "bodies");
     static_cast<void>(run::simulate<2>(scene, options, files));
-    const std::string cells = read_text(folder.path() / "bodies_000000.vtu");
-    const std::string surface = read_text(folder.path() / "bodies_surface_000000.vtp");
+    const std::string cells = read_text(folder.path() / "frames/bodies_000000.vtu");
+    const std::string surface = read_text(folder.path() / "frames/bodies_surface_000000.vtp");
     CHECK(cells.find("displacement") != std::string::npos);
     CHECK(cells.find("von Mises") != std::string::npos);
     CHECK(cells.find("velocity") == std::string::npos);
