@@ -235,6 +235,13 @@ void add_mesh(py::module_& module, const char* name) {
         .def(
             "write_vtu", [](const Mesh<Dim>& mesh, const std::filesystem::path& path) { mesh::write_vtu(mesh, path); },
             "path"_a, "The mesh alone, with the cell array \"body\".")
+        .def(
+            "_set_label",  // of a copy
+            [](Mesh<Dim>& mesh, const std::vector<std::int64_t>& label) {
+                if (label.size() != mesh.cell_label.size()) throw py::value_error("label must have one number per cell");
+                mesh.cell_label = label;
+            },
+            "label"_a)
         .def("__repr__", [name](const Mesh<Dim>& mesh) {
             return text_of("<abut.solid." + std::string(name) + " '" + mesh.name + "': " + std::to_string(mesh.n_cells()) +
                            " cells, " + std::to_string(mesh.n_bodies()) + " bodies>");

@@ -1,8 +1,10 @@
 """test_runs.py SCENES: scenes in files and in dicts, run from Python."""
+import copy
 import csv
 import doctest
 import json
 import pathlib
+import pickle
 import sys
 import tempfile
 import tomllib
@@ -47,7 +49,7 @@ class Scenes(unittest.TestCase):
                 self.assertEqual(list(result.forces.dtype.names), rows_of(folder / "forces.csv")[0])
                 np.testing.assert_array_equal(result.forces["force_on_2_x"], column_of(folder / "forces.csv", "force_on_2_x"))
                 self.assertEqual(result.forces["body_2"].tolist(), [row[3] for row in rows_of(folder / "forces.csv")[1:]])
-                self.assertEqual(len(list(folder.glob("bodies_0*.vtu"))), len(result.frames))
+                self.assertEqual(len(list(folder.glob("frames/bodies_0*.vtu"))), len(result.frames))
                 np.testing.assert_array_equal(result.frames.displacement[-1], result.displacement)
                 np.testing.assert_array_equal(result.frames.step[[0, -1]], [0, 200])
             summary = json.loads((folder / "summary.json").read_text())
@@ -55,6 +57,21 @@ class Scenes(unittest.TestCase):
                 del one["seconds"]
             self.assertEqual(written.summary, summary)
             self.assertIn(written.verdict.split(".")[0], (folder / "report.html").read_text())
+
+    def test_results_and_meshes_are_copied_and_pickled_with_all_that_they_have(self):
+        for scene in ("colliding_bars", "tyred_wheel", "ball_of_stl"):
+            result = abut.run(SCENES / f"{scene}.toml", steps=3, frames=2)
+            for copied in (pickle.loads(pickle.dumps(result)), copy.deepcopy(result)):
+                self.assertEqual(list(copied), list(result))
+                self.assertEqual((copied.verdict, copied.summary), (result.verdict, result.summary))
+                np.testing.assert_array_equal(copied.ledger, result.ledger)
+                np.testing.assert_array_equal(copied.frames.stress, result.frames.stress)
+                for name in ("points", "body", "label", "centroids", "measures", "surface_cells"):
+                    np.testing.assert_array_equal(getattr(copied.mesh, name), getattr(result.mesh, name), name)
+                self.assertEqual((copied.mesh.name, copied.mesh.body_names), (result.mesh.name, result.mesh.body_names))
+                for name, rows in result.mesh.groups.items():
+                    np.testing.assert_array_equal(copied.mesh.groups[name], rows)
+            self.assertIs(copy.copy(result).mesh, result.mesh)
 
     def test_a_dict_is_the_scene_of_the_file_with_its_keys(self):
         for scene in ("colliding_bars", "rolling_disc", "two_blocks", "ring_of_discs", "half_punch"):

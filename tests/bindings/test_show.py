@@ -20,6 +20,12 @@ def moved():
     return abut.run({"title": "a <block>", "dim": 2, "run": {"time": 1.0, "dt": 0.1}, "bodies": {"block": block}})
 
 
+def colliding(**options):
+    block = {"shape": "structured_box", "lower": [0, 0], "upper": [1, 1], "counts": [4, 4], "young": 1, "density": 1}
+    return abut.run({"dim": 2, "run": {"time": 4.0}, "bodies": {"left": {**block, "velocity": [0.1, 0]}, "right": {**block, "place": [1.1, 0.1]}},
+                     "output": {"probes": {"tip": {"body": "left", "point": [0.9, 0.5]}}}}, **options)
+
+
 class Notebooks(unittest.TestCase):
     def test_a_mesh_is_well_formed_and_draws_what_is_seen_of_it(self):
         for dim, seen in ((2, 8), (3, 2 * 3 + 1 * 3 + 1 * 2)):  # cells; faces of three sides
@@ -58,6 +64,32 @@ class Pictures(unittest.TestCase):
         self.assertIn("speed [m/s], t = 1 s", figure.axes[0].get_title())
         with self.assertRaisesRegex(ValueError, "field is 'strain'; 'von_mises', 'speed'"):
             moved().show("strain")
+
+    def test_several_frames_stand_side_by_side_with_one_scale_of_colours(self):
+        self.needs("matplotlib").use("Agg")
+        result = colliding(frames=4)
+        figure = result.show(frame=[0, 2, -1])
+        titles = [axes.get_title() for axes in figure.axes]
+        for i in (0, 2, 3):
+            self.assertIn(f"von Mises stress [Pa], t = {result.frames.time[i]:.4g} s", titles)
+        scales = {axes.collections[0].get_clim() for axes in figure.axes if "Mises" in axes.get_title()}
+        self.assertEqual(scales, {(result.frames.von_mises[[0, 2, 3]].min(), result.frames.von_mises[[0, 2, 3]].max())})
+
+    def test_forces_are_0_where_nothing_touches_and_probes_are_drawn_by_column(self):
+        self.needs("matplotlib").use("Agg")
+        result = colliding()
+        line, = result.show_forces().lines  # without friction nothing rubs
+        self.assertEqual(line.get_label(), "left on right")
+        times, force = line.get_data()
+        self.assertEqual((len(times), force[0], np.count_nonzero(force)), (len(result.ledger), 0.0, len(result.forces)))
+        self.assertEqual(force.max(), result.forces["normal_force"].max())
+        axes = result.show_probes("velocity_x")
+        self.assertEqual([line.get_label() for line in axes.lines], ["tip"])
+        np.testing.assert_array_equal(axes.lines[0].get_ydata(), result.probes["tip"]["velocity_x"])
+        with self.assertRaisesRegex(ValueError, "no probe has 'speed'; there are displacement_x, "):
+            result.show_probes("speed")
+        with self.assertRaisesRegex(ValueError, "this result has no probes"):
+            moved().show_probes("velocity_x")
 
     def test_a_name_with_signs_of_formulas_stands_as_it_is(self):
         matplotlib = self.needs("matplotlib")

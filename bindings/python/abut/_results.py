@@ -55,13 +55,24 @@ class Result(dict):
         except KeyError:
             raise AttributeError(f"a result has no '{name}'; it has {', '.join(self)}") from None
 
+    def __reduce__(self):
+        return _copied, (dict(self),)
+
     def __dir__(self):
         return [*super().__dir__(), *self]
 
     def show(self, field="von_mises", frame=-1):
-        """Draws a field of one frame on the bodies, and the energies over time, by matplotlib; gives back the figure. field:
-        "von_mises" or "speed"; None: none."""
+        """Draws a field of a frame on the bodies, and the energies over time, by matplotlib; gives back the figure. field:
+        "von_mises" or "speed"; None: none. frame: a number, or several for pictures with one scale of colours side by side."""
         return _show.show_result(self, field, frame)
+
+    def show_forces(self, axes=None):
+        """Draws the forces between bodies over time by matplotlib, pressing and rubbing, and gives back the axes."""
+        return _show.show_forces(self, axes)
+
+    def show_probes(self, column, axes=None):
+        """Draws a column of all probes that have it over time by matplotlib, as "displacement_x", and gives back the axes."""
+        return _show.show_probes(self, column, axes)
 
     def to_pyvista(self, frame=-1):
         """One frame as a pyvista.UnstructuredGrid, displaced, with its fields on the cells."""
@@ -74,6 +85,13 @@ class Result(dict):
 
     def __repr__(self):
         return f"<abut.Result '{self.name}': {self.steps} steps, {self.verdict}>"
+
+
+def _copied(entries):
+    """A result with entries of another one: what pickle and copy call."""
+    result = Result.__new__(Result)
+    result.update(entries)
+    return result
 
 
 def _table(columns):

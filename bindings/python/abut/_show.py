@@ -102,22 +102,60 @@ def show_result(result, field="von_mises", frame=-1):
     pyplot = _pyplot()
     if not len(result.frames):
         raise ValueError("this result has no frames to show; run with frames=2 or more")
-    figure = pyplot.figure(figsize=(10, 4.5))
-    bodies = figure.add_subplot(121, projection="3d" if result.mesh.points.shape[1] == 3 else None)
+    shown = np.arange(len(result.frames))[frame if np.ndim(frame) else [frame]]
     fields = {None: None, "von_mises": result.frames.von_mises, "speed": np.linalg.norm(result.frames.velocity, axis=-1)}
     if field not in fields:
         raise ValueError(f"field is '{field}'; 'von_mises', 'speed' and None are allowed")
-    values = None if field is None else fields[field][frame]
-    show_mesh(result.mesh, values, result.frames.point_displacement[frame], bodies)
+    values = None if field is None else fields[field][shown]
+    figure = pyplot.figure(figsize=(5.0 * (len(shown) + 1), 4.5))
+    pictures = [figure.add_subplot(1, len(shown) + 1, i + 1, projection="3d" if result.mesh.points.shape[1] == 3 else None)
+                for i in range(len(shown))]
     unit = {"von_mises": "von Mises stress [Pa]", "speed": "speed [m/s]"}.get(field, "")
-    bodies.set_title(f"{unit}{', ' if unit else ''}t = {result.frames.time[frame]:.4g} s")
-    energies = figure.add_subplot(122)
+    for i, axes in enumerate(pictures):
+        show_mesh(result.mesh, None if values is None else values[i], result.frames.point_displacement[shown[i]], axes)
+        axes.set_title(f"{unit}{', ' if unit else ''}t = {result.frames.time[shown[i]]:.4g} s")
+        if values is not None:
+            axes.collections[0].set_clim(values.min(), values.max())
+    energies = figure.add_subplot(1, len(shown) + 1, len(shown) + 1)
     for column in ("pseudo_energy", "energy", "kinetic", "potential"):
         energies.plot(result.ledger["time"], result.ledger[column], label=column.replace("_", "-"))
     energies.set(xlabel="time [s]", ylabel="energy [J]", title=_plain(result.title or result.name))
     energies.legend()
     figure.tight_layout()
     return figure
+
+
+def show_forces(result, axes=None):
+    """See Result.show_forces. A record in which a pair does not touch has no row: its force is 0."""
+    axes = axes or _pyplot().figure().add_subplot()
+    forces, times = result.forces, result.ledger["time"]
+    for pair in dict.fromkeys(zip(forces["body_1"], forces["body_2"])):
+        rows = forces[(forces["body_1"] == pair[0]) & (forces["body_2"] == pair[1])]
+        at = np.searchsorted(result.ledger["step"], rows["step"])
+        for column, label in (("normal_force", ""), ("rubbing_force", ", rubbing")):
+            values = np.zeros(len(times))
+            values[at] = rows[column]
+            if column == "normal_force" or values.any():
+                axes.plot(times, values, label=_plain(f"{pair[0]} on {pair[1]}{label}"))
+    axes.set(xlabel="time [s]", ylabel="force [N/m]" if result.mesh.points.shape[1] == 2 else "force [N]",
+             title=_plain(result.title or result.name))
+    if axes.lines:
+        axes.legend()
+    return axes
+
+
+def show_probes(result, column, axes=None):
+    """See Result.show_probes."""
+    with_it = {name: table for name, table in result.probes.items() if column in table.dtype.names}
+    if not with_it:
+        known = ", ".join(dict.fromkeys(name for table in result.probes.values() for name in table.dtype.names[2:]))
+        raise ValueError(f"no probe has '{column}'; there are {known}" if known else "this result has no probes ([probes.NAME] in a scene)")
+    axes = axes or _pyplot().figure().add_subplot()
+    for name, table in with_it.items():
+        axes.plot(table["time"], table[column], label=_plain(name))
+    axes.set(xlabel="time [s]", ylabel=_plain(column.replace("_", " ")), title=_plain(result.title or result.name))
+    axes.legend()
+    return axes
 
 
 def to_pyvista(mesh, displacement=None, **fields):

@@ -1,4 +1,6 @@
 """Meshes, solids of linear elasticity in contact, and their runs. docs/languages.md walks through it."""
+import numpy as np
+
 from . import _scenes, _show
 
 _solid = _scenes.built_solid()  # says what is missing where this is contact alone
@@ -39,8 +41,24 @@ def mesh(points, cells=None, body=None, body_names=(), groups=None, **options):
     return _solid.mesh(points, **given, **options)
 
 
+def _reduced(mesh):
+    """What pickle and copy make a mesh of again: its arrays."""
+    faces, offsets = mesh.surface["faces"], mesh.surface["offsets"]
+    groups = {name: [faces[offsets[i]:offsets[i + 1]] for i in rows] for name, rows in mesh.groups.items()}
+    return _copied, (mesh.points, mesh.cells, mesh.body, list(mesh.body_names), groups, mesh.name, mesh.label)
+
+
+def _copied(points, cells, body, body_names, groups, name, label):
+    made = _solid.mesh(points, cells, body=body, body_names=body_names, groups=groups, name=name)
+    if not all(np.array_equal(new, old) for (_, new), (_, old) in zip(made.cells, cells)):
+        raise ValueError(f"{name}: the cells of a copy would have other numbers; make the mesh anew in its place")
+    made._set_label(label)
+    return made
+
+
 for _name in __all__:
     if isinstance(globals()[_name], type):
         globals()[_name].__module__ = __name__
 for _class in (Mesh2D, Mesh3D):
+    _class.__reduce__ = _reduced
     _class.show, _class.to_pyvista, _class._repr_html_ = _show.show_mesh, _show.to_pyvista, _show.html_of_mesh
