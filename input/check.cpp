@@ -18,8 +18,8 @@
 #include "abut/input/read_settings.hpp"
 #include "abut/mesh/cells_across.hpp"
 #include "abut/run/bond_text.hpp"
-#include "abut/run/failure.hpp"
 #include "abut/run/simulation.hpp"
+#include "abut/run/slow_cell.hpp"
 #include "abut/run/warnings.hpp"
 #include "abut/solid/body_inertia.hpp"
 #include "abut/solid/kinematics/properties.hpp"
@@ -90,33 +90,6 @@ std::string text_of_across(const run::Scene<Dim>& scene, const run::RunResult<Di
     return thinnest ? fmt::format("at most {} in '{}'", across[*thinnest], scene.mesh.body_names[*thinnest]) : "";
 }
 
-/// How long a longitudinal wave takes through a cell, in its narrowest direction about [s].
-template <int Dim>
-double crossing_time(const mesh::Mesh<Dim>& mesh, std::int32_t cell, const solid::Material& material) {
-    double surface = 0.0;
-    for (const std::int32_t face : mesh.cell_faces[cell]) surface += mesh.face_measure[static_cast<std::size_t>(face)];
-    return 2.0 * Dim * mesh.cell_measure[static_cast<std::size_t>(cell)] / surface *
-           std::sqrt(material.density / material.wave_modulus());
-}
-
-/// Of all cells that deform, the one with the shortest time, and that over the median; empty where all are rigid.
-template <int Dim>
-std::string cell_of_step(const run::Scene<Dim>& scene, const run::RunOptions& options) {
-    const auto of_all = run::kinematics_of_all(options.kinematics);
-    std::vector<std::pair<double, std::int32_t>> times;
-    for (std::int32_t cell = 0; cell < scene.mesh.n_cells(); ++cell) {
-        const auto body = static_cast<std::size_t>(scene.mesh.cell_body[static_cast<std::size_t>(cell)]);
-        if (!solid::properties_of(of_all.value_or(scene.solid.kinematics[body])).deforms) continue;
-        times.emplace_back(crossing_time(scene.mesh, cell, scene.solid.materials[body]), cell);
-    }
-    if (times.empty()) return "";
-    const auto least = *std::ranges::min_element(times);
-    const auto middle = times.begin() + std::ssize(times) / 2;
-    std::ranges::nth_element(times, middle);
-    return fmt::format("{}: a wave takes {:.3g} s through it, {:.2g} of the median",
-                       run::name_of_cell(scene.mesh, least.second), least.first, least.first / middle->first);
-}
-
 /// A body that deforms and rubs, and is not damped, vibrates, and its faces feel less than their limit: docs/friction.md. The damping
 /// of stiffness that leaves 0.9 of the step: sqrt(1 + z^2) - z = 0.9 with z = beta omega/2.
 template <int Dim>
@@ -157,7 +130,7 @@ public:
         estimate_.dt = run::choose_step(options_, result.stable.dt);
         estimate_.steps = std::isnan(options_.time) ? options_.steps : run::steps_until(options_.time, estimate_.dt);
         estimate_.end = static_cast<double>(estimate_.steps) * estimate_.dt;
-        estimate_.cell_of_step = cell_of_step(scene, options_);
+        if (const auto slow = run::slow_cell(scene, result)) estimate_.cell_of_step = slow->text;
         estimate_.damping = damping_of_friction(scene, result);
         interval_ = result.options.interval;
         const std::vector<run::Warning> warnings = run::warnings_before(scene, result);

@@ -14,6 +14,7 @@
 #include "abut/run/counts.hpp"
 #include "abut/run/friction_watch.hpp"
 #include "abut/run/remedies.hpp"
+#include "abut/solid/kinematics/kinematics.hpp"
 #include "abut/solid/kinematics/properties.hpp"
 
 namespace abut::run {
@@ -125,9 +126,9 @@ void add_looks(Counts& counts, const RunResult<Dim>& result) {
     add_above(WarningKind::remote_contact, looks.remote, contact_from_afar, [&](const Encounter& met) {
         return fmt::format(
             "faces of {} and {} push each other at t = {:.4g} s and are {:.2g} m apart, {:.2g} of the size of "
-            "the smaller one, {:g} is safe{}. Make faces that meet more equal in size, or take --law "
-            "pair_potential",
-            met.body_1, met.body_2, met.time, met.distance, met.ratio, contact_from_afar, looked);
+            "the smaller one, {:g} is safe{}. Make faces that meet more equal in size{}",
+            met.body_1, met.body_2, met.time, met.distance, met.ratio, contact_from_afar, looked,
+            result.options.law == solid::ContactLaw::reconstruction ? ", or take --law pair_potential" : "");
     });
     add_above(WarningKind::sliding_pressure, looks.pressed, high_sliding_pressure, [&](const Encounter& met) {
         return fmt::format(
@@ -173,9 +174,10 @@ std::vector<Warning> warnings_after(const RunResult<Dim>& result) {
     add_looks(counts, result);
     if (contact.compressed_steps > 0)
         add(WarningKind::compression, contact.compression_max, result.options.contact.compression_warning,
-            fmt::format("strongly compressed in {} of {:.0f} steps, at most {:.2g} of D, the depth of their cells",
+            fmt::format("strongly compressed in {} of {:.0f} steps, at most {:.2g} of D, the depth of their cells, {:g} is "
+                        "safe. A lower speed or load makes it less, a stiffer material too",
                         contact.compressed_steps, static_cast<double>(result.steps) * result.dt / result.finest_dt,
-                        contact.compression_max));
+                        contact.compression_max, result.options.contact.compression_warning));
     if (contact.sliding_ratio_max > stiff_sliding_ratio)
         add(WarningKind::stiff_sliding, contact.sliding_ratio_max, stiff_sliding_ratio,
             fmt::format("faces are pressed into each other deeper than they are wide ({:.2g} of the width where they slide "

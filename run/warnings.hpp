@@ -57,6 +57,10 @@ inline constexpr double contact_from_afar = 0.25;
 /// note. The slipping cylinders have 0.12 and, 16 cells across, a velocity that is 0.7 % off that of 128.
 inline constexpr double high_sliding_pressure = 0.15;
 
+/// The time of the slowest cell over the median (SlowCell::share), below which a few bad cells cost most of the run [-]. Meshes of Gmsh
+/// have 0.15 and more.
+inline constexpr double slow_cell_share = 0.1;
+
 /// Bonded area over that where the sides of a bond lie opposite each other, below which glue is missing [-].
 inline constexpr double enough_bond = 0.99;
 
@@ -76,6 +80,7 @@ enum class WarningKind {
     unjoined_faces,       ///< faces that lie on others of their body and are not joined to them
     missing_bond,         ///< BondCoverage::share of a bond [-]; threshold: enough_bond
     pressed_finite,       ///< note: cells across a finite body that contact may press; threshold: those that are enough
+    slow_cell,            ///< SlowCell::share of the cell that decides the step [-]; threshold: slow_cell_share
     missing_inertia,      ///< BodyInertia::least of a body that may turn [-]; threshold: enough_inertia
     extrapolated_faces,   ///< note: faces that extrapolate from the cells around them: the stable step is shorter
     blind_corners,        ///< corners too sharp for contact to see
@@ -114,7 +119,7 @@ struct Warning {
     std::string text;  ///< a sentence without its full stop: what, how much, how much is safe, what to do
     double value;      ///< see WarningKind; NaN: none
     double
-        threshold;  ///< above which (unseen_edges, missing_bond, missing_inertia, alternating_slip: below which) `value` is worth a word
+        threshold;  ///< above which (unseen_edges, missing_bond, slow_cell, missing_inertia, alternating_slip: below which) `value` is worth a word
 };
 
 /// Known once all is set up, before the first step: of the mesh, the reconstruction, the surface. For Observer::begin.

@@ -18,6 +18,7 @@
 #include "abut/run/body_names.hpp"
 #include "abut/run/counts.hpp"
 #include "abut/run/obstacle_watch.hpp"
+#include "abut/run/slow_cell.hpp"
 #include "abut/run/warnings.hpp"
 #include "abut/solid/kinematics/properties.hpp"
 
@@ -163,6 +164,18 @@ void add_inertia(Counts& counts, const Scene<Dim>& scene, const RunResult<Dim>& 
     }
 }
 
+template <int Dim>
+void add_slow_cell(Counts& counts, const Scene<Dim>& scene, const RunResult<Dim>& result) {
+    const auto slow = slow_cell(scene, result);
+    if (!slow || !(slow->share < slow_cell_share)) return;
+    counts.warnings.push_back(
+        {WarningKind::slow_cell, Severity::warning,
+         fmt::format("{}, {:g} is enough: the step of the whole run is as short. Give the mesh cells of "
+                     "more even size there, by another `size` or without slivers in its surface",
+                     slow->text, slow_cell_share),
+         slow->share, slow_cell_share});
+}
+
 /// Part of its force that a finite block of so many cells across bears between two planes, bricks and simplices:
 /// scripts/pressed_blocks.
 struct Bears {
@@ -224,6 +237,7 @@ std::vector<Warning> warnings_before(const Scene<Dim>& scene, const RunResult<Di
     add_mesh(counts, scene.mesh.report, scene.contact);
     add_unjoined(counts, result);
     add_bonds(counts, scene, result);
+    add_slow_cell(counts, scene, result);
     add_inertia(counts, scene, result);
     add_pressed(counts, scene, result);
     const auto& stencils = result.stencils;

@@ -183,4 +183,18 @@ TEST_CASE("the cell that sets the step is the smallest one, over the median", "[
     REQUIRE(checked.estimate);
     CHECK(checked.estimate->cell_of_step.find("of body 'fine'") != std::string::npos);
     CHECK(checked.estimate->cell_of_step.find("0.3 of the median") != std::string::npos);
+    CHECK(checked.warnings.empty());
+}
+
+TEST_CASE("a cell ten times as fast as most is warned of, since all cells take its step", "[input][check]") {
+    const auto warned = [](const char* upper) {
+        const WrittenScene file(
+            two_blocks(std::string("[bodies.fine]\nshape = \"structured_box\"\nlower = [5, 0]\nupper = ") + upper +
+                       "\ncounts = [4, 2]\nyoung = 1\ndensity = 1\n"));
+        return std::ranges::any_of(input::check_scene(file.path()).warnings, [](const std::string& text) {
+            return text.find("of body 'fine'") != std::string::npos && text.find("of more even size") != std::string::npos;
+        });
+    };
+    CHECK(warned("[5.1, 0.05]"));         // squares of 0.025, and most of a third
+    CHECK_FALSE(warned("[5.16, 0.08]"));  // of 0.04
 }
