@@ -134,6 +134,7 @@ void read_keys(const AnchorSettings& anchor) {
 
 void read_keys(const ProbeSettings& probe, bool has_contact) {
     for (const char* key : {"body", "point"}) probe.given.read(key);
+    probe.given.read_with(probe.point.has_value(), "in_body", "point");
     probe.given.read_with(has_contact, "contact", with_contact);
 }
 

@@ -236,6 +236,11 @@ mesh::Mesh<Dim> make_body(const BodySettings& body, const std::filesystem::path&
     return mesh;
 }
 
+template <int Dim>
+Vector<Dim> placed(const BodySettings& body, const Vector<Dim>& point) {
+    return (body.turn.isZero(0.0) ? point : Vector<Dim>(rotation<Dim>(body.turn) * point)) + head<Dim>(body.place);
+}
+
 const BodySettings& settings_of(const BodySettings& body, const std::string& name) {
     // A file with one body gives it the name of the table.
     if (name == body.name && body.parts.size() == 1) return body.parts.front();
@@ -246,5 +251,7 @@ const BodySettings& settings_of(const BodySettings& body, const std::string& nam
 
 template mesh::Mesh<2> make_body<2>(const BodySettings&, const std::filesystem::path&, const GivenMeshes*);
 template mesh::Mesh<3> make_body<3>(const BodySettings&, const std::filesystem::path&, const GivenMeshes*);
+template Vector<2> placed<2>(const BodySettings&, const Vector<2>&);
+template Vector<3> placed<3>(const BodySettings&, const Vector<3>&);
 
 }  // namespace abut::input

@@ -17,6 +17,10 @@ template <int Dim>
 [[nodiscard]] mesh::Mesh<Dim> make_body(const BodySettings& body, const std::filesystem::path& folder,
                                         const GivenMeshes* given = nullptr);
 
+/// Where a point is in the scene that is seen from a body, before its turn and place [m].
+template <int Dim>
+[[nodiscard]] Vector<Dim> placed(const BodySettings& body, const Vector<Dim>& point);
+
 /// What of a file with several bodies holds for the one of this name in the mesh of make_body: its own table, or `body`.
 [[nodiscard]] const BodySettings& settings_of(const BodySettings& body, const std::string& name);
 

@@ -284,6 +284,13 @@ void add_bonds(run::Scene<Dim>& scene, const Settings& settings, std::vector<Fau
     }
 }
 
+/// The table of a body, or of the file or body of regions that it is a part of.
+const BodySettings& body_of(const Settings& settings, const std::string& name) {
+    return *std::ranges::find_if(settings.bodies, [&](const BodySettings& body) {
+        return name == body.name || name.starts_with(body.name + ".");
+    });
+}
+
 template <int Dim>
 void add_outputs(run::Scene<Dim>& scene, const Settings& settings, std::vector<Fault>& faults) {
     const Names<Dim> names(scene.mesh, settings.bodies, faults);
@@ -293,6 +300,7 @@ void add_outputs(run::Scene<Dim>& scene, const Settings& settings, std::vector<F
         if (!body) continue;
         run::Probe<Dim> made{.name = probe.name, .body = *body, .contact = probe.contact};
         if (probe.point) made.position = head<Dim>(*probe.point);
+        if (made.position && probe.in_body) made.position = placed<Dim>(body_of(settings, probe.body), *made.position);
         if (probe.point && probe.contact)
             faults.push_back(
                 {probe.where, path + ".contact is of a body as a whole, and 'point' is given, too. Leave one of them out."});

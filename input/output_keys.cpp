@@ -74,6 +74,8 @@ const Keys<ProbeSettings>& probe_keys() {
         From::vector("point", &ProbeSettings::point, "m", "",
                      "where, at rest and in the scene: its displacement, and velocity and stress of the cell that holds it; "
                      "without it their means over the body"),
+        From::truth("in_body", &ProbeSettings::in_body,
+                    "whether the point is seen from the body, before its turn and place: as in its file, after scale"),
         From::truth(
             "contact", &ProbeSettings::contact,
             "forces of contact on the body, the mean since the row before, along normals and by friction, and its slip; "

@@ -212,6 +212,7 @@ struct BondSettings {
 struct ProbeSettings : Named {
     std::string body;
     std::optional<Vector<3>> point;  ///< [m]
+    bool in_body = false;            ///< whether `point` is seen from the body, before it is turned and placed
     bool contact = false;
     GivenKeys given{};
 };

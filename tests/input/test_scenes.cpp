@@ -357,6 +357,30 @@ density = 1
           mesh.boundary_faces.size() - of_blocks);
 }
 
+TEST_CASE("a point of a probe may be that of its body before it is turned and placed", "[input][scenes]") {
+    const WrittenScene written(R"toml(dim = 2
+[bodies.bar]
+shape = "structured_box"
+lower = [0, 0]
+upper = [2, 1]
+counts = [4, 2]
+turn = "90 deg"
+place = [10, 20]
+young = 1
+density = 1
+[output.probes.in_scene]
+body = "bar"
+point = [9.5, 21.5]
+[output.probes.in_body]
+body = "bar"
+point = [1.5, 0.5]
+in_body = true
+)toml");
+    const auto probes = input::SceneFile(written.path()).scene<2>().outputs.probes;
+    REQUIRE(probes.size() == 2);
+    CHECK((*probes[1].position - *probes[0].position).norm() < 1e-14);
+}
+
 TEST_CASE("probes, forces and fields are what [output] asks for", "[input][scenes]") {
     const WrittenScene written(two_blocks(R"toml([obstacles.floor]
 shape = "plane"
