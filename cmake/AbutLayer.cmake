@@ -27,6 +27,8 @@ target_compile_options(abut_compile_options INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wno-missing-field-initializers  # {.shift = s} leaves the rest to its defaults on purpose
   $<$<BOOL:${ABUT_WERROR}>:-Werror>
   $<$<BOOL:${ABUT_NATIVE}>:-march=native>
+  # Overlaps of boxes are found without branches.
+  $<$<CXX_COMPILER_ID:Clang>:-Wno-bitwise-instead-of-logical>
   # gcc 12 takes the undefined registers in its own AVX-512 header for a mistake of ours.
   $<$<AND:$<BOOL:${ABUT_NATIVE}>,$<CXX_COMPILER_ID:GNU>>:-Wno-maybe-uninitialized>
   # At -O3 it finds faults in its own headers and in Eigen's (std::string, std::vector, AVX-512); builds for tests have these on.
@@ -51,12 +53,12 @@ function(abut_layer name)
   target_link_libraries(${target}
     PUBLIC ${lower_layers} ${layer_PUBLIC}
     PRIVATE $<BUILD_INTERFACE:abut_compile_options> ${layer_PRIVATE})
-  if(NOT ABUT_SANITIZE)
+  if(NOT ABUT_SANITIZE AND NOT APPLE)  # the linkers of GNU and LLVM know it
     target_link_options(${target} PRIVATE -Wl,--no-undefined)  # found here, not where a user links
   endif()
   # Public headers hold only Eigen types of fixed size without an alignment demand, so a host may compile Eigen as it likes.
   get_target_property(type ${target} TYPE)
-  if(type STREQUAL SHARED_LIBRARY)
+  if(type STREQUAL SHARED_LIBRARY AND NOT APPLE)
     target_link_options(${target} PRIVATE -Wl,--version-script=${PROJECT_SOURCE_DIR}/cmake/exports.map)
     set_property(TARGET ${target} APPEND PROPERTY LINK_DEPENDS ${PROJECT_SOURCE_DIR}/cmake/exports.map)
   endif()

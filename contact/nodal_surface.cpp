@@ -266,7 +266,7 @@ NodalSurface<Dim> NodalSurface<Dim>::with(const Bevels<Dim>& bevels) const {
         std::array<std::int32_t, Dim> corners = bevels.corners[i];
         for (std::int32_t& corner : corners) corner += n_nodes();
         both.append_facet(number_of(face_of(Facet{facet_1})), corners, {0, 1, 2});
-        const auto append_least = [&](std::vector<double>& values) {
+        const auto append_least = [facet_1 = facet_1, facet_2 = facet_2](std::vector<double>& values) {
             values.push_back(std::min(values[facet_1], values[facet_2]));
         };
         append_least(facets.cell_depth);
