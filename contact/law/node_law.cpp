@@ -45,6 +45,10 @@ NodeLaw<Dim>::NodeLaw(BevelledSurface<Dim> surface, const NodalOptions& options,
       weightless_angle_(std::acos(std::clamp(options_.facing.none, -1.0, 1.0))),
       law_(options_.events, options_.friction, sharing) {
     const Surface<Dim>& facets = surface_.host().facets();
+    if (options_.search.self_contact && this->facets().size() > 0) {
+        place_facets(this->facets().vertices);
+        for (const PlacedFacet& facet : placed_) mean_width_ += facet.width / static_cast<double>(placed_.size());
+    }
     for (std::int32_t facet = 0; facet < facets.size(); ++facet)
         if (!surface_.host().is_rigid(facets.body[facet]))
             for (std::int32_t v = Dim * facet; v < Dim * (facet + 1); ++v)
@@ -64,7 +68,7 @@ void NodeLaw<Dim>::search(CandidateSearch<Dim>& candidates, State x_0, State x_1
     reach_ = std::numeric_limits<double>::infinity();
     if (options_.search.self_contact) {
         place_facets(x_0);
-        reach_ = std::min(0.5 * candidates.next_skin(), share_of_width * mean_width());
+        reach_ = std::min(0.5 * candidates.next_skin(), share_of_width * mean_width_);
         const double in_step = std::sqrt(
             largest(n_watched(), [&](std::ptrdiff_t i) { return (position(x_1, i) - position(x_0, i)).squaredNorm(); }));
         const double reach = std::max(reach_, in_step);
@@ -112,14 +116,6 @@ void NodeLaw<Dim>::place_facets(State x) {
             }
         },
         1024);
-}
-
-/// Of facets as they are placed: a facet turns least where its corners move across its width.
-template <int Dim>
-double NodeLaw<Dim>::mean_width() const {
-    double sum = 0.0;
-    for (const PlacedFacet& facet : placed_) sum += facet.width;
-    return placed_.empty() ? 0.0 : sum / static_cast<double>(placed_.size());
 }
 
 /// A facet whose corners move by at most r stays at least as wide as its width - 2 r, and its corners differ by at most 2 r in height.

@@ -99,7 +99,6 @@ private:
         double turn = 0.0;     // bound on the turn of `normal` while the list is valid [rad]
     };
     void place_facets(State x);
-    [[nodiscard]] double mean_width() const;
     void bound_turns(double reach);
     [[nodiscard]] bool may_come_together(FacetPair pair, double reach) const;
     [[nodiscard]] bool is_seen_from_outside(const NodalPair<Dim>& pair, State x) const;
@@ -115,6 +114,7 @@ private:
     InsidePairs<Dim> inside_;
     std::vector<NodalPair<Dim>> watched_;  // of these, that may be seen from outside while the list is valid
     std::vector<PlacedFacet> placed_;      // only where bodies touch themselves
+    double mean_width_ = 0.0;              // of facets at rest [m]; only there, too
     double reach_ = 0.0;                   // see list_reach
     NodalPairs<Dim> pairs_;
     InterferenceRamps ramps_;
