@@ -68,7 +68,7 @@ enum class OptionDepth {
     laboratory,  ///< compares methods; scenes have it in [laboratory], command lines as --lab KEY=VALUE
 };
 
-/// Where an option may be given.
+/// Places where an option may be given.
 struct OptionPlaces {
     bool scene = true;
     bool command_line = true;

@@ -33,7 +33,7 @@ struct ValueWithUnit {
 /// Nothing for a text that is not a number, or a formula in parentheses, and letters behind it.
 [[nodiscard]] std::optional<ValueWithUnit> value_with_unit(std::string_view text);
 
-/// What the number is in another unit. Where the two differ by a power of ten it is the double that is nearest to the decimal
+/// Value of the number in another unit. Where the two differ by a power of ten it is the double that is nearest to the decimal
 /// number: "25" in mm is 0.025 m. Infinite beyond the range of numbers. The dimensions must be equal.
 [[nodiscard]] double converted(const std::string& number, const Unit& from, const Unit& to);
 /// A formula for what the formula is in another unit.

@@ -240,7 +240,7 @@ void append_corner(const SurfaceView<3>& facets, const SurfaceCorner& corner, Be
     bevels.width = std::max(bevels.width, r);
 }
 
-/// Where edges that have a bevel end, and their directions out of the body.
+/// Ends of edges that have a bevel, and their directions out of the body.
 class BevelledEnds {
 public:
     void add(const SurfaceView<3>& facets, const Ridge& ridge) {

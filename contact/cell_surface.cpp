@@ -139,7 +139,7 @@ void check_shared(std::span<const SideOfFace> shared, const Cells<Dim>& cells) {
                                    std::to_string(cells.body(shared[0].cell)) + ". Give each body nodes of its own.");
 }
 
-/// Those that no other cell shares, in the order of the cells.
+/// Sides that no other cell shares, in the order of the cells.
 template <int Dim>
 std::vector<SideOfFace> boundary_of(const Cells<Dim>& cells) {
     const std::vector<SideOfFace> sides = sides_of(cells);

@@ -87,7 +87,7 @@ public:
     /// closed. Throws BadInput for a wrong size, Misuse without a list.
     [[nodiscard]] std::vector<AdmittedOverlap<Dim>> admitted_overlaps(std::span<const Vector<Dim>> displacement) const;
 
-    /// What the listed pairs remember.
+    /// Memory of the listed pairs.
     [[nodiscard]] const PairStore& pair_store() const;
 
     /// All that the next steps depend on, and the counters of `report`, as bytes: versioned, with a checksum. After

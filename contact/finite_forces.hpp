@@ -8,7 +8,7 @@
 
 namespace abut::contact {
 
-/// What a step may give back at most of one pair, in any unit: sums and products of a few of these are numbers.
+/// Largest figure that a step may give back of one pair, in any unit: sums and products of a few of these are numbers.
 inline constexpr double largest_figure = 1e150;
 
 /// Whether all figures are numbers of at most `largest_figure`. `magnitudes`: their sum; NaN is not.

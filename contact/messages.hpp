@@ -23,7 +23,7 @@ template <int Dim>
     return face_name(surface, face, face);
 }
 
-/// Of a pair that is pressed in deeper than a host allows.
+/// Error for a pair that is pressed in deeper than a host allows.
 template <int Dim>
 [[nodiscard]] TooDeep too_deep(const std::string& face_1, const std::string& face_2, const PairStep<Dim>& pair,
                                double limit) {

@@ -85,7 +85,7 @@ public:
     /// then on if it is apart, and else not, as if it had left the list. `memory`: of all pairs.
     [[nodiscard]] std::span<const NodalPair<Dim>> in_reach(PointsView<Dim> x_0, PointsView<Dim> x_1,
                                                            std::span<PairMemory> memory);
-    /// Those that can act in one state, and others.
+    /// Pairs that can act in one state, and others.
     [[nodiscard]] std::span<const NodalPair<Dim>> in_reach(PointsView<Dim> x) const;
 
     /// PairLaw::offset by InterferenceOptions::times at both ends of a step, of these pairs and those to come [m].
@@ -138,7 +138,7 @@ template <int Dim>
            std::max(sides.deepest_past(pair.facet_1, approach[0]), sides.deepest_past(pair.facet_2, approach[1]));
 }
 
-/// Of a pair that was not in the list before. Where the run begins the depth alone decides.
+/// First admission of a pair that was not in the list before. Where the run begins the depth alone decides.
 template <int Dim>
 [[nodiscard]] FirstAdmission decide_first(const NodalPair<Dim>& pair, PointsView<Dim> x, const SideOutlines<Dim>& sides,
                                           bool run_begins) {

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double margin = 0.85;
 
-/// What contact adds to omega^2 at worst, at a node of a body.
+/// Increase of omega^2 by contact at worst, at a node of a body.
 struct Raise {
     double omega_squared = 0.0;
     std::int32_t node = -1;

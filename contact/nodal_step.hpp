@@ -8,17 +8,17 @@
 
 namespace abut::contact {
 
-/// What contact does to one body in a step.
+/// Action of contact on one body in a step.
 template <int Dim>
 struct BodyStep {
     std::int32_t body;
     Vector<Dim> force;        ///< mean over the step [N]
     AxialVector<Dim> moment;  ///< of the forces on its nodes about the origin, at the middle of the step [N m]
-    /// What the body does by its own motion on what it touches [J]: of a rigid body on a given path, the work from outside
+    /// Work that the body does by its own motion on what it touches [J]: of a rigid body on a given path, the work from outside
     double work;
 };
 
-/// What two bodies do to each other in a step.
+/// Interaction of two bodies in a step.
 template <int Dim>
 struct BodyPairStep {
     std::int32_t body_1;
@@ -33,7 +33,7 @@ namespace detail {
 void check_force_size(std::int64_t given, std::int32_t needed);
 }  // namespace detail
 
-/// What contact did in one step, as a value. Without an active pair all is zero.
+/// Result of contact in one step, as a value. Without an active pair all is zero.
 template <int Dim>
 struct NodalStep {
     std::vector<std::int32_t> nodes;  ///< of the faces in the candidate list, increasing (n)

@@ -12,7 +12,7 @@ template <int Dim>
 struct RigidObstacle {
     std::vector<std::vector<Vector<Dim>>> faces;   ///< corners of each face, outside as in Surface::append [m]
     std::function<Vector<Dim>(double time)> path;  ///< translation from rest at a time [m]; empty: it stands still
-    /// Where it is at a time, turns included, for the pair potential alone; then `path` is not used
+    /// Placement at a time, turns included, for the pair potential alone; then `path` is not used
     std::function<Placement<Dim>(double time)> placement = {};
 };
 

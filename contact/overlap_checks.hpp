@@ -15,13 +15,13 @@ void check_arrays(const SurfaceView<Dim>& surface, std::span<const Vector<Dim>> 
 template <int Dim>
 void check_indices(const SurfaceView<Dim>& surface, std::span<const geometry::IndexPair> pairs);
 
-/// The same, and Diverged naming the face if one that a pair names has a displacement that is not finite. What no pair names
+/// Throws as `check_indices`, and Diverged naming the face if one that a pair names has a displacement that is not finite. What no pair names
 /// may hold anything. The arrays must have passed `check_arrays`.
 template <int Dim>
 void check_pairs(const SurfaceView<Dim>& surface, std::span<const Vector<Dim>> displacement,
                  std::span<const geometry::IndexPair> pairs);
 
-/// The same of one pair, which is alone.
+/// Checks as `check_pairs`, of one pair, which is alone.
 template <int Dim>
 void check_pair(const SurfaceView<Dim>& surface, std::span<const Vector<Dim>> displacement, geometry::IndexPair pair);
 

@@ -23,7 +23,7 @@ struct Overlap {
     Vector<Dim> area_gradient;  ///< dA/ds [m^(Dim-2)], orthogonal to the normal: what A gains as face 2 moves
 };
 
-/// What became of the pairs: not_facing + decided.total() = pairs.
+/// Outcome for the pairs: not_facing + decided.total() = pairs.
 struct OverlapReport {
     std::int64_t pairs = 0;
     std::int64_t overlaps = 0;

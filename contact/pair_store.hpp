@@ -9,7 +9,7 @@
 
 namespace abut::contact {
 
-/// What a pair of facets remembers from step to step. What facets remember by themselves is in FacetStore.
+/// Memory of a pair of facets from step to step. What facets remember by themselves is in FacetStore.
 struct PairMemory {
     /// Whether A > 0 and g < 0 means contact; decided only where A min(g, 0) = 0. docs/method.md, Contact.
     bool admitted = false;
@@ -25,7 +25,7 @@ struct FacetPair {
     friend auto operator<=>(const FacetPair&, const FacetPair&) = default;
 };
 
-/// What the pairs of a surface remember, by (facet_1, facet_2). It outlives candidate lists: a pair that stays in the list from
+/// Memory of the pairs of a surface, by (facet_1, facet_2). It outlives candidate lists: a pair that stays in the list from
 /// one search to the next keeps its memory, one that leaves the list loses it (else it would come back active from the
 /// side). It can be saved and restored.
 class PairStore {

@@ -3,7 +3,7 @@
 
 namespace abut::contact {
 
-/// Where a rigid body is: a point that is at X at rest is at `turn` X + `offset`.
+/// Position of a rigid body: a point that is at X at rest is at `turn` X + `offset`.
 template <int Dim>
 struct Placement {
     Matrix<Dim> turn = Matrix<Dim>::Identity();  ///< a rotation

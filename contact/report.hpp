@@ -3,7 +3,7 @@
 
 namespace abut::contact {
 
-/// What happened since the start, for the reader of a run.
+/// Events since the start, for the reader of a run.
 struct ContactReport {
     std::int64_t candidates = 0;  ///< pairs in the current list
     std::int64_t candidates_max = 0;

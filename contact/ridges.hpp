@@ -10,7 +10,7 @@ namespace abut::contact {
 /// Rounding of cosines [-]: an edge or a corner of just the limiting angle is not beyond it.
 inline constexpr double cosine_rounding = 1e-9;
 
-/// Where two faces of a body meet: an edge in 3D, a corner in 2D.
+/// Ridge between two faces of a body: an edge in 3D, a corner in 2D.
 struct Ridge {
     std::int32_t face_1;
     std::int32_t face_2;
@@ -18,7 +18,7 @@ struct Ridge {
     std::int32_t vertex_2;
 };
 
-/// Those that exactly two faces of a body share, with ends at exactly the same positions; in a fixed order. n log n.
+/// Ridges that exactly two faces of a body share, with ends at exactly the same positions; in a fixed order. n log n.
 template <int Dim>
 [[nodiscard]] std::vector<Ridge> ridges(const SurfaceView<Dim>& surface);
 

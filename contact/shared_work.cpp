@@ -10,7 +10,7 @@
 namespace abut::contact {
 namespace {
 
-/// What an error is beside its text.
+/// Content of an error beside its text.
 struct ErrorHead {
     static constexpr std::int64_t unknown = -1, no_memory = -2;
 

@@ -18,7 +18,7 @@ struct IndexRange {
     [[nodiscard]] std::size_t size() const { return end - begin; }
 };
 
-/// What a part of [0, n) is: parts are contiguous, in order, and differ by 1 at most.
+/// Range of a part of [0, n): parts are contiguous, in order, and differ by 1 at most.
 [[nodiscard]] inline IndexRange part_of(std::size_t n, int part, int n_parts) {
     const auto p = static_cast<std::size_t>(part), of = static_cast<std::size_t>(n_parts);
     return {n * p / of, n * (p + 1) / of};
@@ -75,7 +75,7 @@ public:
         if (values.empty()) return;
         std::memcpy(static_cast<void*>(values.data()), bytes(values.size_bytes()).data(), values.size_bytes());
     }
-    /// What `put_all` wrote.
+    /// Reads what `put_all` wrote.
     template <class T>
     void get_all(std::vector<T>& values) {
         values.resize(get<std::size_t>());
@@ -99,7 +99,7 @@ public:
         return n_parts_ > 1 && n >= things_per_part * static_cast<std::size_t>(n_parts_);
     }
 
-    /// Where it is worth it, by all parts together: calls work(range, writer) for the things of this part, then
+    /// Runs work by all parts together, where that is worth it: calls work(range, writer) for the things of this part, then
     /// take(range, reader) for those of each part in order, this one included. Throws what `work` throws on any part.
     template <class Work, class Take>
     void run(std::size_t n, const Work& work, const Take& take) {
@@ -127,7 +127,7 @@ private:
         std::uint64_t is_error;
     };
     void begin();
-    /// Of all parts that came to the end of their work; else throws.
+    /// Bytes of all parts that came to the end of their work; else throws.
     [[nodiscard]] std::span<const std::byte> gather(std::size_t n, const std::exception_ptr& error);
     void check_all(std::span<const std::byte> all, const std::exception_ptr& error) const;
 

@@ -30,7 +30,7 @@ int corner_at(const SurfaceView<Dim>& facets, std::int32_t facet, std::int32_t v
     return -1;
 }
 
-/// What is beyond an edge of a triangle.
+/// Facet beyond an edge of a triangle.
 struct Beyond {
     std::int32_t facet = -1;  // -1: nothing
     int edge = -1;            // the same edge, of that facet

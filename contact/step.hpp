@@ -25,7 +25,7 @@ struct FaceCoupling {
     std::vector<Matrix<Dim>> blocks;       ///< Q_ff' [N/m]
 };
 
-/// What a host says of the listed faces at the two ends of a step; displacements and gradients are linear in between.
+/// Data of the listed faces at the two ends of a step, given by the host; displacements and gradients are linear in between.
 template <int Dim>
 struct FacePath {
     std::span<const Vector<Dim>> displacement_0;  ///< û_f at the start (n) [m]
@@ -35,7 +35,7 @@ struct FacePath {
     std::span<const Vector<Dim>> gradient_1;  ///< the same at the end (n) [N]
 };
 
-/// What one pair of faces did in a step: a pair with A > 0 and g < 0 at some time of it.
+/// Result of one pair of faces in a step: a pair with A > 0 and g < 0 at some time of it.
 template <int Dim>
 struct PairStep {
     Face face_1;
@@ -95,13 +95,13 @@ struct StepReport {
     /// Active pairs whose normal is more than 20 degrees away from those of both faces: edges on edges, and coarse round
     /// bodies. Their force has a part along the faces.
     std::int64_t tilted_pairs = 0;
-    /// Of the pair potential: what closes the balance of energy, over the forces of all pairs. Beyond 1e-3 the step is too
+    /// Correction of the pair potential that closes the balance of energy, over the forces of all pairs. Beyond 1e-3 the step is too
     /// long to follow the pairs.
     double correction = 0.0;
     FrictionFigures friction;
 };
 
-/// What contact did in one step, as a value: arrays by listed face, active pairs, figures. Without an active pair all is
+/// Result of contact in one step, as a value: arrays by listed face, active pairs, figures. Without an active pair all is
 /// zero.
 template <int Dim>
 struct ContactStep {
@@ -111,7 +111,7 @@ struct ContactStep {
     IdVector<ListedFace, Vector<Dim>> mean_gradient;
     IdVector<ListedFace, double> mean_normal_force;  ///< of all pairs of a face (n) [N], > 0 in compression
     std::vector<PairStep<Dim>> pairs;                ///< the active ones, by (face_1, face_2)
-    /// What the corrections add to the host's energy at the end of the step: sum y . delta + 1/2 sum delta . Q delta [J].
+    /// Energy that the corrections add to the host's energy at the end of the step: sum y . delta + 1/2 sum delta . Q delta [J].
     double energy = 0.0;
     std::vector<FaceFriction> friction;  ///< of each face with friction in the last step, increasing
     StepReport report;

@@ -39,7 +39,7 @@ namespace detail {
 /// Throws BadInput for a kappa that is not from 0 to 1.
 void check_kappa(double kappa);
 
-/// What the filter has to know of a point.
+/// Data that the filter needs of a point.
 template <int Dim>
 struct PatchPoint {
     double mass;
@@ -48,7 +48,7 @@ struct PatchPoint {
     Vector<Dim> parasitic;  ///< e
 };
 
-/// What is kappa e' of the points of a patch, in its order. `points`: those of all patches, whose numbers are `numbers`,
+/// Part kappa e' of the points of a patch, in its order. `points`: those of all patches, whose numbers are `numbers`,
 /// increasing.
 template <int Dim>
 [[nodiscard]] std::vector<Vector<Dim>> parasitic_part(const ContactPatch<Dim>& patch, std::span<const std::int32_t> numbers,

@@ -39,7 +39,7 @@ inline constexpr double lower_bound_margin = 1.02;  ///< of omega: a Rayleigh qu
     const std::function<void(std::span<const double> x, std::span<double> product)>& stiffness,
     const Ranks& ranks = one_rank());
 
-/// The same of a system.
+/// Highest mode of a system.
 template <StiffnessProductSystem S>
 [[nodiscard]] HighestMode highest_mode(S& system) {
     return highest_mode(

@@ -11,7 +11,7 @@
 
 namespace abut::dynamics {
 
-/// What a new time step does to the half-step momenta. docs/integrators.md, Variable steps.
+/// Effect of a new time step on the half-step momenta. docs/integrators.md, Variable steps.
 enum class StepChange {
     /// They stay: what the scheme conserves stays exact, but they are then not centred about their node. With MEMM, and with
     /// local steps, only for slow and smooth changes: alternating or irregular steps solve another equation and feed the
@@ -40,7 +40,7 @@ void check_start(std::size_t size, std::span<const double> q, std::span<const do
 [[noreturn]] void refuse_constraints();
 }  // namespace detail
 
-/// What all schemes share: positions q^n, momenta p^{n-1/2} and p^{n+1/2} around them, start-up, changes of dt, energies.
+/// Part that all schemes share: positions q^n, momenta p^{n-1/2} and p^{n+1/2} around them, start-up, changes of dt, energies.
 ///
 /// A Scheme derives from it, calls `begin` in its constructor, and has
 ///     void start(span p)                  sets p_before_ and p_after_ (and what else it keeps) from p^n at q_, for dt_
@@ -85,7 +85,7 @@ public:
         step();
     }
 
-    /// The same without the step: those that follow have this dt.
+    /// Sets dt without a step: the steps that follow have this dt.
     void set_step(double dt, StepChange change) {
         detail::check_step(dt);
         const bool changed = dt != dt_;
@@ -144,7 +144,7 @@ public:
 
     /// The energy that the scheme conserves, at the present node [J]; work from outside is not taken out.
     [[nodiscard]] double pseudo_energy() { return pseudo_energy(system_.potential(q_)); }
-    /// The same where V at the present node is known.
+    /// Pseudo-energy where V at the present node is known.
     [[nodiscard]] double pseudo_energy(double potential) { return scheme().conserved_energy(potential); }
     /// 1/2 p . M^-1 p with p^n = (p^{n-1/2} + p^{n+1/2})/2 [J]
     [[nodiscard]] double kinetic_energy() const { return staggered_kinetic_energy() + energy_excess(); }

@@ -11,7 +11,7 @@
 
 namespace abut::dynamics {
 
-/// What a system with contact says to its ledger.
+/// Counts that a system with contact gives to its ledger.
 struct ContactCounts {
     std::int64_t active_pairs = 0;  ///< in the last step
     std::int64_t events = 0;        ///< so far
@@ -22,7 +22,7 @@ struct ContactCounts {
     std::int64_t sliding_faces = 0;   ///< the same
 };
 
-/// What neutral restarts have done so far; all zero without any. dynamics/neutral_restart.hpp
+/// Report of neutral restarts so far; all zero without any. dynamics/neutral_restart.hpp
 struct RestartReport {
     std::int64_t restarts = 0;   ///< steps after which bodies were restarted
     std::int64_t shortened = 0;  ///< bodies of which only a part of e could be taken, since too little vibrates
@@ -85,7 +85,7 @@ public:
           p_before(integrator.p_before()),
           p_after(integrator.p_after()),
           ranks(integrator.ranks()) {}
-    /// Of a state, which must outlive the view, with all points of its system.
+    /// View of a state, which must outlive the view, with all points of its system.
     explicit RunView(const IntegratorState& state)
         : steps(state.steps),
           time(state.time),
@@ -179,9 +179,9 @@ public:
     [[nodiscard]] double momentum_drift() const { return momentum_drift_; }
     /// max |L - L0| about the origin [kg m^2/s]; moments from outside are not taken out.
     [[nodiscard]] double angular_momentum_drift() const { return angular_momentum_drift_; }
-    /// The same with positions at rest [kg m^2/s].
+    /// As `angular_momentum_drift`, with positions at rest [kg m^2/s].
     [[nodiscard]] double rest_angular_momentum_drift() const { return rest_angular_momentum_drift_; }
-    /// The same of J~ [kg m^2/s].
+    /// As `angular_momentum_drift`, of J~ [kg m^2/s].
     [[nodiscard]] double pseudo_angular_momentum_drift() const { return pseudo_angular_momentum_drift_; }
     /// How far any body had turned at most [rad].
     [[nodiscard]] double rotation() const { return rotation_; }

@@ -55,7 +55,7 @@ public:
         this->begin(p);
     }
 
-    /// Of the degree of freedom i [s].
+    /// Time step of the degree of freedom i [s].
     [[nodiscard]] double local_step(std::size_t i) const { return step_of_level(steps_.level[i]); }
 
 private:

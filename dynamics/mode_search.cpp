@@ -17,7 +17,7 @@ inline constexpr double independent = 1e-6;
 // Of a mode, over the quotient, which is right to the square of this: what is below is not orthogonal to x, but rounding.
 inline constexpr double mode_residual = 1e-8;
 
-/// Of the residual r and the last direction p.
+/// Products of the residual r and the last direction p.
 struct ResidualProducts {
     double mass = 0.0, mass_last = 0.0, stiffness_last = 0.0;  ///< r . W^-1 r, r . W^-1 p, r . K p
 
@@ -29,7 +29,7 @@ struct ResidualProducts {
     }
 };
 
-/// What maximises the Rayleigh quotient in the span of the first N of three vectors, with u . W^-1 u = 1.
+/// Vector that maximises the Rayleigh quotient in the span of the first N of three vectors, with u . W^-1 u = 1.
 template <int N>
 Eigen::Vector3d largest_in_span(const Eigen::Matrix3d& stiffness, const Eigen::Matrix3d& mass) {
     const Eigen::LLT<Matrix<N>> factor(mass.topLeftCorner<N, N>());

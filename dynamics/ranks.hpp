@@ -35,14 +35,14 @@ public:
     [[nodiscard]] virtual bool is_one() const { return false; }
     [[nodiscard]] virtual int rank() const = 0;     ///< this one, from 0
     [[nodiscard]] virtual int n_ranks() const = 0;  ///< with this one
-    /// Of this rank's points among all, increasing (n_owned).
+    /// Numbers of this rank's points among all, increasing (n_owned).
     [[nodiscard]] virtual std::span<const std::int32_t> numbers() const = 0;
-    /// Of this rank's points among the entries of the arrays that it fills, its points and copies of others, increasing
+    /// Positions of this rank's points among the entries of the arrays that it fills, its points and copies of others, increasing
     /// (n_owned).
     [[nodiscard]] virtual std::span<const std::int32_t> positions() const = 0;
     [[nodiscard]] virtual std::int32_t n_points() const = 0;  ///< of all ranks
     [[nodiscard]] virtual int dimension() const = 0;          ///< values per point
-    /// Of one of this rank's points, among all.
+    /// Number of one of this rank's points among all.
     [[nodiscard]] virtual std::int32_t number_of(std::size_t point) const { return numbers()[point]; }
     /// This rank's point with that number among all; -1: it is on another rank.
     [[nodiscard]] virtual std::int32_t point_with(std::int32_t number) const;
@@ -106,7 +106,7 @@ private:
     int dimension_ = 1;
 };
 
-/// That of all systems that do not know of ranks.
+/// Ranks of all systems that do not know of ranks.
 [[nodiscard]] const Ranks& one_rank();
 
 /// The result of body(), once all ranks have agreed that it ended well on each. `body` must not call what all ranks call

@@ -40,7 +40,7 @@ public:
                     [this](auto q, double dt, auto before, auto after) { (*restart_)(q, dt, before, after); });
     }
 
-    /// Of all restarts so far.
+    /// Report of all restarts so far.
     [[nodiscard]] RestartReport report() const { return restart_ ? restart_->report() : RestartReport{}; }
 
 private:

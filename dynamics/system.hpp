@@ -9,7 +9,7 @@
 
 namespace abut::dynamics {
 
-/// What an integrator steps: positions q with a mass and a potential. All arrays hold one double per degree of freedom.
+/// System that an integrator steps: positions q with a mass and a potential. All arrays hold one double per degree of freedom.
 /// `inverse_mass` is a plain array of 1/m, or the factors of a sparse matrix (InverseMass).
 template <class S>
 concept System = requires(S& system, std::span<const double> q, std::span<double> force) {

@@ -14,7 +14,7 @@
 
 namespace abut::dynamics {
 
-/// What only some schemes are made with.
+/// Setup that only some schemes need.
 struct SchemeSetup {
     PathMean mean = PathMean::system;  ///< of memm and energy_momentum
     double gauge = 0.0;                ///< c of bilbao [J]

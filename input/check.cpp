@@ -29,7 +29,7 @@
 namespace abut::input {
 namespace {
 
-/// Of a force in the state at the start, by the best of several [s].
+/// Time of a force evaluation in the state at the start, by the best of several [s].
 template <int Dim>
 double seconds_of_force(solid::Solid<Dim>& solid) {
     constexpr int least = 3, most = 50;
@@ -50,7 +50,7 @@ double seconds_of_force(solid::Solid<Dim>& solid) {
     return best;
 }
 
-/// Of this process, at most until now [bytes].
+/// Memory of this process, at most until now [bytes].
 double peak_memory() {
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);

@@ -10,7 +10,7 @@
 
 namespace abut::input {
 
-/// What a run would take.
+/// Resources that a run would take.
 struct Estimate {
     std::int32_t bodies = 0;
     std::int32_t cells = 0;

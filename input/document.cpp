@@ -41,7 +41,7 @@ class Nesting {
 public:
     explicit Nesting(std::string_view text) : text_(text) {}
 
-    /// Where that happens first; nothing: nowhere.
+    /// Position where keys or brackets first go too deep; nothing: nowhere.
     [[nodiscard]] std::optional<toml::source_position> too_deep() {
         while (at_ < text_.size()) {
             const char c = text_[at_];

@@ -18,7 +18,7 @@ std::string headed(const std::vector<Fault>& faults) {
     return faults.size() == 1 ? text_of(faults) : fmt::format("{} faults\n{}", faults.size(), text_of(faults));
 }
 
-/// What is behind the last colon as a number, which goes together with the colon; nothing where that is none.
+/// Number behind the last colon, which goes together with the colon; nothing where that is none.
 std::optional<int> take_number(std::string_view& where) {
     const std::size_t colon = where.rfind(':');
     if (colon == std::string_view::npos) return std::nullopt;

@@ -10,7 +10,7 @@
 
 namespace abut::input {
 
-/// What a formula may depend on.
+/// Variables on which a formula may depend.
 enum class Variables { none, time, time_and_plane, time_and_space };
 
 /// A number that formulas know by its name.

@@ -30,7 +30,7 @@ std::array<int, Dim> counts_in(const std::array<int, 3>& counts) {
     return result;
 }
 
-/// Where the middle of a shape goes when Gmsh makes it: a body that turns is made about the origin.
+/// Position of the middle of a shape when Gmsh makes it: a body that turns is made about the origin.
 Vector<3> centre(const BodySettings& body) { return body.turn.isZero(0.0) ? body.place : Vector<3>(Vector<3>::Zero()); }
 
 /// `origin`: where that of the body is while its mesh is made.
@@ -41,7 +41,7 @@ std::optional<mesh::Refinement<Dim>> refinement(const BodySettings& body, const 
                                  body.refinement->distance, body.refinement->uniform};
 }
 
-/// That a body of this shape may have where nothing says how many.
+/// Most cells that a body of this shape may have where nothing says how many.
 double usual_most_cells(Shape shape) {
     if (shape == Shape::structured_box || shape == Shape::fan_disc || shape == Shape::gear)
         return mesh::most_structured_cells;

@@ -17,11 +17,11 @@ template <int Dim>
 [[nodiscard]] mesh::Mesh<Dim> make_body(const BodySettings& body, const std::filesystem::path& folder,
                                         const GivenMeshes* given = nullptr);
 
-/// Where a point is in the scene that is seen from a body, before its turn and place [m].
+/// Position in the scene of a point that is given in the body, before its turn and place [m].
 template <int Dim>
 [[nodiscard]] Vector<Dim> placed(const BodySettings& body, const Vector<Dim>& point);
 
-/// What of a file with several bodies holds for the one of this name in the mesh of make_body: its own table, or `body`.
+/// Settings for the body of this name in the mesh of make_body, from a file with several bodies: its own table, or `body`.
 [[nodiscard]] const BodySettings& settings_of(const BodySettings& body, const std::string& name);
 
 }  // namespace abut::input

@@ -106,7 +106,7 @@ void require_one_side(const mesh::SurfaceMesh& surface, const geometry::SurfaceR
     }
 }
 
-/// Of a closed surface in either sense.
+/// Shell of a closed surface in either sense.
 Shell<3> shell_of_file(const ObstacleSettings& obstacle, const std::filesystem::path& folder) {
     const mesh::SurfaceMesh read = mesh::read_surface(folder / obstacle.surface);
     const auto health = geometry::check_surface(read.soup());
@@ -180,7 +180,7 @@ std::function<Vector<3>(double)> rotation_of(const ObstacleSettings& obstacle) {
     return [spin = obstacle.spin](double time) { return Vector<3>(spin * time); };
 }
 
-/// Of the box around it; of a plane its point.
+/// Middle of the box around it; of a plane its point.
 template <int Dim>
 Vector<Dim> middle_of(const Faces<Dim>& faces, const ObstacleSettings& settings) {
     if (is_endless(settings)) return rotation<Dim>(settings.turn) * head<Dim>(settings.point) + head<Dim>(settings.place);

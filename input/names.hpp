@@ -46,7 +46,7 @@ public:
     }
 
 private:
-    /// Of a table that has no mesh, so that nothing is known of its names.
+    /// Whether `name` is of a table that has no mesh, so that nothing is known of its names.
     [[nodiscard]] bool is_of_missing_body(const std::string& name) const {
         const auto is_of = [](const std::string& part, const std::string& table) {
             return part == table || part.starts_with(table + ".");

@@ -165,7 +165,7 @@ std::string hint_of_key(const std::string& word, const std::vector<std::string>&
 
 namespace {
 
-/// Those that hold this word, in small or capital letters.
+/// Names that hold this word, in small or capital letters.
 std::vector<std::string> holding(const std::string& word, const std::vector<std::string>& known) {
     std::vector<std::string> found;
     for (const std::string& name : known)

@@ -9,7 +9,7 @@ namespace abut::input {
 /// near, " Known are 'a', 'b'."; empty if nothing is known.
 [[nodiscard]] std::string hint(const std::string& word, const std::vector<std::string>& known);
 
-/// The same of a key: words that other programs have for one of ours are known ("E", "rho", "t_end"), and so are some for what
+/// Hint for a key: words that other programs have for one of ours are known ("E", "rho", "t_end"), and so are some for what
 /// is not there.
 [[nodiscard]] std::string hint_of_key(const std::string& word, const std::vector<std::string>& known);
 

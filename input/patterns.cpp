@@ -17,7 +17,7 @@ namespace {
 
 constexpr double most_copies = 100000.0;  // of one pattern
 
-/// Where one copy goes, from where its body is.
+/// Motion of one copy from where its body is.
 struct Copy {
     std::string number;                    ///< "_0_3", which ends its name
     Vector<3> offset = Vector<3>::Zero();  ///< [m]

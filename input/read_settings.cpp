@@ -222,7 +222,7 @@ void read(MomentSettings& moment, const Node& table, const std::string& path, Re
         reader.fault(table, fmt::format("{} does nothing. Give its value [N m], its damping [N m s], or both.", path));
 }
 
-/// What makes a row, a grid, a ring or a table of places of it.
+/// Reads what makes a row, a grid, a ring or a table of places of it.
 void read(PatternSettings& pattern, const Node& table, const std::string& path, Reader& reader) {
     read_table(pattern, table, path, pattern_keys(), reader);
     const auto has = [&](const char* key) { return table.find(key) != nullptr; };
@@ -426,7 +426,7 @@ void check_law(const Settings& settings, std::vector<Fault>& faults) {
                      turns)});
 }
 
-/// What no key by itself can know.
+/// Checks what no key by itself can know.
 void check_options(const Settings& settings, std::vector<Fault>& faults) {
     const std::string where = settings.file.string();
     const run::RunOptions& options = settings.options;

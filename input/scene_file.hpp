@@ -13,11 +13,11 @@ namespace abut::input {
 
 struct Settings;
 
-/// What takes the place of what a file says.
+/// Values that replace those of a file.
 struct Overrides {
     std::vector<std::string> set{};                   ///< "bodies.left.density=2": key and value
     std::function<void(run::RunOptions&)> options{};  ///< changes those of the file; may be empty
-    /// Where the file is taken to be, if it is a copy: paths in it begin there, and the scene has its name.
+    /// Path at which the file is taken to be, if it is a copy: paths in it begin there, and the scene has its name.
     std::filesystem::path origin{};
     std::shared_ptr<const GivenMeshes> meshes{};  ///< that bodies may have; null: none
 };

@@ -21,10 +21,10 @@
 #include "abut/solid/kinematics/kinematics.hpp"
 #include "abut/solid/material/material.hpp"
 
-/// What a scene file says, key by key and for both dimensions: of vectors in the plane z is 0, and turns are about z.
+/// Settings of a scene file, key by key and for both dimensions: of vectors in the plane z is 0, and turns are about z.
 namespace abut::input {
 
-/// What of a vector counts in a dimension.
+/// Components of a vector that count in a dimension.
 template <int Dim>
 [[nodiscard]] Vector<Dim> head(const Vector<3>& vector) {
     return vector.head<Dim>();
@@ -187,7 +187,7 @@ struct IgnoredPair {
 /// What overlaps at the start is an error, or is resolved over a time.
 enum class Interference { refuse, resolve };
 
-/// What acts between two bodies, obstacles or groups of boundary faces: `bodies` and `groups` together name two.
+/// Settings of what acts between two bodies, obstacles or groups of boundary faces: `bodies` and `groups` together name two.
 struct PairSettings {
     std::vector<std::string> bodies;  // or obstacles
     std::vector<std::string> groups;

@@ -237,7 +237,7 @@ void check_names(const Mesh<Dim>& mesh) {
 template <int Dim>
 using Place = std::pair<std::array<std::int64_t, Dim>, std::int32_t>;
 
-/// Of each body the first of those that it is joined to, itself where it is joined to none.
+/// For each body the first of those that it is joined to, itself where it is joined to none.
 template <int Dim>
 std::vector<std::int32_t> first_of_joined(const Mesh<Dim>& mesh) {
     DisjointSets joined(static_cast<std::size_t>(mesh.n_bodies()));

@@ -14,7 +14,7 @@ namespace {
 /// The numbers of shared vertices in their bodies, by old number and body: those of the first body stay.
 using Copies = std::map<std::pair<std::int32_t, std::int32_t>, std::int32_t>;
 
-/// Of each vertex the first body that has it, -1: none; and whether others have it, too.
+/// For each vertex the first body that has it, -1: none; and whether others have it, too.
 struct Owners {
     std::vector<std::int32_t> body;
     std::vector<char> is_shared;

@@ -7,7 +7,7 @@
 
 namespace abut::mesh {
 
-/// What is left of a mesh.
+/// Remaining part of a mesh.
 template <int Dim>
 struct MeshLeft {
     Mesh<Dim> mesh;

@@ -11,7 +11,7 @@ namespace abut::ranks {
 /// all of their ranks together: MPI frees what they share.
 class Communicator {
 public:
-    /// Of a communicator as an integer, `MPI_Comm_c2f(comm)` in C, the communicator itself in Fortran: so that no header of
+    /// Made of a communicator as an integer, `MPI_Comm_c2f(comm)` in C, the communicator itself in Fortran: so that no header of
     /// ours needs that of MPI. A call of all of its ranks. Throws Misuse where MPI is not initialised, or is finalised.
     explicit Communicator(int fortran_handle);
     ~Communicator();

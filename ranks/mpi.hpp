@@ -142,7 +142,7 @@ inline void take_largest(const Communicator& communicator, std::span<double> val
             "MPI_Allreduce");
 }
 
-/// What rank `root` has, on all ranks.
+/// Copies what rank `root` has to all ranks.
 template <class T>
 void broadcast(const Communicator& communicator, std::span<T> values, int root = 0) {
     require(MPI_Bcast(values.data(), as_count(values.size()), type_of<T>(), root, handle(communicator)), "MPI_Bcast");

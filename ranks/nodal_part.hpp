@@ -7,7 +7,7 @@
 
 namespace abut::ranks {
 
-/// What a rank has of a surface that is shared out: all of its nodes, and the faces that it gives. Read once.
+/// Share of a rank in a surface that is shared out: all of its nodes, and the faces that it gives. Read once.
 template <int Dim>
 struct NodalPart {
     /// The nodes of this rank at rest (n_nodes) [m], whether they belong to a face or not

@@ -23,7 +23,7 @@ public:
         std::int32_t surface;  ///< index in the nodes of the surface
     };
 
-    /// Where values come from, one of `width` per node of this rank, and where they go, one per node of the surface.
+    /// Source of values, one of `width` per node of this rank, and their target, one per node of the surface.
     template <int Dim>
     struct Points {
         PointsView<Dim> from;

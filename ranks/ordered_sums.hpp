@@ -23,7 +23,7 @@ public:
     void sum(const dynamics::Summands& summands, std::span<const double> terms, std::span<double> total);
 
 private:
-    /// Where the values of a range go, and where those that come belong.
+    /// Targets of the values of a range, and positions of those that come.
     struct Plan {
         std::int64_t n = 0;                 // values of all ranks
         std::int64_t begin = 0;             // those that are added up here begin with this one

@@ -11,7 +11,7 @@
 
 namespace abut::ranks {
 
-/// What a rank has of the points of a system.
+/// Share of a rank in the points of a system.
 struct SharedPoints {
     int dimension = 3;                       ///< values per point
     std::int32_t n_points = 0;               ///< of all ranks
@@ -23,7 +23,7 @@ struct SharedPoints {
     std::vector<std::int32_t> copied_point;  ///< its number among all points
 };
 
-/// What has been exchanged so far.
+/// Data exchanged so far.
 struct Traffic {
     std::int64_t fills = 0;
     std::int64_t messages = 0;  ///< sent by this rank in fills

@@ -136,7 +136,7 @@ private:
         double motion;  ///< the farthest from where the list was searched for [m]; NaN where a node is not finite
         bool goes_on;   ///< the listed nodes begin where they were brought to last
     };
-    /// Of a node of this rank that gets a force.
+    /// Node of this rank that gets a force.
     struct Pushed {
         std::int32_t own;
         std::size_t listed;  ///< index in the listed nodes

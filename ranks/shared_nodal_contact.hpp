@@ -68,7 +68,7 @@ public:
     [[nodiscard]] std::vector<std::int32_t> inward_bodies() const;
     [[nodiscard]] std::vector<contact::BlindCorner<Dim>> blind_corners() const;
     [[nodiscard]] std::optional<contact::EdgePair<Dim>> unseen_edges() const;
-    /// What has been exchanged by `step` and `evaluate` so far: gathers and reductions. Bytes are those of this rank.
+    /// Data exchanged by `step` and `evaluate` so far: gathers and reductions. Bytes are those of this rank.
     [[nodiscard]] const Traffic& traffic() const;
 
 private:

@@ -103,7 +103,7 @@ std::vector<float> corners_of(const contact::RigidObstacle<Dim>& obstacle) {
     return numbers;
 }
 
-/// What all frames have in common.
+/// Part that all frames have in common.
 template <int Dim>
 Json common_part(const std::string& title, const Scene<Dim>& scene, const BodyPolygons& polygons, const std::string& note) {
     std::vector<std::uint32_t> counts, corners(polygons.corners.begin(), polygons.corners.end());

@@ -24,7 +24,7 @@ template <int Dim>
 [[noreturn]] void refuse_diverged(const Scene<Dim>& scene, const RunResult<Dim>& result, double scale,
                                   const WorstCell& worst);
 
-/// What the error of a step says further to a user: the modified reconstruction reads the depth of tilted faces between their
+/// Advice for a user about the error of a step: the modified reconstruction reads the depth of tilted faces between their
 /// centroids, and there the other law is the cure.
 template <int Dim>
 [[nodiscard]] std::string advice_on_law(const Error& error, const solid::Solid<Dim>& solid);

@@ -72,7 +72,7 @@ void write_frame(const std::filesystem::path& directory, const std::string& seri
     mesh::VtuSeries<Dim>(directory, failure_series(series), solid.mesh()).write(frame);
 }
 
-/// Of colours: at most six decades; where all are about as fast, one colour in the middle.
+/// Range of the colours: at most six decades; where all are about as fast, one colour in the middle.
 std::pair<double, double> speed_range(const std::vector<double>& speed) {
     double slowest = HUGE_VAL, fastest = 0.0;
     for (const double v : speed) {

@@ -42,7 +42,7 @@ void move_file(const std::filesystem::path& from, const std::filesystem::path& t
 /// become underscores; as_cell.
 [[nodiscard]] std::string in_csv(std::string name);
 
-/// What is said wherever a file cannot be written.
+/// Message for a file that cannot be written.
 [[nodiscard]] std::string cannot_be_written(const std::filesystem::path& path, const std::string& reason = "");
 
 }  // namespace abut::run

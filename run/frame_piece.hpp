@@ -42,7 +42,7 @@ struct FramePiece {
     std::vector<double> bond;  ///< left_of_bonds (n_faces); empty without bonds
 };
 
-/// What is left of the pull of the bonds of each boundary face of the solid's mesh, by area [-]; NaN where none is, and empty without
+/// Remaining part of the pull of the bonds, per boundary face of the solid's mesh, by area [-]; NaN where none is, and empty without
 /// bonds.
 template <int Dim>
 [[nodiscard]] std::vector<double> left_of_bonds(const solid::Solid<Dim>& solid);

@@ -54,7 +54,7 @@ public:
     void piece(const FramePiece<Dim>& piece) override;
     void all_pieces(const FramePiece<Dim>& piece) override;
     void save(StateWriter& state) override;
-    /// Of the files that list the frames of cells and boundary faces.
+    /// Extension of the files that list the frames of cells and boundary faces.
     [[nodiscard]] std::string list_extension() const { return format_ == FrameFormat::xdmf ? ".xmf" : ".pvd"; }
     [[nodiscard]] bool has_pairs() const { return pairs_.has_value(); }         ///< whether SERIES_pairs is written
     [[nodiscard]] bool has_obstacles() const { return obstacles_ != nullptr; }  ///< whether SERIES_obstacles is written

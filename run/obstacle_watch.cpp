@@ -43,7 +43,7 @@ bool is_over(const std::vector<Vector<Dim>>& corners, const Vector<Dim>& normal,
     }
 }
 
-/// Of each body the vertices that reach farthest along the axes, and their middle, where they are at the start.
+/// For each body the vertices that reach farthest along the axes, and their middle, where they are at the start.
 template <int Dim>
 std::vector<std::vector<Vector<Dim>>> outermost_points(const Scene<Dim>& scene) {
     const mesh::Mesh<Dim>& mesh = scene.mesh;

@@ -18,7 +18,7 @@ namespace {
 
 /// More than any run takes; all of them are counted exactly in doubles and integers.
 constexpr double most_steps = 1e15;
-/// What a quotient of two times may be off by.
+/// Largest rounding of a quotient of two times.
 constexpr double rounding = 1e-12;
 
 /// As `check`, with options as command lines have them.

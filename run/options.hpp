@@ -77,7 +77,7 @@ struct RunOptions {
 using dynamics::name_of;  ///< "memm"
 /// "floating"
 [[nodiscard]] std::string name_of(solid::Kinematics kinematics);
-/// That of all bodies; nothing where the scene or a pilot run decides.
+/// Kinematics of all bodies; nothing where the scene or a pilot run decides.
 [[nodiscard]] std::optional<solid::Kinematics> kinematics_of_all(BodyKinematics kinematics);
 
 /// The steps between two records of a run of so many steps, where none are given: so many that there are about 2,000 records,

@@ -21,7 +21,7 @@ using Position = Snapshot::Position;
 constexpr double strain_of_rounding = 1e-9;  // far above it
 constexpr double highest_left_out = 0.02;    // part of the values
 
-/// What the edges of each face of the mesh are.
+/// Kind of the edges of each face of the mesh.
 template <int Dim>
 std::vector<Edge> edges_of_faces(const mesh::Mesh<Dim>& mesh, const solid::BoundaryConditions<Dim>& conditions) {
     std::vector<Edge> edges(static_cast<std::size_t>(mesh.n_faces()), Edge::inner);

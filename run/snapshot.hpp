@@ -23,7 +23,7 @@ struct Snapshot {
         obstacles;  ///< their faces; in 2D the outside is on the right of a segment, in 3D seen counter-clockwise
 };
 
-/// What an edge of a polygon is drawn as.
+/// Style in which an edge of a polygon is drawn.
 enum class Edge : std::int8_t {
     inner,   ///< between cells
     rim,     ///< a boundary face in 2D
@@ -31,7 +31,7 @@ enum class Edge : std::int8_t {
     loaded,  ///< of a face under a traction
 };
 
-/// What is drawn of the bodies of a run: in 2D their cells, in 3D their boundary faces.
+/// Polygons drawn of the bodies of a run: in 2D their cells, in 3D their boundary faces.
 struct BodyPolygons {
     bool in_space = false;   ///< 3D
     std::string value_name;  ///< "von Mises stress"
@@ -54,7 +54,7 @@ public:
     SnapshotMaker(const Scene<Dim>& scene, const RunResult<Dim>& result);
 
     [[nodiscard]] const BodyPolygons& polygons() const { return polygons_; }
-    /// Of a state that the solid has evaluated. What it costs is proportional to the cells in 2D, to the boundary in 3D.
+    /// Snapshot of a state that the solid has evaluated. Its cost is proportional to the cells in 2D, to the boundary in 3D.
     [[nodiscard]] Snapshot taken(std::string what, const dynamics::RunView<Dim>& run, const solid::Solid<Dim>& solid) const;
 
 private:

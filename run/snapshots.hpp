@@ -33,7 +33,7 @@ public:
     void save(StateWriter& state) const;
     void resume(const Scene<Dim>& scene, const RunResult<Dim>& result, StateReader& state);
 
-    /// Those taken so far.
+    /// Pictures taken so far.
     [[nodiscard]] BodyPictures pictures() const;
 
 private:

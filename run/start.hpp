@@ -22,7 +22,7 @@ template <int Dim>
 /// sum + a - b
 [[nodiscard]] solid::SolidTimes added(const solid::SolidTimes& sum, const solid::SolidTimes& a, const solid::SolidTimes& b);
 
-/// What a run begins from, whatever its integrator.
+/// State from which a run begins, whatever its integrator.
 template <int Dim>
 struct Start {
     /// All arguments but `pilot` and `observer`, who is told how bodies come to rest, must outlive it.

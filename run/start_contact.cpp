@@ -120,7 +120,7 @@ double size_of(const std::vector<Vector<Dim>>& corners) {
     return size;
 }
 
-/// Of two surfaces no farther apart than `bound`.
+/// Nearest points of two surfaces no farther apart than `bound`.
 template <int Dim>
 Nearest<Dim> nearest(const PlacedSurface<Dim>& a, const PlacedSurface<Dim>& b, double bound,
                      const geometry::SearchOptions& search) {

@@ -8,7 +8,7 @@
 /// Figures of a node of a run that its accounts record (Accounts::record), beside those of the ledger.
 namespace abut::run {
 
-/// Of the points, on all ranks [m/s].
+/// Largest speed of the points, on all ranks [m/s].
 template <int Dim>
 [[nodiscard]] double largest_speed(const dynamics::RunView<Dim>& run, const solid::Solid<Dim>& solid);
 

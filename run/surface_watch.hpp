@@ -50,7 +50,7 @@ private:
     [[nodiscard]] bool is_on() const { return bodies_.size() > 1; }
     [[nodiscard]] bool is_obstacle(std::int32_t body) const { return body >= scene_.mesh.n_bodies(); }
     using Pairs = std::vector<std::array<std::int32_t, 2>>;
-    /// Of bodies that pass through each other, or overlap on purpose [s].
+    /// Pairs of bodies that pass through each other, or overlap on purpose, at `time` [s].
     [[nodiscard]] Pairs passing_pairs(double time) const;
     [[nodiscard]] bool may_meet(const Body& body_1, const Body& body_2, const Pairs& passing) const;
     [[nodiscard]] Points points(std::span<const std::int32_t> corners) const;

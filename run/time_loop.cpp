@@ -126,7 +126,7 @@ private:
         if (scene_.after_step) scene_.after_step(solid_, result_.dt);
     }
 
-    /// What rank 0 wants now, in one message; progress is told of with it.
+    /// Asks what rank 0 wants now, in one message; progress is told of with it.
     [[nodiscard]] Wanted ask(bool records) {
         return Wanted::of(first_says(solid_.ranks(), [&] {
             const std::int64_t step = integrator_->steps();
@@ -162,12 +162,12 @@ private:
 
     // Several ranks share the cells out again
 
-    /// Of this rank, in the operators of its cells, since the last call [s].
+    /// Time of this rank in the operators of its cells, since the last call [s].
     [[nodiscard]] double own_seconds() {
         return solid_.times().own_cells - std::exchange(own_seconds_before_, solid_.times().own_cells);
     }
 
-    /// Where that is worth it. The run goes on as from a checkpoint.
+    /// Rebalances where that is worth it. The run goes on as from a checkpoint.
     void rebalance() {
         const dynamics::Ranks& ranks = solid_.ranks();
         const std::vector<double> weights = balance_.weights(ranks, own_seconds());
@@ -269,7 +269,7 @@ private:
         });
     }
 
-    /// Where a step has no end.
+    /// Reports a step that has no end.
     void fail_at(const Error& error) {
         const dynamics::IntegratorState sound = whole_.of(sound_.state());
         tell({.sound = sound,

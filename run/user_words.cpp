@@ -103,7 +103,7 @@ const OptionFacts* option_of(std::string_view flag) {
     return nullptr;
 }
 
-/// What stands behind an option as its value; empty: nothing.
+/// Value that stands behind an option; empty: nothing.
 std::string_view value_in(const OptionFacts& option, std::string_view rest) {
     if (!rest.starts_with(' ')) return {};
     const auto is_of_word = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; };

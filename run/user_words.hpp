@@ -4,7 +4,7 @@
 
 namespace abut::run {
 
-/// What a scene calls its bodies and obstacles.
+/// Names of bodies and obstacles in a scene.
 struct SceneNames {
     std::vector<std::string> bodies{};
     std::vector<std::string> obstacles{};

@@ -18,7 +18,7 @@ public:
     /// `start` must outlive it, and may take another part.
     explicit WholeRun(Start<Dim>& start) : start_(start) {}
 
-    /// Of all cells, on rank 0.
+    /// Solid of all cells, on rank 0.
     [[nodiscard]] solid::Solid<Dim>& seen() const { return start_.whole ? *start_.whole : *start_.solid; }
 
     template <class Body>

@@ -18,7 +18,7 @@ struct BodyInertia {
     [[nodiscard]] double least() const { return share.minCoeff(); }
 };
 
-/// Of each body of a solid that runs on one rank (n_bodies).
+/// Inertia of each body of a solid that runs on one rank (n_bodies).
 template <int Dim>
 [[nodiscard]] std::vector<BodyInertia<Dim>> inertia_of_bodies(const Solid<Dim>& solid);
 

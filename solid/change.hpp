@@ -21,7 +21,7 @@ struct RunState {
     std::vector<std::byte> solid;      ///< Solid::state
 };
 
-/// That of a run; the same on all ranks, which call it together.
+/// State of a run; the same on all ranks, which call it together.
 template <int Dim, class Integrator>
 [[nodiscard]] RunState run_state(const Solid<Dim>& solid, const Integrator& run) {
     return {dynamics::gathered<Dim>(solid.ranks(), run.state()), solid.state()};
@@ -35,7 +35,7 @@ void go_on_from(const RunState& state, Solid<Dim>& solid, Integrator& run) {
     solid.restore(state.solid, run.q());
 }
 
-/// What a run loses with cells that leave it: as it was before, less as it is after.
+/// Losses of a run with cells that leave it: as it was before, less as it is after.
 template <int Dim>
 struct Left {
     std::int32_t cells = 0;

@@ -53,7 +53,7 @@ public:
     /// How far the centroids of a group move in the next d [s], whatever acts (n_faces) [m]: sum of |f| t . this is the work of the
     /// tractions. Throws BadInput for a d beyond the next node, where the motion is not known yet.
     [[nodiscard]] std::vector<Vector<Dim>> motion(const std::string& group, double d);
-    /// Where the faces of a group are now; their velocity is that of the step that goes on, normals are those at the last node.
+    /// Positions of the faces of a group now; their velocity is that of the step that goes on, normals are those at the last node.
     [[nodiscard]] OutsideFaces<Dim> faces(const std::string& group);
     /// Displacements of the points now (n_points * Dim) [m].
     [[nodiscard]] std::vector<double> q() { return clock_.q(); }

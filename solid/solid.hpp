@@ -101,7 +101,7 @@ public:
     [[nodiscard]] std::span<const double> masses() const;                ///< of the points (n_points) [kg]
     [[nodiscard]] std::span<const Vector<Dim>> rest_positions() const;   ///< of the points (n_points) [m]
     [[nodiscard]] std::span<const std::int32_t> body_of_points() const;  ///< (n_points)
-    /// Where no body turns strains are linear, and what is free keeps its angular momentum about the positions at rest; bodies
+    /// Arms of angular momentum. Where no body turns strains are linear, and what is free keeps it about the positions at rest; bodies
     /// with a frame of their own keep J~.
     [[nodiscard]] dynamics::MomentArms moment_arms() const;
     /// The part of 2/omega_max that is stable [-]: a closed contact stiffens its cells, and noise feeds the alternating mode of
@@ -177,7 +177,7 @@ public:
     /// they are set again (n_faces) [Pa]; what that changes in V is booked as work. Throws BadInput, and nothing has changed, for
     /// another group, another number, or one that is not finite. docs/loads.md.
     void set_traction(const std::string& group, std::span<const Vector<Dim>> traction);
-    /// What tractions from outside have done so far; q is where the last step ended.
+    /// Work of tractions from outside so far; q is where the last step ended.
     [[nodiscard]] OutsideWork outside_work(std::span<const double> q) const;
 
     // Parts, each in a value of its own
@@ -194,7 +194,7 @@ public:
     [[nodiscard]] const dynamics::Ranks& ranks() const;  ///< that the points are shared out to; one alone has all
     [[nodiscard]] const mesh::Mesh<Dim>& mesh() const { return mesh_; }
     [[nodiscard]] const SolidOptions<Dim>& options() const { return options_; }
-    /// Of the bodies that deform: where some are rigid, with cells and faces numbered without theirs.
+    /// Operators of the bodies that deform: where some are rigid, with cells and faces numbered without theirs.
     [[nodiscard]] Ccg<Dim>& ccg() { return ccg_; }
     [[nodiscard]] const Ccg<Dim>& ccg() const { return ccg_; }
     [[nodiscard]] const SolidTimes& times() const { return times_; }

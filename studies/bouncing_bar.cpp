@@ -72,7 +72,7 @@ void add_options(Flags& flags, BounceOptions& options) {
     apps::add_interval_option(flags, options.interval);
 }
 
-/// What happens at the wall.
+/// Watches what happens at the wall.
 class Impacts : public apps::Watcher {
 public:
     explicit Impacts(double gravity) : exact_(gravity), weight_(the_bar.mass() * gravity) {}

@@ -59,7 +59,7 @@ public:
         impulses_.back() += impulse;
         quiet_ = 0.0;
     }
-    /// Those that are over.
+    /// Impulses of impacts that are over.
     [[nodiscard]] std::vector<double> complete() const {
         std::vector<double> result = impulses_;
         if (!finished() && !result.empty()) result.pop_back();

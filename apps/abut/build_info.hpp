@@ -22,7 +22,7 @@ struct BuildInfo {
 
 [[nodiscard]] const BuildInfo& build_info();
 
-/// What abut --version prints: the first line is "abut 0.1.0".
+/// Text that abut --version prints: the first line is "abut 0.1.0".
 [[nodiscard]] std::string version_text();
 
 }  // namespace abut::apps

@@ -32,7 +32,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What a command line says.
+/// Content of a command line.
 struct CommandLine {
     fs::path scene;
     fs::path new_file;
@@ -120,7 +120,7 @@ void add_commands(CommandParser& parser, CommandLine& line) {
     add_asked(parser, line.asked);
 }
 
-/// Of two options that exclude each other on the command line the one of the scene goes.
+/// Drops an option of the scene where one on the command line excludes it.
 void drop_excluded(const CommandParser& command, run::RunOptions& options) {
     if (command.at("--steps").is_given()) options.time = run::not_given;
     if (command.at("--time").is_given()) options.steps = 0;

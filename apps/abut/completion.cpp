@@ -10,7 +10,7 @@
 namespace abut::apps {
 namespace {
 
-/// What may stand in place of a value.
+/// Kind of text that may stand in place of a value.
 enum class Kind { words, folders, files, unknown };
 
 Kind kind_of(const CommandOption& option) {

@@ -8,7 +8,7 @@
 
 namespace abut::apps {
 
-/// What a manual page begins with.
+/// Head of a manual page.
 struct ManPage {
     std::string program;
     std::string version;

@@ -25,7 +25,7 @@ using Json = nlohmann::ordered_json;
 
 fs::path checkpoints_of(const fs::path& results) { return results / "checkpoints"; }
 
-/// Of words from a command line: as text, or byte by byte where they are no UTF-8.
+/// JSON of words from a command line: as text, or byte by byte where they are no UTF-8.
 Json json_of(const std::string& word) {
     return as_utf8(word) == word ? Json(word) : Json(std::vector<unsigned char>(word.begin(), word.end()));
 }

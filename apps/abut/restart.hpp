@@ -7,7 +7,7 @@
 
 namespace abut::apps {
 
-/// What `abut run` leaves beside its checkpoints, for `abut restart`: the scene, where it was, and the command line.
+/// Data that `abut run` leaves beside its checkpoints, for `abut restart`: the scene, where it was, and the command line.
 struct Restart {
     std::filesystem::path scene;         ///< that was run, with its whole path
     std::vector<std::string> arguments;  ///< of the command line, the name of the program first
@@ -23,7 +23,7 @@ struct Restart {
 /// The copy of the scene there.
 [[nodiscard]] std::filesystem::path scene_for_restart(const std::filesystem::path& results);
 
-/// What has become of the scene since, a sentence; empty where it is as it was, or where nothing of it is known.
+/// Changes of the scene since, as a sentence; empty where it is as it was, or where nothing of it is known.
 [[nodiscard]] std::string changes_since(const std::filesystem::path& scene, const std::filesystem::path& results);
 
 }  // namespace abut::apps

@@ -4,7 +4,7 @@
 
 namespace abut::apps {
 
-/// What is in a folder of results: of a run that has ended what its summary.json says, of one that is under way or broke off
+/// Content of a folder of results: of a run that has ended what its summary.json says, of one that is under way or broke off
 /// how far energy.csv.partial has come; and the files. Throws BadInput if neither is there, or if the summary is none.
 [[nodiscard]] std::string results_info(const std::filesystem::path& folder);
 

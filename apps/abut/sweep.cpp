@@ -28,7 +28,7 @@ constexpr std::array<const char*, 8> figures{
     "steps",          "dt", "energy_excess_max", "parasitic_max", "momentum_drift_max", "events", "missed_contacts",
     "compression_max"};
 
-/// What has become of one run.
+/// Outcome of one run.
 struct Outcome {
     std::string folder;
     std::vector<std::string> values;
@@ -168,7 +168,7 @@ private:
     std::vector<run::FolderLock> locks_;
 };
 
-/// Where the scene has its results under these overrides; empty: there is no scene.
+/// Folder of the scene's results under these overrides; empty: there is no scene.
 fs::path out_of(const fs::path& scene, const input::Overrides& overrides) {
     fs::path out;
     const auto note = [&](run::RunOptions& options) {

@@ -6,7 +6,7 @@
 
 namespace abut::apps {
 
-/// What `abut help NAME` says, and a section of the manual page.
+/// Text of `abut help NAME`, and a section of the manual page.
 struct Topic {
     std::string name;   ///< "exit-codes"
     std::string title;  ///< "Exit codes"

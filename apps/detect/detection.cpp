@@ -109,7 +109,7 @@ void Detection::search_where_faces_are() {
     }
 }
 
-/// Of each face, as its first corner shows it.
+/// Translation of each face, as its first corner shows it.
 std::vector<Vector<3>> Detection::translations() const {
     std::vector<Vector<3>> u;
     u.reserve(start_.body.size());

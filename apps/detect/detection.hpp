@@ -11,7 +11,7 @@
 
 namespace abut::apps {
 
-/// What counts as near, once every default is known.
+/// Limits of what counts as near, once every default is known.
 struct Nearness {
     double distance;  ///< [m] gaps up to here are kept
     double depth;     ///< [m] gaps above minus this
@@ -21,7 +21,7 @@ struct Nearness {
 /// Defaults from the bodies at the start and from what comes after it.
 [[nodiscard]] Nearness nearness(const DetectOptions& options, const Bodies& bodies, const Motion& motion);
 
-/// What one step has found.
+/// Findings of one step.
 struct StepResult {
     int step = 0;
     bool searched = false;       ///< a list was made
@@ -55,7 +55,7 @@ public:
     /// `turns`: bodies turn or deform in some step. If not, normals help to choose the candidates.
     Detection(const Bodies& bodies, const DetectOptions& options, const Nearness& near, bool turns);
 
-    /// Where the bodies are now. The candidate list is rebuilt where it is not valid for the motion since.
+    /// Finds for the present positions of the bodies. The candidate list is rebuilt where it is not valid for the motion since.
     [[nodiscard]] const StepResult& find(int step);
     /// Fills `distances` and `nearest` of what `find` has given last.
     void measure_distances();

@@ -51,7 +51,7 @@ std::int32_t find_body(const std::string& text, const Bodies& bodies, const std:
                                          bodies.names.size() > first.size() ? ", ..." : ""));
 }
 
-/// What follows the body, as numbers.
+/// Numbers that follow the body.
 struct BodyNumbers {
     std::int32_t body;
     std::vector<double> values;

@@ -7,7 +7,7 @@
 
 namespace abut::apps {
 
-/// Where a body is: x -> centre + turn (x - centre) + shift. Without a turn just x + shift.
+/// Pose of a body: x -> centre + turn (x - centre) + shift. Without a turn just x + shift.
 struct Pose {
     Matrix<3> turn = Matrix<3>::Identity();
     Vector<3> centre = Vector<3>::Zero();  ///< [m]
@@ -19,7 +19,7 @@ struct Pose {
     }
 };
 
-/// Where all bodies are at each step of a run.
+/// Motion of all bodies: where they are at each step of a run.
 class Motion {
 public:
     /// From the options and the script. Throws std::runtime_error naming option, or file, line and column; `bodies` are at

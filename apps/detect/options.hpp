@@ -12,7 +12,7 @@ namespace abut::apps {
 
 extern const Program detect_program;
 
-/// What the command line of `abut detect` asks for. NaN: not given.
+/// Options of the command line of `abut detect`. NaN: not given.
 struct DetectOptions {
     DetectOptions();
 

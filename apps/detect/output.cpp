@@ -63,7 +63,7 @@ std::vector<std::vector<Vector<3>>> patches_of(const Bodies& bodies, std::span<c
     return patches;
 }
 
-/// What every overlap shows in a picture.
+/// Values that every overlap shows in a picture.
 struct OverlapFields {
     std::vector<double> area, gap, body_1, body_2, face_1, face_2;
     std::vector<Vector<3>> normal;
@@ -84,7 +84,7 @@ OverlapFields fields_of(const Bodies& bodies, std::span<const Overlap<3>> overla
     return fields;
 }
 
-/// What is known of every face in a picture of the bodies.
+/// Values of every face in a picture of the bodies.
 struct FaceFields {
     std::vector<double> body, label, area, gap, pairs;
 };
@@ -105,7 +105,7 @@ FaceFields fields_of_faces(const Bodies& bodies, std::span<const Overlap<3>> ove
     return fields;
 }
 
-/// What the array "problems" of a picture adds up for a face (docs/detection.md).
+/// Numbers that the array "problems" of a picture adds up for a face (docs/detection.md).
 enum Problem {
     sliver = 1,
     at_boundary_edge = 2,

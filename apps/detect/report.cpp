@@ -23,7 +23,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::size_t most_lines = 10;  // bodies, or pairs of them, that are printed
 
-/// Of this process, so far [MB].
+/// Largest memory of this process so far [MB].
 double peak_memory() {
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);

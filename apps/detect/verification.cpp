@@ -51,7 +51,7 @@ private:
     std::vector<std::vector<std::int32_t>> faces_;
 };
 
-/// What a plain test says of a pair.
+/// Verdict of a plain test on a pair.
 enum class Verdict { no, on_limit, required };
 
 struct PairFacts {
@@ -86,7 +86,7 @@ public:
     }
 
 private:
-    /// That nothing is listed which should not be.
+    /// Checks that nothing is listed which should not be.
     void check_wanted(const Overlap<3>& overlap) {
         const auto [face_1, face_2] = pair_of(overlap);
         const double smaller = std::min(surface_.area[at(face_1)], surface_.area[at(face_2)]);

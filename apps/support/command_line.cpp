@@ -39,7 +39,7 @@ std::string allowed(const Limits& limits) {
         fmt::format("{}: {}; {}.{}{}", option, what, allowed(limits), *limits.remedy == '\0' ? "" : " ", limits.remedy));
 }
 
-/// Of "0.005" or "5 ms", in the unit of the limits.
+/// Number of "0.005" or "5 ms", in the unit of the limits.
 double number_of(const std::string& text, const std::string& option, const Limits& limits) {
     if (const auto with_unit = value_with_unit(text); with_unit && !with_unit->is_formula) try {
             return converted(with_unit->value, unit_for(with_unit->unit, limits.unit), unit_of(limits.unit));
@@ -88,7 +88,7 @@ std::string default_text(const BodyValues& values) {
     return values[0] == values[1] ? shown(values[0]) : shown(values[0]) + "," + shown(values[1]);
 }
 
-/// What commas separate.
+/// Parts that commas separate.
 std::vector<std::string_view> parts_of(std::string_view text) {
     std::vector<std::string_view> parts;
     for (std::size_t begin = 0, end = 0; end != std::string::npos; begin = end + 1) {

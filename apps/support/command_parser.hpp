@@ -62,7 +62,7 @@ class CommandParser {
 public:
     /// For words that no user of a terminal has typed just now.
     CommandParser();
-    /// Of a program: --help and messages fit the terminal.
+    /// Parser of a program: --help and messages fit the terminal.
     CommandParser(const std::string& name, const std::string& purpose);
     ~CommandParser();
 

@@ -18,7 +18,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::int64_t about_rows = 10'000;
 
-/// What is known of every run, then what its scene has found.
+/// Findings known of every run, then those of its scene.
 std::vector<run::Finding> all_findings(const SchemeRun& run) {
     const double scale = run.energy_scale;
     std::vector<run::Finding> findings = {

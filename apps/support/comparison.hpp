@@ -28,7 +28,7 @@ struct Node {
     [[nodiscard]] double momentum(std::size_t i) const { return 0.5 * (p_before[i] + p_after[i]); }
 };
 
-/// What a scene watches beside the energies, in a run of one scheme; by itself nothing.
+/// Watcher of a scene beside the energies, in a run of one scheme; by itself it watches nothing.
 class Watcher {
 public:
     virtual ~Watcher() = default;
@@ -46,7 +46,7 @@ struct Schedule {
     double energy_scale = 0.0;  ///< what errors are divided by [J]
 };
 
-/// Where and why a run ended before its time.
+/// Place and reason of the end of a run before its time.
 struct BreakOff {
     std::int64_t step;
     double time;      ///< [s]
@@ -82,7 +82,7 @@ inline void raise(double& largest, double value) {
     if (std::isfinite(value)) largest = std::max(largest, value);
 }
 
-/// What a stopwatch measures of nothing [s]: a good part of a step of six masses.
+/// Time that a stopwatch measures of nothing [s]: a good part of a step of six masses.
 [[nodiscard]] double clock_seconds();
 
 /// Leads one integrator through its run.

@@ -5,7 +5,7 @@
 
 namespace abut::apps {
 
-/// What `--broad-phase` and `--area` may be in every program.
+/// Choices of `--broad-phase` and `--area` in every program.
 inline const Choices<geometry::BroadPhase> broad_phases = [] {
     Choices<geometry::BroadPhase> choices;
     for (const geometry::BroadPhase method : geometry::broad_phases()) choices.emplace_back(geometry::name(method), method);

@@ -11,7 +11,7 @@ namespace abut::apps {
 /// Warnings as lines of the log, notes among them. `run` says which one of several it was: "100 cells".
 void log_warnings(const std::vector<run::Warning>& warnings, const std::string& run = "");
 
-/// Those of some kinds.
+/// Warnings of some kinds.
 [[nodiscard]] std::vector<run::Warning> only(std::vector<run::Warning> warnings,
                                              std::initializer_list<run::WarningKind> kinds);
 

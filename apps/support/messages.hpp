@@ -4,7 +4,7 @@ namespace abut::apps {
 
 class CommandParser;
 
-/// What a program says while it runs a scene. Errors are on standard error in any case.
+/// Messages of a program while it runs a scene. Errors are on standard error in any case.
 enum class Messages {
     normal,  ///< log, progress and a table at the end
     quiet,   ///< nothing

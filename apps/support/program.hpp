@@ -10,7 +10,7 @@ namespace abut::apps {
 
 class CommandParser;
 
-/// What a program is called and what it leaves behind.
+/// Name of a program and what it leaves behind.
 struct Program {
     std::string name;     ///< as it is typed; results go to out/<name> by default
     std::string purpose;  ///< one sentence for --help

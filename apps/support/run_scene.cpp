@@ -69,7 +69,7 @@ std::string how_to_go_on(const run::RunOptions& options) {
     return ", and --resume goes on from there (abut restart " + options.out.string() + " with a scene in TOML)";
 }
 
-/// Of the bodies, none where all are `small`. What is refused on several ranks is left to the run.
+/// Kinematics of the bodies, none where all are `small`. What is refused on several ranks is left to the run.
 template <int Dim>
 std::vector<solid::Kinematics> kinematics_of(const run::Scene<Dim>& scene, const run::RunOptions& options) {
     const auto of_all = run::kinematics_of_all(options.kinematics);

@@ -15,7 +15,7 @@ using Scheme = dynamics::Scheme;
 inline const std::vector<Scheme> all_schemes = {Scheme::memm, Scheme::leapfrog, Scheme::bilbao, Scheme::energy_momentum,
                                                 Scheme::memm_async};
 
-/// What a program that compares schemes on a small system lets its user choose about them.
+/// Options about schemes in a program that compares them on a small system.
 struct SchemeOptions {
     std::vector<Scheme> schemes = all_schemes;
     dynamics::PathMean mean = dynamics::PathMean::system;  ///< of memm and energy_momentum
@@ -40,13 +40,13 @@ void restrict_to(const Flag& option, SchemeOptions& options, std::vector<Scheme>
 /// Throws BadInput if an option was given that none of the chosen schemes knows.
 void check(const SchemeOptions& options);
 
-/// What was used of the options that were offered, by the names of the command line.
+/// Values that were used of the options that were offered, by the names of the command line.
 [[nodiscard]] run::NamedValues named_values(const SchemeOptions& options);
 
 /// The first `options.fast` of n masses take `options.parts` steps. Throws BadInput if there are not so many.
 [[nodiscard]] dynamics::LocalSteps local_steps_of_first(const SchemeOptions& options, std::size_t n);
 
-/// What an integrator is made from.
+/// Data from which an integrator is made.
 struct Start {
     std::vector<double> q;
     std::vector<double> p;             ///< at the same time as q

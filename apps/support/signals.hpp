@@ -28,7 +28,7 @@ private:
 /// The signal that was noted; 0: none. It stays so until the process ends.
 [[nodiscard]] int noted_signal();
 
-/// Of a process that ends because of the signal, as a shell calls it: 130 for SIGINT, 143 for SIGTERM, 129 for
+/// Exit code of a process that ends because of the signal, as a shell calls it: 130 for SIGINT, 143 for SIGTERM, 129 for
 /// SIGHUP.
 [[nodiscard]] constexpr int exit_code_of(int signal) { return 128 + signal; }
 

@@ -14,13 +14,13 @@ namespace {
 
 constexpr std::size_t least_width = 20;
 
-/// Of UTF-8.
+/// Number of letters of a text in UTF-8.
 std::size_t letters(std::string_view text) {
     return static_cast<std::size_t>(
         std::ranges::count_if(text, [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
 }
 
-/// Where the lines after the first one begin: as far in as that does; of "  name   meaning" under the meaning.
+/// Margin at which the lines after the first one begin: as far in as that does; of "  name   meaning" under the meaning.
 std::size_t margin_of(const std::string& line) {
     const std::size_t begin = std::min(line.find_first_not_of(' '), line.size());
     const std::size_t gap = begin == 0 ? std::string::npos : line.find("  ", begin);

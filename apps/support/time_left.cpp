@@ -7,7 +7,7 @@
 namespace abut::apps {
 namespace {
 
-/// Of the time so far, between two marks.
+/// Part of the time so far, between two marks.
 constexpr double part_between_marks = 0.01;
 
 }  // namespace

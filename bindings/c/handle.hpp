@@ -18,7 +18,7 @@ struct abut_contact {
     std::int64_t told_of_missed = 0;
     mutable std::atomic_flag in_use{};  // by a call; another one meanwhile is refused
 
-    /// What the host's own log throws is dropped: what is told has happened already.
+    /// Logs a message. What the host's own log throws is dropped: what is told has happened already.
     void tell(int severity, const std::string& text) const noexcept {
         if (options.log == nullptr) return;
         try {

@@ -165,7 +165,7 @@ struct Callbacks {
     }
 
 private:
-    /// What `read` makes of the answer; an exception ends the call, and is raised by it.
+    /// Asks the function, and returns what `read` makes of the answer; an exception ends the call, and is raised by it.
     template <class Read, class... Arguments>
     static auto ask(const Read& read, const py::object& function, Arguments... arguments) {
         const py::gil_scoped_acquire acquire;

@@ -20,7 +20,7 @@
 
 namespace abut::python {
 
-/// What a scene is made of, in the words of Python.
+/// Parts of a scene, in the words of Python.
 template <int Dim>
 struct SceneArguments {
     const mesh::Mesh<Dim>& mesh;

@@ -95,7 +95,7 @@ void add_state(Class& made, StateOf state_of) {
             "of the boundary faces, in the order of surface [Pa]");
 }
 
-/// What `look` is called with; good for that call alone.
+/// Argument with which `look` is called; good for that call alone.
 template <int Dim>
 struct Glance {
     std::optional<State<Dim>> state;

@@ -31,7 +31,7 @@ struct CompressionLimits {
     double limit;
 };
 
-/// What is the same in all contact, whatever the law: how long a candidate list is valid, the search, which pairs stay listed
+/// All that contact has in common, whatever the law: how long a candidate list is valid, the search, which pairs stay listed
 /// and what they remember, their first admission, memory of facets, limits, the report, saving and restoring, and another
 /// surface.
 ///

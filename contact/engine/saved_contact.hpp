@@ -12,7 +12,7 @@
 
 namespace abut::contact {
 
-/// What a state is of, and what it must fit.
+/// Key of a state: what it is of, and what it must fit.
 struct StateKey {
     std::string kind;           ///< "contact 3D"
     std::uint64_t fingerprint;  ///< of the surface
@@ -20,7 +20,7 @@ struct StateKey {
     std::int32_t facet_memory;  ///< numbers per facet that the law remembers
 };
 
-/// What the next steps depend on, whatever the law.
+/// State on which the next steps depend, whatever the law.
 struct SavedContact {
     bool has_searched = false;
     double next_skin = 0.0;  ///< [m]

@@ -20,7 +20,7 @@ constexpr double share_of_width = 0.065;
 /// Two facets of one body that may turn by more than this in all are judged by their distance alone [rad].
 constexpr double most_turn = 0.6;
 
-/// Of each body.
+/// Tells for each body whether it may touch itself (n_bodies).
 template <int Dim>
 std::vector<char> touches_itself(const NodalSurface<Dim>& surface, const CandidateOptions& search) {
     std::vector<char> touches(static_cast<std::size_t>(surface.n_bodies()), search.self_contact ? 1 : 0);
@@ -208,7 +208,7 @@ void NodeLaw<Dim>::refuse_deep_interference(const NodalPair<Dim>& pair) const {
                    {.face_1 = number_of(face_1), .face_2 = number_of(face_2), .allowed = pair.admission_depth});
 }
 
-/// Of all pairs, at both ends of a step that takes `dt`.
+/// Sets the offsets of all pairs, at both ends of a step that takes `dt`.
 template <int Dim>
 void NodeLaw<Dim>::set_offsets(double dt) {
     if (!ramps_.has_begun()) return;

@@ -54,7 +54,7 @@ private:
     static void write(const Outcome& outcome, ShareWriter& out);
     static void read(ShareReader& in, Outcome& outcome);
 
-    /// What is not active leaves `found` as it was.
+    /// A pair that is not active leaves `found` as it was.
     void follow(const NodalPair<Dim>& pair, const SideOutlines<Dim>& sides, bool admitted, PointsView<Dim> x_0,
                 PointsView<Dim> x_1, TakenForce take, Outcome& outcome) const;
     void take_force(const NodalPair<Dim>& pair, const geometry::PairCorners<Dim>& start,

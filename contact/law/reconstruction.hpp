@@ -9,7 +9,7 @@
 
 namespace abut::contact {
 
-/// Where a pair force is cut into subintervals.
+/// Events at which a pair force is cut into subintervals.
 enum class Cuts {
     coupled,  ///< at the events of all pairs that its gradients depend on: exact, and local
     global,   ///< at the events of all pairs of the scene: the reference that `coupled` is tested against
@@ -44,7 +44,7 @@ private:
         double normal;         // mean of beta A
         Vector<Dim> gradient;  // mean of beta (A n + g dA/ds): what dV/dû_f2 gets
     };
-    /// What stays the same while one step is integrated.
+    /// Data that stays the same while one step is integrated.
     struct Step {
         const SurfaceView<Dim>& surface;
         const PairList<Dim>& list;

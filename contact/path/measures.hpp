@@ -6,7 +6,7 @@
 
 namespace abut::contact {
 
-/// What a step did to its active pairs, whatever the law that acts between them: everything of a PairStep that is geometry,
+/// Measures of the active pairs of a step, whatever the law that acts between them: everything of a PairStep that is geometry,
 /// and the figures of the step as a whole. An instance keeps its work arrays.
 template <int Dim>
 class PathMeasures {

@@ -43,7 +43,7 @@ const CandidateOptions& checked(const CandidateOptions& options) {
     return options;
 }
 
-/// What became of the pairs whose boxes overlap.
+/// Outcome for the pairs whose boxes overlap.
 struct Counts {
     std::int64_t box_pairs = 0;
     std::int64_t neighbours = 0;
@@ -178,7 +178,7 @@ private:
         return {boxes_.data() + body.begin, body.end - body.begin};
     }
 
-    /// Of bodies, the pairs that may touch; a body with itself where that is asked for.
+    /// Pairs of bodies that may touch; a body with itself where that is asked for.
     [[nodiscard]] std::vector<IndexPair> body_pairs() const {
         std::vector<Box<Dim>> boxes;
         for (const BodyFaces& body : order_.bodies) boxes.push_back(geometry::bounding_box<Dim>(boxes_of(body)));
@@ -221,7 +221,7 @@ private:
         return found.at_half_skin;
     }
 
-    /// What a part found beside its pairs.
+    /// Findings of a part beside its pairs.
     struct FoundByPart {
         Counts counts;
         std::int64_t at_half_skin = 0;
@@ -291,7 +291,7 @@ private:
         }
     }
 
-    /// Of two bodies, or of one with itself; `n_before` pairs are in the list already, and count.
+    /// Pairs of boxes of two bodies, or of one with itself; `n_before` pairs are in the list already, and count.
     [[nodiscard]] std::vector<IndexPair> pairs_of_boxes(const BodyFaces& body_1, const BodyFaces& body_2,
                                                         const geometry::SearchPart& part, const geometry::PairFilter& wanted,
                                                         std::size_t n_before) const {

@@ -12,7 +12,7 @@
 
 namespace abut::contact {
 
-/// Where a host takes the gap of a pair of faces from, along the normal of the pair.
+/// Points between which a host measures the gap of a pair of faces, along the normal of the pair.
 enum class GapOf {
     overlap,    ///< over points that both faces cover: it is the distance of two points of the faces
     centroids,  ///< between the two centroids, as `Overlap::gap`: faces that are tilted can be farther apart than it

@@ -47,7 +47,7 @@ double MovedFaces<Dim>::motion(std::int32_t face) const {
     return motion;
 }
 
-/// Of the vertex that moves farthest, or of the first one that is not finite.
+/// Name of the vertex that moves farthest, or of the first one that is not finite.
 template <int Dim>
 std::string MovedFaces<Dim>::name_of_vertex(std::int32_t face) const {
     std::int32_t farthest = surface_.vertices_of(face).front();

@@ -9,7 +9,7 @@
 
 namespace abut::contact {
 
-/// What a search says of two faces whose boxes overlap.
+/// Verdict of a search on two faces whose boxes overlap.
 enum class PairVerdict { may_touch, not_facing, too_far_apart };
 
 /// Whether g can come below `distance` where the faces share area: on the path from u_0 to u_1, or within a skin of u_0.

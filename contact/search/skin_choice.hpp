@@ -22,7 +22,7 @@ public:
     void restore(double skin) {
         if (!is_fixed_) skin_ = skin;
     }
-    /// What the last list was like: pairs with this skin and with half of it, faces, and the largest motion of a face in a
+    /// Figures of the last list: pairs with this skin and with half of it, faces, and the largest motion of a face in a
     /// step [m].
     void learn(std::int64_t pairs, std::int64_t pairs_at_half, std::int64_t faces, double motion);
 

@@ -59,7 +59,7 @@ public:
     }
     /// How much two boxes grow together with the skin.
     [[nodiscard]] double growth_per_skin() const { return 1.0; }
-    /// Of faces whose boxes overlap.
+    /// Verdict on faces whose boxes overlap.
     [[nodiscard]] PairVerdict verdict(std::int32_t i, std::int32_t j, double skin) const {
         if (by_distance_alone(options_)) return PairVerdict::may_touch;
         if (!are_facing(surface_, rest_[i].face, rest_[j].face, options_.facing_cosine)) return PairVerdict::not_facing;

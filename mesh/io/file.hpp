@@ -25,7 +25,7 @@ public:
     PreparedFile& operator=(PreparedFile&&) = delete;
 
     [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-    /// Where to write.
+    /// Path to write to.
     [[nodiscard]] const std::filesystem::path& temporary() const { return temporary_; }
     /// Throws MeshError naming the path and the reason.
     void move_into_place();

@@ -22,7 +22,7 @@ public:
     /// Runs Gmsh calls; whatever they throw becomes a MeshError "<name>: <task>: <Gmsh's errors and warnings>. <remedy>".
     void run(const std::string& name, const std::string& task, const std::string& remedy,
              const std::function<void()>& calls) const;
-    /// What Gmsh has logged so far: "Error: ...", "Warning: ...".
+    /// Messages that Gmsh has logged so far: "Error: ...", "Warning: ...".
     [[nodiscard]] static std::vector<std::string> errors();
     [[nodiscard]] static std::vector<std::string> warnings();
 

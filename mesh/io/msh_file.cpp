@@ -299,7 +299,7 @@ private:
             n_before += n;
         }
     }
-    /// What follows the tag of the element and the number of its tags: physical group, entity, others; nodes.
+    /// Reads what follows the tag of the element and the number of its tags: physical group, entity, others; nodes.
     void read_element_2(const MshType& type, std::int64_t label, std::int32_t n_tags) {
         values_.check_fits(n_tags, "the number of tags of an element", 1, 4);
         std::int32_t group = 0, entity = 0;

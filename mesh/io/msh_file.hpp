@@ -28,7 +28,7 @@ struct MshBlock {
 /// A physical group: dimension and tag.
 using MshGroup = std::pair<std::int32_t, std::int32_t>;
 
-/// What a Gmsh file holds, in the order of the file, except blocks: by dimension, entity, type.
+/// Content of a Gmsh file, in the order of the file, except blocks: by dimension, entity, type.
 struct MshFile {
     std::string name;  ///< path, for messages
     std::vector<Vector<3>> vertices;

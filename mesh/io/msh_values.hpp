@@ -22,7 +22,7 @@ public:
 
     /// The next word; empty at the end of the file.
     [[nodiscard]] std::string_view word();
-    /// What is left of this line, without its end.
+    /// Rest of this line, without its end.
     [[nodiscard]] std::string_view rest_of_line();
     /// Goes to the end of the section of this name, which begins here. Throws MeshError if the section has none.
     void skip_section(std::string_view section);
@@ -33,11 +33,11 @@ public:
 
     /// A number that is text in a binary file, too.
     [[nodiscard]] std::int64_t text_number(const char* what);
-    /// Of 4 bytes in a binary file.
+    /// Integer of 4 bytes in a binary file.
     [[nodiscard]] std::int32_t next_int(const char* what);
-    /// Of 8 bytes in a binary file; at least 0.
+    /// Integer of 8 bytes in a binary file; at least 0.
     [[nodiscard]] std::int64_t next_size(const char* what);
-    /// Of 8 bytes in a binary file.
+    /// Number of 8 bytes in a binary file.
     [[nodiscard]] double next_double(const char* what);
     /// A number of things that each take at least so many numbers, or bytes of a binary file: those fit into the file.
     [[nodiscard]] std::int64_t next_count(const char* what, std::size_t n_values, std::size_t n_bytes);
@@ -46,7 +46,7 @@ public:
 
     /// Begins at the last word or number.
     [[noreturn]] void refuse(const std::string& what, const std::string& remedy = "Write the mesh again.") const;
-    /// Of the last word.
+    /// Line of the last word.
     [[nodiscard]] std::size_t line() const { return word_line_; }
     [[nodiscard]] std::size_t n_bytes_left() const { return text_.size() - at_; }
 

@@ -12,7 +12,7 @@ namespace abut::mesh {
 [[nodiscard]] std::string about_extension(const std::filesystem::path& path, const std::string& wanted,
                                           const std::string& known);
 
-/// What a reader warns of that takes elements of order 2 by their corners.
+/// Warning of a reader that takes elements of order 2 by their corners.
 [[nodiscard]] std::string about_order_2(std::size_t n_elements);
 
 /// In small letters.

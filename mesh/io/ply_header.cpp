@@ -22,7 +22,7 @@ constexpr std::array<TypeName, 8> types = {{{"char", "int8", 1},
                                             {"float", "float32", 4},
                                             {"double", "float64", 8}}};
 
-/// Where the header ends: behind the line "end_header".
+/// End of the header: behind the line "end_header".
 std::size_t header_size(const std::string& name, std::string_view contents) {
     for (std::size_t begin = 0; begin < contents.size();) {
         const std::size_t end = std::min(contents.find('\n', begin), contents.size());

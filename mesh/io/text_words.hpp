@@ -36,7 +36,7 @@ public:
     /// The next word, of this line or a later one; empty at the end of the file.
     [[nodiscard]] std::string_view next();
     void skip_line();
-    /// Of the last word, counted from 1.
+    /// Line of the last word, counted from 1.
     [[nodiscard]] std::size_t line() const { return word_line_; }
 
     /// A word that must be a number. `what` is what the message calls it: "a coordinate".

@@ -29,7 +29,7 @@ public:
     [[noreturn]] void refuse_damage(Node node, const std::string& what) const;
 
     [[nodiscard]] double n_bytes() const { return static_cast<double>(contents_.size()); }
-    /// What can come out of the bytes of this file at most.
+    /// Bytes that can come out of those of this file at most.
     [[nodiscard]] double n_bytes_at_most() const { return ratio_ * n_bytes(); }
 
     /// An attribute, or that value without it.
@@ -43,13 +43,13 @@ public:
     [[nodiscard]] std::vector<Value> values(Node array, std::size_t n_tuples);
 
 private:
-    /// What is stored of an array from some byte on.
+    /// Stored part of an array from some byte on.
     struct Stored {
         std::string_view text;
         bool is_raw;
 
         [[nodiscard]] std::string first(std::size_t n) const;
-        /// What is stored behind n bytes that are encoded by themselves.
+        /// Part that is stored behind n bytes that are encoded by themselves.
         [[nodiscard]] Stored behind(std::size_t n) const;
     };
 

@@ -38,7 +38,7 @@ std::string numbers_of_bodies(const Mesh<Dim>& mesh) {
     return tags;
 }
 
-/// Of these boundary faces 1 for those in the group, else 0.
+/// Flag per boundary face: 1 for those in the group, else 0.
 template <int Dim>
 std::vector<std::uint8_t> is_in_group(const Mesh<Dim>& mesh, const BoundaryGroup& group,
                                       std::span<const std::int32_t> boundary) {

@@ -70,7 +70,7 @@ template <class Value>
 /// The time of a frame [s], by the name under which VTK and ParaView look for it.
 [[nodiscard]] std::string field_time(double time);
 
-/// What is in a .vtu or .vtp file.
+/// Content of a .vtu or .vtp file.
 struct OutputGrid {
     std::string type;          ///< "UnstructuredGrid" or "PolyData"
     std::string cell_section;  ///< of its cells: "Cells", "Verts", "Lines" or "Polys"

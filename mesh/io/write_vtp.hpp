@@ -7,7 +7,7 @@
 
 namespace abut::mesh {
 
-/// What a surface shows besides its faces.
+/// Fields that a surface shows besides its faces.
 struct SurfaceFields {
     std::span<const Field<3>> of_faces{};     ///< each with a value for every face
     std::span<const Field<3>> of_vertices{};  ///< each with a value for every vertex

@@ -27,12 +27,12 @@ struct NamedNumber {
     std::int32_t value;
 };
 
-/// What one moment of a run shows.
+/// State of a run at one moment.
 template <int Dim>
 struct Frame {
     double time = 0.0;                            ///< [s]
     std::span<const Vector<Dim>> displacement{};  ///< u_c [m], (n_cells, Dim), or empty
-    /// Of the vertices [m], (n_vertices, Dim), or empty: of a host that has them, in place of means over the cells around
+    /// Displacement of the vertices [m], (n_vertices, Dim), or empty: of a host that has them, in place of means over the cells around
     std::span<const Vector<Dim>> vertex_displacement{};
     std::vector<Field<Dim>> cell_fields{};      ///< each of n_cells
     std::vector<Field<Dim>> boundary_fields{};  ///< each of boundary_faces.size(), in that order

@@ -308,7 +308,7 @@ bool is_on_a_spring(const BodySheet& sheet, const PictureMarks& marks, const Sna
     });
 }
 
-/// Where there are several bodies and obstacles, but few: their names.
+/// Names of bodies and obstacles, where there are several, but few.
 Markup names_of_all(const BodySheet& sheet, const BodyPolygons& polygons, const Snapshot& snapshot) {
     std::vector<std::string> names = polygons.body_names;
     names.insert(names.end(), polygons.marks.obstacle_names.begin(), polygons.marks.obstacle_names.end());

@@ -17,7 +17,7 @@ public:
 
     [[nodiscard]] const Json& summary() const { return summary_; }
 
-    /// What the summary has at a path, bodies.0.mass: numbers with six digits, or two if `rough`; lists with commas; a dash
+    /// Value of the summary at a path, bodies.0.mass: numbers with six digits, or two if `rough`; lists with commas; a dash
     /// for nothing. Throws Misuse if there is nothing at that path.
     [[nodiscard]] Markup at(const std::string& path, bool rough = false) const;
     /// The number at that path; NaN where it is not known.

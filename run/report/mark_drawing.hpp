@@ -11,7 +11,7 @@
 
 namespace abut::run {
 
-/// Where positions are in a drawing: to the right, downwards, and the greater the third, the nearer to the eye.
+/// Projection of positions into a drawing: to the right, downwards, and the greater the third, the nearer to the eye.
 struct Projection {
     std::function<std::array<double, 3>(const std::array<double, 3>&)> place;
     double per_metre;  ///< units of the drawing

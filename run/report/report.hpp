@@ -15,7 +15,7 @@ struct ReportFile {
     std::string meaning;  ///< "energies, a row per record"
 };
 
-/// What a report shows of a run beside its result.
+/// Sources that a report shows of a run beside its result.
 struct ReportSources {
     const BodyPictures* pictures = nullptr;  ///< none: there are none
     std::filesystem::path forces{};          ///< table of ForceFile; empty: there is none

@@ -56,13 +56,13 @@ public:
     /// BadInput if a file cannot be written.
     void finish(const Scene<Dim>& scene, RunResult<Dim>& result);
 
-    /// What a run that was stopped goes on from, of the folder `checkpoints` in that of the results. Throws as
+    /// Checkpoint from which a stopped run goes on, of the folder `checkpoints` in that of the results. Throws as
     /// CheckpointFolder::last.
     [[nodiscard]] CheckpointFolder::Found last_checkpoint() const { return checkpoints_.last(); }
     /// A file that whoever goes on needs is written beside the first checkpoint.
     void keep_beside_checkpoints(std::string name, std::string text);
 
-    /// What is left of a run that fails, in sentences for its message; empty if it has not begun.
+    /// Files left of a run that fails, in sentences for its message; empty if it has not begun.
     [[nodiscard]] std::string left_behind() const;
     /// "Files" and a line for each kind of them, as closing_table: to follow it.
     [[nodiscard]] std::string table() const;

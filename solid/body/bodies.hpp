@@ -43,7 +43,7 @@ public:
     void take_thick_cells(std::vector<std::int32_t> cells) { part_options_.boundary.thick_cells = std::move(cells); }
 
     [[nodiscard]] const mesh::Mesh<Dim>& mesh() const { return mesh_; }
-    /// Of the bodies that deform: `mesh` itself where all do, and none is floating.
+    /// Mesh of the bodies that deform: `mesh` itself where all do, and none is floating.
     [[nodiscard]] const mesh::Mesh<Dim>& deformable() const { return part_ ? *part_ : mesh_; }
     [[nodiscard]] const SolidOptions<Dim>& options() const { return options_; }
     [[nodiscard]] Kinematics kinematics(std::int32_t body) const {
@@ -55,13 +55,13 @@ public:
     [[nodiscard]] bool is_finite(std::int32_t body) const { return properties(body).finite_strains; }
     [[nodiscard]] bool any_finite() const { return any_finite_; }
     [[nodiscard]] bool any_turns() const { return any_turns_; }
-    /// Of a traction of `options`.
+    /// How a traction of `options` is held.
     [[nodiscard]] TractionHold traction_hold(std::size_t condition) const { return traction_holds_[condition]; }
     /// Its points are [first, second).
     [[nodiscard]] std::pair<std::int32_t, std::int32_t> points_of(std::int32_t body) const;
     /// The options of these bodies, by their numbers in `deformable`.
     [[nodiscard]] const SolidOptions<Dim>& deformable_options() const { return part_options_; }
-    /// Of SolidOptions::bonds, once `take_bonds` was called.
+    /// Positions of SolidOptions::bonds, once `take_bonds` was called.
     [[nodiscard]] const std::vector<BondPlace<Dim>>& bond_places() const { return bond_places_; }
     [[nodiscard]] const std::vector<BondCoverage>& bond_coverage() const { return bond_coverage_; }  ///< of each bond
     [[nodiscard]] const RigidBodies<Dim>& rigid() const { return *rigid_; }
@@ -70,7 +70,7 @@ public:
     /// The boundary faces of `deformable` in `mesh` (n_boundary).
     [[nodiscard]] std::vector<BoundaryFace> boundary_in_mesh() const;
     [[nodiscard]] std::int32_t n_cells() const { return deformable().n_cells(); }  ///< that deform
-    /// What a RankPart is made of; valid as long as these are.
+    /// Points from which a RankPart is made; valid as long as these bodies are.
     [[nodiscard]] SolidPoints<Dim> points() const;
 
     [[nodiscard]] std::span<const Vector<Dim>> rest() const { return rest_; }                 ///< of the points [m]
@@ -86,15 +86,15 @@ public:
 
     /// A displacement of the cells of the whole mesh [m], from that of the points.
     [[nodiscard]] std::vector<Vector<Dim>> of_cells(std::span<const Vector<Dim>> q) const;
-    /// That of the points, from the cells': rigid bodies take the motion that is nearest.
+    /// Displacement of the points, from that of the cells: rigid bodies take the motion that is nearest.
     [[nodiscard]] std::vector<Vector<Dim>> of_points(std::span<const Vector<Dim>> displacement) const;
     /// Momenta of the points, from velocities of the cells: rigid bodies take momentum and angular momentum of theirs.
     [[nodiscard]] std::vector<Vector<Dim>> momenta(std::span<const Vector<Dim>> velocity) const;
     /// Velocities of the cells, from momenta of the points.
     [[nodiscard]] std::vector<Vector<Dim>> velocities(std::span<const Vector<Dim>> p) const;
-    /// Of a body's rotation at both ends of what `frames` and the rigid bodies follow; the identity of a small one.
+    /// Mean of a body's rotation at both ends of what `frames` and the rigid bodies follow; the identity of a small one.
     [[nodiscard]] Matrix<Dim> mean_turn(std::int32_t body, const BodyFrames<Dim>& frames) const;
-    /// What stands for d^2V/dq^2 on the points of rigid bodies, for the stable step [N/m]; 0 on the others.
+    /// Replacement of d^2V/dq^2 on the points of rigid bodies, for the stable step [N/m]; 0 on the others.
     [[nodiscard]] std::vector<double> rigid_stiffness() const;
     /// The cell of the mesh in `deformable`, and its body there; -1 of rigid bodies.
     [[nodiscard]] std::pair<std::int32_t, std::int32_t> deformable_cell(std::int32_t cell) const;

@@ -32,7 +32,7 @@ template <int Dim>
 template <int Dim>
 [[nodiscard]] Matrix<Dim> nearest_rotation(const Matrix<Dim>& b);
 
-/// Where a body is that turns: the mass mean of its points x, and the rotation that fits best how they lie about it.
+/// Position of a body that turns: the mass mean of its points x, and the rotation that fits best how they lie about it.
 /// docs/method.md, Bodies that turn.
 template <int Dim>
 struct BodyFrame {
@@ -40,7 +40,7 @@ struct BodyFrame {
     Matrix<Dim> turn = Matrix<Dim>::Identity();    ///< Q = nearest_rotation(B)
     Matrix<Dim> moment = Matrix<Dim>::Identity();  ///< B = sum m (x - centre) (X - mean of X)^T [kg m^2]
 
-    /// Of a point that lies at w in the frame.
+    /// Position of a point that lies at w in the frame.
     [[nodiscard]] Vector<Dim> operator()(const Vector<Dim>& w) const { return centre + turn * w; }
 };
 

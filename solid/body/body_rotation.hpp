@@ -19,7 +19,7 @@ public:
     BodyRotation(std::span<const Vector<Dim>> rest, std::span<const double> masses, std::span<const std::int32_t> begin,
                  const dynamics::Ranks& ranks);
 
-    /// Of each body (n_bodies) [rad], 0 to pi, for the displacements u of the cells here [m]. A call of all ranks.
+    /// Angle per body (n_bodies) [rad], 0 to pi, for the displacements u of the cells here [m]. A call of all ranks.
     [[nodiscard]] std::vector<double> angles(std::span<const Vector<Dim>> u) const;
 
 private:

@@ -34,7 +34,7 @@ struct CellPoints {
     [[nodiscard]] Vector<Dim> place(const mesh::Mesh<Dim>& mesh, std::int32_t cell) const;
 };
 
-/// Of the cells [first, second) of a body that deforms, all of this density; nothing where they span no space, or a point would
+/// Points of the cells [first, second) of a body that deforms, all of this density; nothing where they span no space, or a point would
 /// leave its cell. `part` and `body` as BodyFrames takes and numbers them; a call of all ranks.
 template <int Dim>
 [[nodiscard]] std::optional<CellPoints<Dim>> find_cell_points(const mesh::Mesh<Dim>& mesh, std::int32_t body,

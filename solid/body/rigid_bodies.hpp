@@ -15,7 +15,7 @@ namespace abut::solid {
 template <int Dim>
 class RankPart;
 
-/// Where a rigid body is: a point that is at X' from its centre at rest is at centre + map X'. The map is a rotation, up to
+/// Position of a rigid body: a point that is at X' from its centre at rest is at centre + map X'. The map is a rotation, up to
 /// rounding.
 template <int Dim>
 struct RigidPlace {
@@ -45,7 +45,7 @@ public:
     [[nodiscard]] std::int32_t first_point(std::size_t body) const { return bodies_[body].first_point; }
     [[nodiscard]] double mass(std::size_t body) const { return bodies_[body].mass; }
     [[nodiscard]] const Vector<Dim>& rest_centre(std::size_t body) const { return bodies_[body].centre; }
-    /// Of its points (points_per_body) [m].
+    /// Positions of its points at rest (points_per_body) [m].
     [[nodiscard]] std::span<const Vector<Dim>> rest_points(std::size_t body) const { return bodies_[body].rest; }
 
     /// For displacements q of all points of the system (n_points) [m].
@@ -69,7 +69,7 @@ public:
     void constrain_only(std::span<const std::int32_t> bodies) { constrained_.assign(bodies.begin(), bodies.end()); }
     /// A step from q_0 to q_1: what constrains the next half step lies between.
     void follow(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1);
-    /// Of the rotations at both ends of that step.
+    /// Mean of the rotations at both ends of that step.
     [[nodiscard]] Matrix<Dim> mean_turn(std::size_t body) const {
         return 0.5 * (bodies_[body].turn_0 + bodies_[body].turn_1);
     }
@@ -84,7 +84,7 @@ public:
     /// Between two steps; `part`: of whose ranks each brings what it constrains.
     void save(StateWriter& state, const RankPart<Dim>& part) const;
     void restore(StateReader& state);
-    /// Of the same bodies, whose points may be others.
+    /// Takes over the state of `before`: the same bodies, whose points may be others.
     void take_over(const RigidBodies& before);
     /// Displacements and momenta of its points from those of `before` (n_points of each).
     void take_points(std::size_t body, const RigidBodies& before, std::span<const Vector<Dim>> old_q,

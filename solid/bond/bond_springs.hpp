@@ -40,7 +40,7 @@ public:
     /// Along the step that the frames follow.
     void follow(std::span<const Vector<Dim>> q_0, const BoundaryLoad<Dim>& load_0, std::span<const Vector<Dim>> q_1,
                 const BoundaryLoad<Dim>& load_1);
-    /// Of tiny displacements u of the cells [m], no body being turned: for the stable step. Valid until the next call of any.
+    /// Stiffness for tiny displacements u of the cells [m], no body being turned: for the stable step. Valid until the next call of any.
     [[nodiscard]] FaceCorrections<Dim> stiffness_of(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load);
     /// The corrections of contact and these. Valid until the next call and as long as those are.
     [[nodiscard]] FaceCorrections<Dim> corrections(const FaceCorrections<Dim>& of_contact);

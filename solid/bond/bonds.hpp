@@ -61,7 +61,7 @@ public:
     /// delta of `bonded_faces` in a state of small bodies, whatever else is followed (n_bonded_faces) [m]. Valid until the next call.
     [[nodiscard]] std::span<const Vector<Dim>> displacement_at(std::span<const Vector<Dim>> u,
                                                                const BoundaryLoad<Dim>& load);
-    /// Of small bodies here, increasing.
+    /// Bonded faces of small bodies here, increasing.
     [[nodiscard]] std::span<const BoundaryFace> bonded_faces() const { return faces_->faces_here(); }
     /// What the bonds add to the corrections of contact. Valid until the next call and as long as those are.
     [[nodiscard]] FaceCorrections<Dim> corrections(const FaceCorrections<Dim>& of_contact);
@@ -69,7 +69,7 @@ public:
     void add_gradient(std::span<Vector<Dim>> gradient);
     /// What bodies are pushed with as a whole, with what others push them with (n_bodies that deform).
     [[nodiscard]] std::span<const BodyPush<Dim>> pushes(std::span<const BodyPush<Dim>> others);
-    /// What V has beside the energy of the cells with these corrections, in one state [J].
+    /// Energy in V that is not contained in that of the cells with these corrections, in one state [J].
     [[nodiscard]] double energy() const;
     /// `energy` is that of the end of the step that was followed from now on. A call of all ranks.
     void see_end(std::span<const Vector<Dim>> q_1, const BoundaryLoad<Dim>& load_1);
@@ -120,7 +120,7 @@ private:
         std::array<std::size_t, 2> slope_of;  // the first entry of each side in slope_; none of faces that are not here
         std::array<std::size_t, 2> slope_end;
     };
-    /// What the displacement of a cell adds to that of a place beside the centroid of its face.
+    /// Part that a cell's displacement adds to that of a position beside the centroid of its face.
     struct Slope {
         std::int32_t cell;
         double weight;

@@ -10,7 +10,7 @@ namespace abut::solid {
 
 template <int Dim>
 struct FoundBonds {
-    /// Of all bonds, each in the order of its first faces, then of its second ones.
+    /// Positions of all bonds, each in the order of its first faces, then of its second ones.
     std::vector<BondPlace<Dim>> places;
     std::vector<BondCoverage> coverage;  ///< of each bond
     /// Boundary faces here of bodies that deform, increasing, which are small, not of triangles or tetrahedra, and lie on one face

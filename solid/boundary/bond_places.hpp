@@ -8,7 +8,7 @@
 
 namespace abut::solid {
 
-/// Where two faces of a bond lie on each other at rest: the middle of their overlap, a point of both sides. On several ranks all
+/// Position where two faces of a bond lie on each other at rest: the middle of their overlap, a point of both sides. On several ranks all
 /// know all places.
 template <int Dim>
 struct BondPlace {

@@ -10,14 +10,14 @@
 
 namespace abut::solid {
 
-/// What the displacement of a boundary face without a prescribed value is. docs/method.md, Space.
+/// Rule for the displacement of a boundary face without a prescribed value. docs/method.md, Space.
 enum class FreeFaceRule {
     local_equilibrium,  ///< sigma_c n = t in the cell: the face minimises the energy of its cell
     extrapolate,        ///< affine extrapolation from nearby cells: large parasitic energy in contact, for comparison
     adjacent,           ///< u_f = u_c: loses accuracy and costs energy in a rotation, for comparison
 };
 
-/// What the free faces of a cell do when contact moves another of its boundary faces. docs/method.md, Contact.
+/// Response of the free faces of a cell when contact moves another of its boundary faces. docs/method.md, Contact.
 enum class CornerRule {
     /// They keep the balance of their cell (`local_equilibrium` only): stresses at free sides are right. Where contact
     /// presses on two sides of one cell, each side moves the other: off by 18 % (2D) to 39 % (3D) of the pressure

@@ -9,7 +9,7 @@ namespace abut::solid {
 /// Index of a face in Mesh::boundary_faces.
 enum class BoundaryFace : std::int32_t {};
 
-/// Where a boundary face is named: there is none. In a pair of contact it stands for a face of an obstacle.
+/// Stands for no face where a boundary face is named. In a pair of contact it stands for a face of an obstacle.
 inline constexpr BoundaryFace no_face{-1};
 
 /// The index that a boundary face has among all faces of the mesh.

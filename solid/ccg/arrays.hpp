@@ -44,7 +44,7 @@ struct AffineTraces {
     Occurrences<std::int32_t> of_cell;  // by position in CcgArrays::boundary_cells: indices of faces whose stencils use it
 };
 
-/// What the operators of a mesh are made of, in the order in which they run over it.
+/// Data of the operators of a mesh, in the order in which they run over it.
 template <int Dim>
 struct CcgArrays : CcgCoefficients<Dim, double> {
     using CcgCoefficients<Dim, double>::faces;

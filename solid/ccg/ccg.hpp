@@ -19,7 +19,7 @@
 
 namespace abut::solid {
 
-/// What boundary conditions, and temperatures, give at a time.
+/// Values of boundary conditions and temperatures at a time.
 template <int Dim>
 struct BoundaryLoad {
     std::vector<Vector<Dim>>
@@ -49,7 +49,7 @@ struct StepEnds {
     double dt = 0.0;                                ///< [s]; read where a material is damped
 };
 
-/// What a cell lacks of a step whose mean force is that of both ends, contact and tractions not counted.
+/// Defect of a cell in a step whose mean force is that of both ends, contact and tractions not counted.
 template <int Dim>
 struct StepDefect {
     double energy;            ///< -dV less the work of the force [J]: what is to be added to that work
@@ -57,7 +57,7 @@ struct StepDefect {
     AxialVector<Dim> moment;  ///< of dV/du about the mean position [N m]
 };
 
-/// What cells dissipate, in the order in which it is saved.
+/// Energy that cells dissipate, in the order in which it is saved.
 inline constexpr std::array losses_of_cells{&dynamics::Losses::in_cells,     &dynamics::Losses::in_jumps,
                                             &dynamics::Losses::on_faces,     &dynamics::Losses::by_damping,
                                             &dynamics::Losses::by_viscosity, &dynamics::Losses::lagged};
@@ -91,7 +91,7 @@ struct Region {
         std::int32_t face, cell, reconstructed, reconstructed_boundary, displacement_gradient_cell, stress_cell,
             energy_gradient_face;
     };
-    /// Of `region_of_cells`: where each chunk of the mesh begins, one more at the end; two for a small region as a whole.
+    /// Begin of each chunk of the mesh in `region_of_cells`, one more at the end; two for a small region as a whole.
     std::vector<Offsets> chunks;
 };
 
@@ -127,7 +127,7 @@ public:
     [[nodiscard]] bool is_warm() const;
     /// u_D and t at their times, brought to the boundary faces, and temperatures at the second; empty where no condition is given.
     [[nodiscard]] BoundaryLoad<Dim> load_at(double displacement_time, double traction_time) const;
-    /// The same with u_D = 0, t = 0 and without heat.
+    /// Load with u_D = 0, t = 0 and without heat.
     [[nodiscard]] BoundaryLoad<Dim> load_free() const;
     [[nodiscard]] bool load_varies() const;
     /// From now on `load_at` gives these tractions on the faces of the conditions of this group that are from outside, in the
@@ -150,17 +150,17 @@ public:
     /// dV/du_c (n_cells) [N] for V(u, û + delta) less the work of tractions; the gradients of `corrections` are added.
     void gradient(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load, const FaceCorrections<Dim>& corrections,
                   std::span<Vector<Dim>> result);
-    /// The same in the precision and on the device of steps.
+    /// As `gradient`, in the precision and on the device of steps.
     void step_gradient(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load,
                        const FaceCorrections<Dim>& corrections, std::span<Vector<Dim>> result);
-    /// The same of the mean of both ends: the mean of the gradient along the step; of bodies of Kinematics::finite as MeanForce says.
+    /// As `step_gradient`, of the mean of both ends: the mean of the gradient along the step; of bodies of Kinematics::finite as MeanForce says.
     void mean_gradient(const StepEnds<Dim>& ends, const BoundaryLoad<Dim>& load, const FaceCorrections<Dim>& corrections,
                        std::span<Vector<Dim>> result);
-    /// The same of u as the sweeps read it: packed, lane_width numbers per cell. They keep the array and give back another one
+    /// As `mean_gradient`, for u as the sweeps read it: packed, lane_width numbers per cell. They keep the array and give back another one
     /// of its size.
     void gradient_of_packed(LargeArray<double>& u, const BoundaryLoad<Dim>& load, const FaceCorrections<Dim>& corrections,
                             std::span<Vector<Dim>> result, const StepEnds<Dim>& ends = {});
-    /// Of a cell of Kinematics::finite in the last step of `mean_gradient` or `gradient_of_packed`, where MeanForce is of both
+    /// Defect of a cell of Kinematics::finite in the last step of `mean_gradient` or `gradient_of_packed`, where MeanForce is of both
     /// ends; `arm` is its mean position, from any point [m]. The sum over the cells of a body is what counts.
     [[nodiscard]] StepDefect<Dim> step_defect(std::int32_t cell, const Vector<Dim>& arm) const;
 
@@ -195,7 +195,7 @@ public:
     [[nodiscard]] std::vector<double> memory() const;
     /// The other way round; states are looked at anew.
     void set_memory(std::span<const double> values);
-    /// What the cells of `before` remember, by their old numbers and those of their faces (n_cells, n_faces). Throws BadInput where the
+    /// Takes over what the cells of `before` remember, by their old numbers and those of their faces (n_cells, n_faces). Throws BadInput where the
     /// materials remember other things.
     void take_memory(const Ccg& before, std::span<const std::int32_t> old_cells, std::span<const std::int32_t> old_faces);
 
@@ -212,15 +212,15 @@ public:
     /// And the work of the traction on a boundary face, in the state that `cell_energies` was called for last [J].
     [[nodiscard]] double traction_work(BoundaryFace face, const BoundaryLoad<Dim>& load) const;
 
-    /// What `evaluate_faces` needs for these boundary faces.
+    /// Region that `evaluate_faces` needs for these boundary faces.
     [[nodiscard]] Region<Dim> region_of_faces(std::span<const BoundaryFace> faces) const;
-    /// What `evaluate_cells` needs for these cells, increasing.
+    /// Region that `evaluate_cells` needs for these cells, increasing.
     [[nodiscard]] Region<Dim> region_of_cells(std::span<const std::int32_t> cells) const;
     /// û [m] and dV/ddelta [N] of the region's faces (region.faces), without contact: y - |f| t, and C^T (y - |g| t) of each
     /// face g that answers.
     void evaluate_faces(const Region<Dim>& region, std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load,
                         std::span<Vector<Dim>> displacement, std::span<Vector<Dim>> gradient);
-    /// What `evaluate_tilted_faces` needs for these boundary faces: less than `evaluate_faces`.
+    /// Region that `evaluate_tilted_faces` needs for these boundary faces: less than `evaluate_faces`.
     [[nodiscard]] Region<Dim> region_of_tilted_faces(std::span<const BoundaryFace> faces) const;
     /// û [m] of the region's faces (region.faces), and the displacement gradient G_c of the cells behind them [-].
     void evaluate_tilted_faces(const Region<Dim>& region, std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load,
@@ -244,7 +244,7 @@ public:
                                       std::span<const Vector<Dim>> u_to, const BoundaryLoad<Dim>& load_to);
     /// Under constant loads `motion_bound` grows by at most this times the motion of the cell that moves farthest [-].
     [[nodiscard]] double motion_amplification() const;
-    /// The same of |dû_f + dG_c arm|, a point of a boundary face at `arm` from its centroid that tilts with the cell behind.
+    /// Bound as `motion_amplification`, of |dû_f + dG_c arm|, a point of a boundary face at `arm` from its centroid that tilts with the cell behind.
     [[nodiscard]] double corner_amplification(BoundaryFace face, const Vector<Dim>& arm) const;
 
     /// G_c and sigma_c [-], [Pa], as of the last call of `gradient`, its like or `potential`. Where `evaluate_faces`,
@@ -256,10 +256,10 @@ public:
     /// the faces as if nothing pushed them. Bodies of Kinematics::finite have sigma_c [Pa].
     [[nodiscard]] Matrix<Dim> stress_under_pushes(std::int32_t cell) const;
 
-    /// Of these cells, increasing, at the end of the step or in the state that `gradient` was called for last.
+    /// Extremes of these cells, increasing, at the end of the step or in the state that `gradient` was called for last.
     [[nodiscard]] FiniteExtremes finite_extremes(std::span<const std::int32_t> cells) const;
 
-    /// Of interior faces only; `boundary` has that of the others.
+    /// Report on interior faces only; `boundary` has that of the others.
     [[nodiscard]] const StencilReport& stencil_report() const;
     [[nodiscard]] const BoundaryReconstruction<Dim>& boundary() const;
     /// By face; a boundary face has weight 0 throughout, or is one of BoundaryReconstruction::affine.

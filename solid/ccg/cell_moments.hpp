@@ -13,7 +13,7 @@
 
 namespace abut::solid {
 
-/// What contact adds to dV/dG_c of the cells behind some boundary faces, cell by cell. Empty without any.
+/// Terms that contact adds to dV/dG_c of the cells behind some boundary faces, cell by cell. Empty without any.
 template <int Dim>
 class CellMoments {
 public:

@@ -27,7 +27,7 @@ struct CellGeometry {
     Real mu;
 };
 
-/// What the sweeps measure with: in double the units of the user, at no cost.
+/// Units in which the sweeps measure: in double the units of the user, at no cost.
 template <int Dim, class Real>
 struct SweepUnits {
     static_assert(std::is_same_v<Real, double>);
@@ -78,7 +78,7 @@ struct SweepUnits<Dim, float> {
     [[nodiscard]] Matrix<Dim> in_pascals(const Matrix<Dim>& stress) const { return modulus * stress; }
 
 private:
-    /// What is below 2^-60 is 0: it is far below the rounding of anything that a body does, and the products of what is left
+    /// Rounds values below 2^-60 to 0: they are far below the rounding of anything that a body does, and the products of what is left
     /// are numbers that processors multiply at full speed.
     [[nodiscard, gnu::always_inline]] static Lanes<Dim, float> rounded(Lanes<Dim> a) {
         constexpr double least = 0x1p-60;

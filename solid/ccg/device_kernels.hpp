@@ -24,7 +24,7 @@ public:
     /// u, correction and pair_gradient of the next step, on the host; corrections are zero but where somebody has set them.
     [[nodiscard]] const SweepTables<Dim, double>& staged() const;
 
-    /// What is added to S_c of some cells, increasing.
+    /// Stresses added to S_c of some cells, increasing.
     struct Moments {
         std::span<const std::int32_t> cells;
         std::span<const double> stresses;  // packed tensors

@@ -26,7 +26,7 @@ public:
     /// Whether a body is of them, on any rank.
     [[nodiscard]] bool any() const { return !of_body_.empty(); }
     [[nodiscard]] bool contains(std::ptrdiff_t cell) const { return any() && (*this)[cell].any(); }
-    /// Of a cell of any body, where there are any.
+    /// Stiffness for a cell of any body, where there are any.
     [[nodiscard]] const DirectedStiffness<Dim>& operator[](std::ptrdiff_t cell) const {
         return of_body_[static_cast<std::size_t>(body_[static_cast<std::size_t>(cell)])];
     }

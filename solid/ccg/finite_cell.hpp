@@ -71,7 +71,7 @@ struct CellStretch {
     double strain;       ///< |E|, Frobenius [-]
 };
 
-/// Of a cell whose faces are where they are put.
+/// Stretch of a cell whose faces are where they are put.
 template <int Dim>
 [[nodiscard]] CellStretch cell_stretch(const Matrix<Dim>& displacement_gradient);
 
@@ -81,7 +81,7 @@ template <int Dim>
 [[nodiscard]] double normal_stretch_squared(const FreeCell<Dim>& free, double contraction,
                                             const Matrix<Dim>& displacement_gradient);
 
-/// Of a cell with one normal, under F_cond. Below r^2 = 0.05 the free face counts as lost.
+/// Stretch of a cell with one normal, under F_cond. Below r^2 = 0.05 the free face counts as lost.
 template <int Dim>
 [[nodiscard]] CellStretch condensed_stretch(const FreeCell<Dim>& free, double contraction,
                                             const Matrix<Dim>& displacement_gradient);

@@ -8,7 +8,7 @@
 
 namespace abut::solid {
 
-/// Of bodies of Kinematics::finite.
+/// Options of bodies of Kinematics::finite.
 template <int Dim>
 struct FiniteOptions {
     MeanForce mean_force = MeanForce::automatic;

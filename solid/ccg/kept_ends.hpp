@@ -86,7 +86,7 @@ public:
     void set_defect(std::int32_t c, bool flows, double of_capped_jumps);
     /// Energy that this cell has dissipated in the step from `start` to `end` [J].
     [[nodiscard]] dynamics::Losses loss(std::int32_t c) const;
-    /// Of the step from `start` to `end`, less the moment of `direct`.
+    /// Defect of the step from `start` to `end`, less the moment of `direct`.
     [[nodiscard]] StepDefect<Dim> defect(std::int32_t c) const;
 
     // What contact adds to cells with one normal, by dV/dF over |c|, F as the traces take it. It acts along the step.

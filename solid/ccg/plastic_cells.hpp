@@ -60,7 +60,7 @@ public:
         push.stress = sum - push.tilt.transpose() * Eigen::Map<const Eigen::Matrix<double, Dim * Dim, 1>>(moment.data());
         make_deviator(push.stress);
     }
-    /// What contact has done in the step by what flow has moved, had that moved along [J]: a part of `loss`.
+    /// Work of contact in the step by what flow has moved, had that moved along [J]: a part of `loss`.
     [[nodiscard]] double work_of_push(std::ptrdiff_t cell) const {
         return moves_faces(cell) ? pushes_[static_cast<std::size_t>(surfaces_[number(cell)].push)].work : 0.0;
     }
@@ -100,7 +100,7 @@ public:
     void set_memory(std::ptrdiff_t cell, std::span<const double> values);
 
 private:
-    /// Of a symmetric tensor in space; in the plane of one without shear out of it. Products of vectors are those of tensors.
+    /// Components of a symmetric tensor in space; in the plane, of one without shear out of it. Products of vectors are those of tensors.
     static constexpr int n_strains = Dim == 2 ? 4 : 6;
     using Strain = Eigen::Matrix<double, n_strains, 1, Eigen::DontAlign>;
     using Stiffness = Eigen::Matrix<double, n_strains, n_strains, Eigen::DontAlign>;
@@ -114,7 +114,7 @@ private:
         Strain values;   // the eigenvalues
     };
     [[nodiscard]] static Response response_of(const Material& material, std::span<const FreeFaceOfCell<Dim>> free);
-    /// Where a cell yields, which follows from what it remembers: all that a step which stays elastic looks at beside xi.
+    /// Yield surface of a cell, which follows from what it remembers: all that a step which stays elastic looks at beside xi.
     struct Surface {
         Strain shift = Strain::Zero();  // dev C_e : p + 2/3 H p
         double radius = 0.0;            // sqrt(2/3) sigma(alpha)
@@ -138,7 +138,7 @@ private:
         BoundaryFace face;
         Eigen::Matrix<double, Dim, n_strains, Eigen::DontAlign> moved;
     };
-    /// Of a cell that moves faces.
+    /// Push of contact on a cell that moves faces.
     struct Push {
         std::size_t number;                                                  // of the cell
         std::int32_t first_shift, end_shift;                                 // of its faces

@@ -2,7 +2,7 @@
 
 namespace abut::solid {
 
-/// What the bulk of a step is computed in. Displacements, momenta, contact and energies are double in both.
+/// Precision of the bulk of a step. Displacements, momenta, contact and energies are double in both.
 /// docs/method.md, Single precision.
 enum class Precision {
     double_precision,

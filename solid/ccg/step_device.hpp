@@ -3,7 +3,7 @@
 
 namespace abut::solid {
 
-/// Where the bulk of a step is computed. The bits are the same. docs/devices.md.
+/// Device that computes the bulk of a step. Results are bitwise identical. docs/devices.md.
 enum class StepDevice {
     host,
     kokkos,  ///< on the device that Kokkos was built for (CUDA; Serial of Debian's package is the host); linear elasticity,

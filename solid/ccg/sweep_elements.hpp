@@ -87,7 +87,7 @@ public:
     SweepUnits<Dim, Real> units;  // of a size of its own even if empty: compilers of devices do not agree otherwise
 
 private:
-    /// Of a table that is not packed.
+    /// Vector of a table that is not packed.
     [[nodiscard]] static ABUT_HOST_DEVICE Double gathered(const Table<const double>& table, std::ptrdiff_t i) {
         Double a;
         for (int j = 0; j < Dim; ++j) a.r[j] = table[Dim * i + j];
@@ -98,7 +98,7 @@ private:
 // Displacements enter by their differences to that of a cell nearby, which are taken in double whatever Real is: a translation
 // of the body costs no accuracy.
 
-/// Of a face in the mean over all faces of a simplex whose point is its centroid.
+/// Share of a face in the mean over all faces of a simplex whose point is its centroid.
 template <int Dim, class Real>
 inline constexpr Real simplex_share = Real{1} / (Dim + 1);
 

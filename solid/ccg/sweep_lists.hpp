@@ -54,7 +54,7 @@ void for_runs(std::span<const Run> runs, const Body& body) {
         for (std::int32_t i = run.begin; i < run.end; ++i) body(i);
 }
 
-/// What each sweep computes of each chunk. Faces are of the chunk that has their first side.
+/// Items that each sweep computes of each chunk. Faces are of the chunk that has their first side.
 struct SweepLists {
     OfChunks<Run> loaded;                         // cells
     OfChunks<Run> reconstructed;                  // interior faces

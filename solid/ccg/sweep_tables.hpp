@@ -35,7 +35,7 @@ template <class Number, class Array>
             std::ssize(array) * static_cast<std::ptrdiff_t>(sizeof(Element) / sizeof(Number))};
 }
 
-/// What the sweeps read and write, in arrays of plain numbers. Vectors and tensors are packed: Lanes, TensorOf.
+/// Data that the sweeps read and write, in arrays of plain numbers. Vectors and tensors are packed: Lanes, TensorOf.
 template <int Dim, class Real>
 struct SweepTables {
     // As in CcgArrays and CcgCoefficients.

@@ -110,14 +110,14 @@ public:
         const std::int32_t position = finite_.free_position(c);
         return position >= 0 && finite_.free()[static_cast<std::size_t>(position)].n_tangents == 0;
     }
-    /// Of a cell of DirectedCells in the plane: Cauchy's stress out of it.
+    /// Cauchy's stress out of the plane, of a cell of DirectedCells in the plane.
     [[nodiscard]] double directed_out_of_plane_stress(std::int32_t c) const;
-    /// Of any cell in the plane: what heat takes of the stress out of it.
+    /// Part that heat takes of the stress out of the plane, of any cell in it.
     [[nodiscard]] double heat_out_of_plane(std::int32_t c) const {
         return temperature_.empty() ? 0.0 : temperature_[static_cast<std::size_t>(c)] * thermal_->out_of_plane_stress(c);
     }
 
-    /// What they work on.
+    /// Tables on which they work.
     [[nodiscard]] const SweepTables<Dim, Real>& tables() const { return element_.tables; }
 
 private:
@@ -126,7 +126,7 @@ private:
     using Tensor = LaneTensor<Dim, Real>;
 
     enum Stage { loading, reconstruction, displacement_gradients, stresses, face_gradients, cell_gradients, n_stages };
-    /// Of one body. Where it begins among the cells, faces and boundary faces.
+    /// Chunk of one body, with its begin among the cells, faces and boundary faces.
     struct Chunk {
         std::int32_t cell, face, boundary;
         bool simplices;   // its cells are of Simplices

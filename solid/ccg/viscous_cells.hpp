@@ -34,7 +34,7 @@ public:
     /// Force of Material::mass_damping on a cell of this mass that moves by `motion` in a step [N]. A cell that flies freely is
     /// slowed by exp(-alpha dt) in each step, to round-off.
     [[nodiscard]] Vector<Dim> drag(std::ptrdiff_t cell, double mass, const Vector<Dim>& motion, double dt);
-    /// What both have dissipated in the step.
+    /// Energy that both have dissipated in the step.
     [[nodiscard]] dynamics::Losses loss(std::ptrdiff_t cell) const;
     /// The next step begins where this one ends.
     void end_step();
@@ -51,7 +51,7 @@ public:
     void set_memory(std::ptrdiff_t cell, std::span<const double> values);
 
 private:
-    /// What acted in a step, as rates of it.
+    /// Rates that acted in a step.
     struct Rates {
         Matrix<Dim> strain = Matrix<Dim>::Zero();         // of Green's strain [1/s]
         double volume = 0.0;                              // [1/s]

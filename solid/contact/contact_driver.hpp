@@ -66,7 +66,7 @@ public:
     /// The next step begins where this one ends.
     virtual void end_step() = 0;
 
-    /// What pairs remember, between two steps.
+    /// Memory of pairs, between two steps.
     [[nodiscard]] virtual std::vector<std::byte> state() const = 0;
     /// Goes on from there, in q, where the last step ended at `time`; frames and loads are those of q.
     virtual void restore(std::span<const std::byte> state, std::span<const Vector<Dim>> q, double time) = 0;
@@ -83,7 +83,7 @@ public:
     virtual void take_start() = 0;
     /// At its end, with the pairs that may touch as they are at its start.
     virtual void take_end(double dt) = 0;
-    /// Where the last step ended, in q.
+    /// Evaluates the end of the last step, in q.
     virtual void evaluate_last_end(std::span<const Vector<Dim>> q) = 0;
     /// In one state with the loads at the end of the step, `time` being when the last step ended. Throws Misuse for a state
     /// too far from where candidates were searched.
@@ -107,7 +107,7 @@ public:
     [[nodiscard]] virtual std::span<const BodyPush<Dim>> pushes() const { return {}; }
     /// On each rigid body, with moments about arms at rest; empty where there is none.
     [[nodiscard]] virtual std::span<const BodyPush<Dim>> rigid_pushes() const { return {}; }
-    /// What V has beside the energy of the cells with these corrections [J].
+    /// Contact energy in V that is not contained in that of the cells with these corrections [J].
     [[nodiscard]] virtual double energy() const = 0;
     /// Figures of friction in the last step or evaluation.
     [[nodiscard]] virtual const contact::FrictionFigures& friction() const = 0;
@@ -122,16 +122,16 @@ public:
     [[nodiscard]] virtual const Obstacles<Dim>& obstacles() const = 0;
     /// Largest |g|/D [-].
     [[nodiscard]] virtual double compression() const = 0;
-    /// Of the state that was evaluated last.
+    /// Field of the state that was evaluated last.
     [[nodiscard]] virtual ContactField field() const = 0;
     /// Pairs that touch in the state that was evaluated last, or are open by at most `gap` [m].
     [[nodiscard]] virtual std::vector<TouchingPair<Dim>> touching_pairs(double gap) const = 0;
-    /// Of the state that was evaluated last, with pairs that have no force.
+    /// Pairs in the state that was evaluated last, those without force included.
     [[nodiscard]] virtual std::span<const contact::PairStep<Dim>> pairs() const = 0;
-    /// Of the last step.
+    /// Patches of the last step.
     [[nodiscard]] virtual std::vector<dynamics::ContactPatch<Dim>> patches() const = 0;
 
-    /// Of a face as errors of contact number it; `no_face` of an obstacle, and where there is none of that number.
+    /// Boundary face for a face as errors of contact number it; `no_face` of an obstacle, and where there is none of that number.
     [[nodiscard]] virtual BoundaryFace mesh_boundary(contact::Face face) const = 0;
 
     /// Contact itself, as its law has it: on faces or on nodes.

@@ -16,7 +16,7 @@ struct TouchingPair {
     double gap;          ///< [m]
 };
 
-/// What two faces do to each other in a state; `no_face` is one of an obstacle.
+/// Interaction of two faces in a state; `no_face` is one of an obstacle.
 template <int Dim>
 struct ActingPair {
     BoundaryFace face_1;
@@ -30,7 +30,7 @@ struct ActingPair {
     Vector<Dim> slip;      ///< motion of face 2 past face 1 in the last step, where there is friction [m]
 };
 
-/// What two bodies have done to each other by contact since the first step. Obstacles count as bodies behind those of the
+/// Impulse that two bodies have exchanged by contact since the first step. Obstacles count as bodies behind those of the
 /// mesh, in their order.
 template <int Dim>
 struct BodyImpulse {

@@ -49,7 +49,7 @@ public:
     [[nodiscard]] contact::Sharing* sharing() { return shared_->sharing(); }
     /// Body of each face, by its number in the mesh; obstacles count behind.
     [[nodiscard]] std::vector<std::int32_t> bodies_of_faces() const;
-    /// Of each face, whether it is in a group of the mesh of all bodies. A call of all ranks.
+    /// Tells for each face whether it is in a group of the mesh of all bodies. A call of all ranks.
     [[nodiscard]] std::vector<bool> faces_in_group(std::size_t group) const;
     /// How far a corner of these faces moves in its frame at most when no cell does by more than 1.
     [[nodiscard]] double amplification(const Listed& listed) const;
@@ -67,7 +67,7 @@ public:
     [[nodiscard]] bool is_deformable(std::size_t face) const { return face < boundary_.size(); }
     [[nodiscard]] bool is_obstacle(std::size_t face) const { return face >= mesh_boundary_.size(); }
     [[nodiscard]] std::size_t rigid_of(std::size_t face) const { return rigid_of_[face - boundary_.size()]; }
-    /// Of one that deforms; `no_face`: it is on other ranks.
+    /// Boundary face of a body that deforms; `no_face`: it is on other ranks.
     [[nodiscard]] BoundaryFace boundary(std::size_t face) const { return boundary_[face]; }
     [[nodiscard]] std::size_t body_of(std::size_t face) const { return static_cast<std::size_t>(faces_.body[face]); }
     /// In the numbering of the mesh; `no_face` of an obstacle, and of a face on other ranks.
@@ -80,9 +80,9 @@ public:
     [[nodiscard]] Vector<Dim> free_part(BoundaryFace face, const Vector<Dim>& of_corner) const {
         return of_corner - ccg_.prescribed()[face] * of_corner;
     }
-    /// What holds such a point; nothing does one of a rigid body.
+    /// Holds of such a point; nothing holds one of a rigid body.
     [[nodiscard]] std::vector<dynamics::Hold<Dim>> holds_of(std::int32_t point) const;
-    /// Of a body that deforms.
+    /// Centroid at rest of a face of a body that deforms [m].
     [[nodiscard]] Vector<Dim> rest_centroid(contact::Face face) const;
     /// Mean of its corners, of a body.
     [[nodiscard]] Vector<Dim> middle(contact::Face face, const Points& x) const;
@@ -94,7 +94,7 @@ public:
     /// Sets x of the nodes listed, in q; the others stay. The frames are those of q.
     void place(const Listed& listed, std::span<const Vector<Dim>> q, std::span<const BodyFrame<Dim>> frames,
                const BoundaryLoad<Dim>& load, double time, Points& x, StepState state = StepState::given);
-    /// Of the rigid bodies alone; `place` sets them, too.
+    /// Places the rigid bodies alone; `place` sets them, too.
     void place_rigid(std::span<const Vector<Dim>> q);
     [[nodiscard]] const std::vector<RigidPlace<Dim>>& rigid_places() const { return places_; }
 

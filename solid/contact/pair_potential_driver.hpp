@@ -69,7 +69,7 @@ private:
 
     using Listed = typename CornerSurface<Dim>::Listed;
 
-    /// What bounds how far some nodes are from where they were at a search: exact in one state, a bound from there on.
+    /// Bound of the distance of some nodes from where they were at a search: exact in one state, a bound from there on.
     struct Watch {
         std::vector<BodyFrame<Dim>> frames;  // in that state
         std::vector<RigidPlace<Dim>> places;

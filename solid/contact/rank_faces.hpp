@@ -34,13 +34,13 @@ public:
     virtual ~SharedFaces() = default;
 
     [[nodiscard]] std::size_t size() const { return here_.size(); }
-    /// Of each, the boundary face here; `no_face`: it is on other ranks alone.
+    /// Boundary face here of each; `no_face`: it is on other ranks alone.
     [[nodiscard]] std::span<const BoundaryFace> here() const { return here_; }
     [[nodiscard]] virtual Rest rest(std::size_t face) const = 0;
     [[nodiscard]] virtual Vector<Dim> centroid(std::size_t face) const = 0;  ///< at rest
-    /// That move it, by their numbers in the whole mesh.
+    /// Cells that move the face, by their numbers in the whole mesh.
     [[nodiscard]] virtual std::span<const std::int32_t> cells_of(std::size_t face) const = 0;
-    /// Of a cell, by its number in the whole mesh (holds_of_cell); nothing holds a point of a rigid body.
+    /// Holds of a cell, by its number in the whole mesh (holds_of_cell); nothing holds a point of a rigid body.
     [[nodiscard]] virtual std::vector<dynamics::Hold<Dim>> holds_of(std::int32_t point) const = 0;
     [[nodiscard]] virtual bool is_own(std::size_t face) const = 0;
     /// Who shares the work of contact; null: nobody does.
@@ -56,7 +56,7 @@ public:
 
     /// These faces are listed from now on, increasing.
     virtual void set_listed(std::span<const contact::Face> listed) = 0;
-    /// Those that are evaluated here, increasing.
+    /// Listed faces that are evaluated here, increasing.
     [[nodiscard]] std::span<const BoundaryFace> own_listed() const { return own_listed_; }
     /// Evaluates û [m] and y [N] of those in q and brings them to all; `region` is that of `own_listed`.
     virtual void evaluate_listed(Ccg<Dim>& ccg, const Region<Dim>& region, std::span<const Vector<Dim>> q,
@@ -70,7 +70,7 @@ protected:
     std::vector<BoundaryFace> own_listed_;
 };
 
-/// Those of this part. All arguments must outlive them.
+/// Shared faces of this part. All arguments must outlive them.
 template <int Dim>
 [[nodiscard]] std::unique_ptr<SharedFaces<Dim>> shared_faces(const RankPart<Dim>& part, const mesh::Mesh<Dim>& mesh,
                                                              const Ccg<Dim>& ccg);

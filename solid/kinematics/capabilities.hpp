@@ -7,7 +7,7 @@
 
 namespace abut::solid {
 
-/// What a scene may ask of a body and not every kinematics has.
+/// Capabilities that a scene may ask of a body and not every kinematics has.
 enum class Capability {
     clamp,                   ///< faces whose displacement is prescribed in all directions and constant
     guide,                   ///< faces whose prescribed displacement varies or leaves directions free

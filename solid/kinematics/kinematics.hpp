@@ -19,7 +19,7 @@ enum class MeanForce {
     closed_trapezoid,   ///< the same, with a smooth correction per body that makes energy and moment exact
 };
 
-/// What acts between faces in contact.
+/// Law that acts between faces in contact.
 enum class ContactLaw {
     automatic,       ///< `pair_potential`
     reconstruction,  ///< faces that are moved as a whole, normals at rest. docs/method.md, Contact

@@ -21,7 +21,7 @@ public:
     HeldPoints(std::vector<std::int32_t> numbers, const RankPart<Dim>& part);
 
     [[nodiscard]] std::span<const std::int32_t> numbers() const { return numbers_; }
-    /// Of some arrays by point here, the values of these points, array after array (n each).
+    /// Takes from some arrays by point here the values of these points, array after array (n each).
     [[nodiscard]] std::vector<std::vector<Vector<Dim>>> take(
         std::initializer_list<std::span<const Vector<Dim>>> arrays) const;
     /// Adds a force on a place, which is held by these points, to those here that are own ones.

@@ -13,7 +13,7 @@
 
 namespace abut::solid {
 
-/// What acts on the bodies from outside, contact with obstacles left out: body forces, prescribed displacements and tractions,
+/// Loads on the bodies from outside, contact with obstacles left out: body forces, prescribed displacements and tractions,
 /// at both ends of a step. Displacements are linear within a step, tractions and
 /// temperatures are constant and change where it begins.
 template <int Dim>
@@ -33,7 +33,7 @@ public:
     /// With the mean of the displacements of both.
     [[nodiscard]] BoundaryLoad<Dim> mean() const;
 
-    /// What jumps where a step begins.
+    /// Quantity that jumps where a step begins.
     enum class Jump { temperatures, tractions };
     /// For loads that vary: a step begins, and both ends are set. Where temperatures or tractions jump at its start, `follow_jump` is called with
     /// the loads from before the jump in `start()` and those after it in `end()`, and then `book` with the jump of `potential`, which is
@@ -50,7 +50,7 @@ public:
 
     /// By cell [N]; empty: none.
     [[nodiscard]] std::span<const Vector<Dim>> body_force() const { return body_force_; }
-    /// Of body forces in the displacements u [J].
+    /// Work of body forces in the displacements u [J].
     [[nodiscard]] double body_work(std::span<const Vector<Dim>> u) const;
     /// Body force less dV/du_c of one cell [N].
     [[nodiscard]] Vector<Dim> force_on(std::int32_t cell, const Vector<Dim>& gradient) const {

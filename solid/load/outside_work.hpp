@@ -2,7 +2,7 @@
 
 namespace abut::solid {
 
-/// What tractions from outside (TractionCondition::from_outside) have done so far [J]. H~ + `held` is the energy of the bodies
+/// Work of tractions from outside (TractionCondition::from_outside) so far [J]. H~ + `held` is the energy of the bodies
 /// without these loads; `steps` + `changes` is what they have given to it, and `heat` what temperatures have.
 struct OutsideWork {
     /// Sum over steps and faces of |f| t . (how far the face has moved in the step, and at its start where a temperature changes)

@@ -66,7 +66,7 @@ public:
     virtual void take_over(const PointLoad&) {}
 };
 
-/// What dashpots and brakes act on in a step whose rate is `now`: with the mean force, the mean of the rates of this step and of the
+/// Rate on which dashpots and brakes act in a step whose rate is `now`: with the mean force, the mean of the rates of this step and of the
 /// one before. On those of this step alone a two-step scheme answers with an alternating mode that grows; on those of the one before
 /// alone with vibrations that grow where omega dt is above sqrt 2. docs/method.md, Bodies that turn.
 template <class Rate>

@@ -30,10 +30,10 @@ public:
     void add(const PointStep<Dim>& step, std::span<Vector<Dim>> force, double& work) override;
     void add_at(const ByPoint<Dim>& q, double time, const TurnOf<Dim>& turn_of, std::span<Vector<Dim>> force) const override;
 
-    /// Where those of a condition act, one place per face of its group, with numbers of points of the system; empty where the bodies
+    /// Places where tractions of a condition act, one per face of its group, with numbers of points of the system; empty where the bodies
     /// do not turn.
     [[nodiscard]] std::vector<HeldPlace<Dim>> places_of(std::size_t condition) const;
-    /// Those of a condition that is from outside, by face of its group (n) [Pa]; not looked at.
+    /// Sets tractions of a condition that is from outside, by face of its group (n) [Pa]; they are not checked.
     void set(std::size_t condition, std::span<const Vector<Dim>> traction) {
         outside_[condition].assign(traction.begin(), traction.end());
     }

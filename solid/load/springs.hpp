@@ -32,7 +32,7 @@ public:
     void take_over(const PointLoad<Dim>& before) override;
 
 private:
-    /// What a dashpot acts on: of a hinge all of it, else the first component alone, which is that of the length [m/s]. Like
+    /// Rate on which a dashpot acts: of a hinge all of it, else the first component alone, which is that of the length [m/s]. Like
     /// this a rate does not turn with the spring from one step to the next.
     using Rate = Vector<Dim>;
     struct Held {

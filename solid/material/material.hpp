@@ -31,7 +31,7 @@ struct Material {
     double density = 1.0;  ///< rho [kg/m^3], > 0
     double eta = 0.0;      ///< stabilisation of the jumps between cells [Pa]; 0 means E, or its mean
     MaterialLaw law = MaterialLaw::st_venant_kirchhoff;  ///< of a body of Kinematics::finite; others have the first
-    /// Of MaterialLaw::mooney_rivlin: mu of the second invariant over mu [-], 0 to min(1, lambda/(2 mu)).
+    /// Ratio for MaterialLaw::mooney_rivlin: mu of the second invariant over mu [-], 0 to min(1, lambda/(2 mu)).
     double second_share = 0.0;
 
     // Of MaterialLaw::orthotropic, along axes 1, 2 and 3 of the material. Under tension along i a stretch along i comes with a
@@ -115,7 +115,7 @@ struct Material {
     [[nodiscard]] double hardening_modulus(double plastic_strain) const;
     /// Its integral from 0: the work of slow flow per volume [J/m^3].
     [[nodiscard]] double flow_work(double plastic_strain) const;
-    /// What a rate of the plastic strain [1/s] multiplies it by [-], 1 or more.
+    /// Factor by which a rate of the plastic strain [1/s] multiplies it [-], 1 or more.
     [[nodiscard]] double rate_factor(double rate) const;
     [[nodiscard]] bool knows_rates() const { return cowper_symonds_rate > 0.0 || johnson_cook_rate > 0.0; }
 

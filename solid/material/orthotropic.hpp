@@ -10,17 +10,17 @@ struct Lame {
     double lambda, mu;  ///< [Pa]
 };
 
-/// Of MaterialLaw::orthotropic: the isotropic stiffness that is nearest to that of the material, which is Voigt's mean over all
+/// Mean moduli for MaterialLaw::orthotropic: the isotropic stiffness that is nearest to that of the material, which is Voigt's mean over all
 /// directions. What an isotropic material has is what is returned of its constants, up to rounding.
 [[nodiscard]] Lame mean_moduli(const Material& material);
-/// Of MaterialLaw::orthotropic: the largest modulus of a plane wave along one of the axes of the material [Pa].
+/// For MaterialLaw::orthotropic: the largest modulus of a plane wave along one of the axes of the material [Pa].
 [[nodiscard]] double largest_wave_modulus(const Material& material);
 /// Thermal strain per kelvin of any material, in the axes of space [1/K].
 [[nodiscard]] Matrix<3> thermal_strain(const Material& material);
 /// Throws BadInput naming the body where constants of MaterialLaw::orthotropic have no positive energy, or axes are not at right angles.
 void check_orthotropic(const Material& material, int body);
 
-/// What the stiffness of a material has beyond lambda and mu of Material, in the axes of space: nothing where it is isotropic. In 2D
+/// Stiffness of a material beyond lambda and mu of Material, in the axes of space: nothing where it is isotropic. In 2D
 /// of plane strain.
 template <int Dim>
 class DirectedStiffness {

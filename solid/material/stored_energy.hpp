@@ -6,7 +6,7 @@
 
 namespace abut::solid {
 
-/// What a material answers to a displacement gradient.
+/// Response of a material to a displacement gradient.
 template <int Dim>
 struct Response {
     double energy;       ///< W, per volume at rest [J/m^3]

@@ -5,7 +5,7 @@
 
 namespace abut::solid {
 
-/// What heat does to one place of a body of large strains: F = F_e A with the thermal stretch A = I + a T, T the rise of the temperature
+/// Effect of heat at one position of a body of large strains: F = F_e A with the thermal stretch A = I + a T, T the rise of the temperature
 /// and a the tensor of Material::thermal_expansion. The law of the material answers to F_e = F A^-1, per volume of the warm body that
 /// nothing holds:
 ///

@@ -8,7 +8,7 @@
 
 namespace abut::solid {
 
-/// Where an anchor is that stands still.
+/// Stands for the body of an anchor that stands still.
 inline constexpr std::int32_t ground = -1;
 
 /// A place on a body, or on the ground. Of a body that deforms it is a mean of cells around that place, weighted so that it
@@ -17,7 +17,7 @@ template <int Dim>
 struct Anchor {
     std::int32_t body = ground;                  ///< number in the mesh
     Vector<Dim> position = Vector<Dim>::Zero();  ///< at rest [m]
-    /// Of a body that deforms [m]: held by cells with their centre that near, and by as many of the next ones as span space
+    /// Radius of support on a body that deforms [m]: held by cells with their centre that near, and by as many of the next ones as span space
     double radius = 0.0;
 };
 

@@ -36,7 +36,7 @@ struct BodyInterference {
     double time;                         ///< over which the overlap comes to act [s] > 0
 };
 
-/// What a scene holds beside its mesh.
+/// Content of a scene beside its mesh.
 template <int Dim>
 struct SolidOptions {
     std::vector<Material> materials;     ///< one per body
@@ -68,12 +68,12 @@ struct SolidOptions {
     }
 };
 
-/// Where the time of all steps of a Solid went [s].
+/// Time spent in the parts of all steps of a Solid [s].
 struct SolidTimes {
     double bulk = 0.0;
     double contact = 0.0;
     double search = 0.0;
-    /// Of the processors, in the operators of the cells of this rank: what it computes alone, without waiting for others
+    /// Processor time in the operators of the cells of this rank: what it computes alone, without waiting for others
     double own_cells = 0.0;
 };
 

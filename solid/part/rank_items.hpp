@@ -29,7 +29,7 @@ public:
         std::span<double> of_items;
         std::size_t width;
     };
-    /// Those of own items are set, and all are then. A call of all ranks.
+    /// Completes values: those of own items are set before, and all are then. A call of all ranks.
     void bring(std::initializer_list<Values> all) const {
         if (brought_.empty()) return;
         mine_.clear();

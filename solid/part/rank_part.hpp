@@ -28,7 +28,7 @@ public:
     /// Reads positions at rest again: Bodies::place_cell_points has changed them.
     void take_rest(std::span<const Vector<Dim>> rest);
 
-    /// Those that it was made with; of one alone, with the points of this solid.
+    /// Ranks that it was made with; of one alone, with the points of this solid.
     [[nodiscard]] const dynamics::Ranks& ranks() const { return ranks_; }
     /// Whether it is all of the solid, on the only rank: every point is where its number says.
     [[nodiscard]] bool is_whole() const { return is_whole_; }
@@ -44,15 +44,15 @@ public:
     }
     /// Boundary faces of own cells, increasing: they are boundary faces of the whole mesh, too.
     [[nodiscard]] std::span<const BoundaryFace> own_faces() const { return own_faces_; }
-    /// Of these, increasing as their numbers among the boundary faces of the whole mesh do.
+    /// Keys of these, increasing as their numbers among the boundary faces of the whole mesh do.
     [[nodiscard]] std::span<const std::int64_t> face_keys() const { return face_keys_; }
     /// The key of a boundary face here; another one than that of every boundary face of the whole mesh where the part ends.
     [[nodiscard]] std::int64_t key_of(const mesh::Mesh<Dim>& mesh, BoundaryFace face) const;
-    /// Of the face at a position of a cell that deforms.
+    /// Key of the face at a position of a cell that deforms.
     [[nodiscard]] std::int64_t key_of(std::int32_t cell, std::ptrdiff_t position) const;
     /// The number of a boundary face of the whole mesh among all of them, from its key; `n_all_faces` of another one.
     [[nodiscard]] std::size_t face_number(std::int64_t key) const;
-    /// Of each boundary face of the whole mesh the one here, `no_face` where it is on other ranks alone (n_all_faces).
+    /// Boundary face here for each one of the whole mesh, `no_face` where it is on other ranks alone (n_all_faces).
     [[nodiscard]] std::vector<BoundaryFace> faces_by_number(const mesh::Mesh<Dim>& mesh) const;
     /// The numbers of the cells here that deform among all that do, increasing (n_cells).
     [[nodiscard]] std::span<const double> cell_numbers() const { return cell_numbers_; }
@@ -62,7 +62,7 @@ public:
     [[nodiscard]] std::vector<Vector<Dim>> faces_here(const mesh::Mesh<Dim>& mesh,
                                                       std::span<const Vector<Dim>> of_all) const;
     [[nodiscard]] std::size_t n_all_faces() const { return all_face_keys_.size(); }  ///< boundary faces of the whole mesh
-    /// Where the cells of each body that deforms begin among all that do, one more at the end (n_bodies + 1).
+    /// Begin of the cells of each body that deforms among all that do, one more at the end (n_bodies + 1).
     [[nodiscard]] std::span<const std::int32_t> body_begin() const { return body_begin_; }
 
     // Of own points, cells first
@@ -83,7 +83,7 @@ public:
         std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1);
     /// Any values, in `kept` or, on one rank, in q itself.
     [[nodiscard]] std::span<const Vector<Dim>> filled(std::span<const Vector<Dim>> q, std::vector<Vector<Dim>>& kept) const;
-    /// What the owner of each cell here has of it (n_cells).
+    /// Value that the owner of each cell here has for it (n_cells).
     [[nodiscard]] std::vector<double> of_owners(std::span<const double> of_cells) const;
     /// The other way round, which needs no other rank.
     [[nodiscard]] std::vector<Vector<Dim>> own(std::span<const Vector<Dim>> of_part) const;
@@ -110,7 +110,7 @@ public:
 
     // Sums of all ranks, with the bits of one
 
-    /// Of values by cell of the part: `ordered_sum` over all cells.
+    /// Sum of values by cell of the part: `ordered_sum` over all cells.
     template <class Term>
     [[nodiscard]] double sum_of_cells(const Term& term) const {
         return sum_of({.first = 0, .last = n_all_cells()}, own_cells(), 0.0, term);
@@ -127,7 +127,7 @@ public:
         for (const BoundaryFace face : own_faces_) terms.push_back(term(face));
         return ranks_.fold(start, face_keys_, terms);
     }
-    /// Of values by cell of the part: `ordered_sum` over the cells of a body that deforms.
+    /// Sum of values by cell of the part: `ordered_sum` over the cells of a body that deforms.
     template <class Value, class Term>
     [[nodiscard]] Value sum_of_body(std::size_t body, const Value& zero, const Term& term) const {
         return sum_of({.first = body_begin_[body], .last = body_begin_[body + 1]}, own_cells_of(body), zero, term);
@@ -140,7 +140,7 @@ public:
         if (is_whole_) return parallel_each(std::ssize(own), [&](std::ptrdiff_t i) { of_cell(begin + i); });
         parallel_each(std::ssize(own), [&](std::ptrdiff_t i) { of_cell(own[static_cast<std::size_t>(i)]); });
     }
-    /// Those of the first cell of each body that deforms (n_bodies), from values by cell of the part. A call of all ranks.
+    /// Values of the first cell of each body that deforms (n_bodies), from values by cell of the part. A call of all ranks.
     [[nodiscard]] std::vector<Vector<Dim>> of_first_cells(std::span<const Vector<Dim>> of_part) const;
     /// Values of all rigid bodies (n_rigid, width), from those of own ones. A call of all ranks.
     [[nodiscard]] std::vector<double> gather_rigid(std::span<const double> of_own) const;
@@ -148,7 +148,7 @@ public:
     [[nodiscard]] bool any(bool here) const { return ranks_.largest(here ? 1.0 : 0.0) > 0.0; }
 
 private:
-    /// Of the own ones among cells, which have these numbers. On one rank these are the cells: nothing is looked up.
+    /// Sum over the own ones among cells, which have these numbers. On one rank these are the cells: nothing is looked up.
     template <class Value, class Term>
     [[nodiscard]] Value sum_of(const dynamics::Summands& numbers, std::span<const std::int32_t> own, const Value& zero,
                                const Term& term) const {

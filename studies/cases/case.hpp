@@ -30,7 +30,7 @@ struct Pin {
     double stiffness;  ///< [N/m]
 };
 
-/// What the host of linear finite elements knows alone.
+/// Parts that the host of linear finite elements knows alone.
 template <int Dim>
 struct NodalParts {
     std::vector<Pin<Dim>> pins = {};

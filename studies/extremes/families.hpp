@@ -4,7 +4,7 @@
 
 namespace abut::studies::extremes {
 
-/// What a user chooses about the sweeps.
+/// Options of the sweeps.
 struct SweepOptions {
     int steps = 100'000;  ///< of the long runs
     bool quick = false;   ///< fewer values a family, and no more than 2,000 steps in a long run

@@ -6,7 +6,7 @@
 /// Small scenes whose every number can be taken to extremes.
 namespace abut::studies::extremes {
 
-/// What lengths, stresses and densities of a scene are multiples of, SI.
+/// Units of which lengths, stresses and densities of a scene are multiples, SI.
 struct Units {
     double length = 1.0;   ///< [m]
     double stress = 1.0;   ///< [Pa]

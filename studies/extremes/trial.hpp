@@ -11,7 +11,7 @@
 
 namespace abut::studies::extremes {
 
-/// What became of a run at an extreme.
+/// Verdict on a run at an extreme.
 enum class Verdict {
     held,     ///< it ran to its end, and all that is asked of it is so (the constants below)
     refused,  ///< it ended with a message
@@ -19,7 +19,7 @@ enum class Verdict {
 };
 [[nodiscard]] std::string name_of(Verdict verdict);
 
-/// What is asked of a run for `held`, beside that the bodies meet and no contact is lost.
+/// Limits asked of a run for `held`, beside that the bodies meet and no contact is lost.
 inline constexpr double largest_drift = 1e-10;           ///< of H~ over the scale of the scene
 inline constexpr double largest_momentum_drift = 1e-10;  ///< over the sum of m |v| at the start
 inline constexpr double largest_excess = 1.0;        ///< H - H~ over the scale: the parasitic mode owns less than the run
@@ -56,7 +56,7 @@ struct Trial {
     bool meets = true;           ///< false: there is no contact to expect
     std::function<run::Scene<Dim>()> make;
     run::RunOptions run;
-    /// What else is asked of the run: it returns what is not so, or nothing. It may set numbers of the row; empty: no more.
+    /// Further demand on the run: it returns what is not so, or nothing. It may set numbers of the row; empty: no more.
     std::function<std::string(const run::RunResult<Dim>&, Row&)> ask_more;
 };
 

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double radius = 1.0, speed = 0.01, gap = 1e-3, hardness = 1e4;
 
-/// Of a rigid ball of radius and density 1 on a half space of E = 1 and nu = 0.3.
+/// Hertz's figures of a rigid ball of radius and density 1 on a half space of E = 1 and nu = 0.3.
 struct Hertz {
     double modulus = 1.0 / (1.0 - 0.3 * 0.3);
     double mass = 4.0 / 3.0 * std::numbers::pi;

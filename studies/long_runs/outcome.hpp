@@ -7,7 +7,7 @@
 
 namespace abut::studies::long_runs {
 
-/// What is done against the alternating mode of MEMM.
+/// Remedy against the alternating mode of MEMM.
 struct Remedy {
     std::string name;
     bool filter = false;

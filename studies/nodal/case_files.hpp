@@ -7,7 +7,7 @@
 
 namespace abut::studies::nodal {
 
-/// What a run leaves in its folder: energy.csv and its picture, the series for ParaView.
+/// Files that a run leaves in its folder: energy.csv and its picture, the series for ParaView.
 template <int Dim>
 class CaseFiles {
 public:

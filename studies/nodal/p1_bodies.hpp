@@ -47,7 +47,7 @@ public:
         return is_finite_ ? dynamics::MomentArms::mid_step : dynamics::MomentArms::rest;
     }
     [[nodiscard]] std::span<const std::int32_t> body_of_points() const { return node_body_; }
-    /// Of the mean displacement gradient of each body (n_bodies) [rad], 0 to pi.
+    /// Rotation of the mean displacement gradient of each body (n_bodies) [rad], 0 to pi.
     [[nodiscard]] std::vector<double> rotations(std::span<const double> q) const;
     // PatchSystem
     /// The nodes of the elements that own active faces; pairs and common nodes join them to one patch.

@@ -89,7 +89,7 @@ double exact_pressure(const HertzSolution& exact, const mesh::Mesh<Dim>& mesh, s
     }
 }
 
-/// Of the pressure on one body, relative in L2.
+/// Error of the pressure on one body, relative in L2.
 template <int Dim>
 double pressure_error(const P1Bodies<Dim>& bodies, const HertzSolution& exact, std::int32_t body) {
     const mesh::Mesh<Dim>& mesh = bodies.mesh();

@@ -51,7 +51,7 @@ StaticLoad load_of(const mesh::Mesh<Dim>& mesh, double p) {
     return load;
 }
 
-/// What linear elasticity and the springs of the contact say of equal strains.
+/// Displacements expected of linear elasticity and the springs of the contact for equal strains.
 template <int Dim>
 std::vector<double> expected(const P1Bodies<Dim>& bodies, double p) {
     const double modulus = young * (1.0 - poisson) / ((1.0 + poisson) * (1.0 - 2.0 * poisson));

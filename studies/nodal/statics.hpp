@@ -9,7 +9,7 @@
 /// Bodies of linear finite elements at rest, with contact on their nodes.
 namespace abut::studies::nodal {
 
-/// What acts on them, beside contact.
+/// Load that acts on them, beside contact.
 struct StaticLoad {
     std::vector<double> force;  ///< on the degrees of freedom [N]
     std::vector<char> held;     ///< 1: this degree of freedom stays where it starts

@@ -32,7 +32,7 @@ struct Bar {
 /// Along which a strip of cells lies.
 template <int Dim>
 inline constexpr int bar_axis = Dim - 1;
-/// Of a strip of this width [m^(Dim-1)]; in 3D it is square.
+/// Cross section of a strip of this width [m^(Dim-1)]; in 3D it is square.
 template <int Dim>
 [[nodiscard]] double cross_section(double width) {
     return Dim == 2 ? width : width * width;
@@ -90,15 +90,15 @@ public:
 
     /// Beginning of an impact, counted from 0 [s]; without gravity there is one.
     [[nodiscard]] double hit(int impact = 0) const;
-    /// Of the wall, at a time after the first hit [Pa].
+    /// Pressure of the wall, at a time after the first hit [Pa].
     [[nodiscard]] double pressure(double since) const { return bar_.impedance() * (speed + gravity_ * since); }
-    /// Of the wall at any time.
+    /// Pressure of the wall at any time.
     [[nodiscard]] double pressure_at(double time) const;
-    /// Of the lower end over the wall.
+    /// Height of the lower end over the wall.
     [[nodiscard]] double height_at(double time) const;
     /// Upwards, of the centre of mass.
     [[nodiscard]] double velocity_at(double time) const;
-    /// Of the wall, in one impact [N s/m^2].
+    /// Impulse of the wall, in one impact [N s/m^2].
     [[nodiscard]] double impulse() const;
 
 private:
@@ -107,7 +107,7 @@ private:
     double gravity_;  // [m/s^2]
 };
 
-/// What the dispersion of the cells does to an impact at constant pressure. Long waves run at c (1 - beta (k h)^2) with
+/// Effect of the dispersion of the cells on an impact at constant pressure. Long waves run at c (1 - beta (k h)^2) with
 /// beta = (1 - nu^2)/24 in the chain and (4 - nu^2)/24 in the strips, whose strain is a difference over 2h; nu is the
 /// Courant number. A front that has run the distance s is then the integral of the Airy function over the length
 /// (3 beta h^2 s)^(1/3). Here s = 2L, and the wall lets go where that integral is 1/2: late, and with a part of the speed
@@ -118,7 +118,7 @@ struct DispersedImpact {
 };
 [[nodiscard]] DispersedImpact dispersed_impact(const Bar& bar, BarBody body, int cells, double courant);
 
-/// What happens at the contact of a run: n steps, n + 1 nodes.
+/// History of the contact of a run: n steps, n + 1 nodes.
 struct ContactHistory {
     std::vector<double> time;                  ///< of the nodes [s]
     std::vector<double> gap;                   ///< smallest at the nodes, < 0 in contact; infinity: far apart [m]
@@ -132,7 +132,7 @@ struct Impact {
     double impulse;               ///< [N s/m^2]
     std::array<double, 2> speed;  ///< of the centres of mass after it, upwards [m/s]
 };
-/// Those that are over: followed by `pause` without a contact [s]. Contacts less than that apart are one.
+/// Impacts that are over: followed by `pause` without a contact [s]. Contacts less than that apart are one.
 [[nodiscard]] std::vector<Impact> impacts(const ContactHistory& history, double pause);
 
 /// Pressure in the middle 80 % of an exact contact, away from the jumps at both ends.
@@ -189,7 +189,7 @@ void add_bar_options(Flags& flags, BarOptions& options,
                              const std::vector<double>& profile_times = {});
 [[nodiscard]] BarRun run_two_bars(const TwoBars& scene, const BarOptions& options, std::array<int, 2> cells);
 
-/// What gnuplot plots of history.csv: a line for each number of cells, over `time` or `middle`.
+/// Commands by which gnuplot plots history.csv: a line for each number of cells, over `time` or `middle`.
 [[nodiscard]] std::string history_lines(const std::vector<int>& cells, const std::string& time, const std::string& value);
 
 /// A study of bars: a run and a level for each number of BarOptions::cells, counted from 0.

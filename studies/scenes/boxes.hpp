@@ -8,7 +8,7 @@
 /// Boxes for the cases of a single body: every cell shape, structured and from Gmsh.
 namespace abut::studies {
 
-/// What a box is cut into: the shapes of mesh::structured_box, and unstructured triangles or tetrahedra from Gmsh.
+/// Cells into which a box is cut: the shapes of mesh::structured_box, and unstructured triangles or tetrahedra from Gmsh.
 enum class BoxCells { quadrangles, triangles, hexahedra, tetrahedra, prisms, pyramids, gmsh };
 
 /// "quadrangles"

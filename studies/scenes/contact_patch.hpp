@@ -15,7 +15,7 @@ enum class PatchMesh {
     unstructured,  ///< triangles or tetrahedra of Gmsh that do not match
 };
 
-/// What holds the sides at xmax (and ymax); the others stand on rollers.
+/// Support of the sides at xmax (and ymax); the others stand on rollers.
 enum class PatchSides {
     rollers,
     free,

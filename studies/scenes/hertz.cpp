@@ -72,7 +72,7 @@ mesh::Mesh<Dim> touching_bodies(const HertzOptions& options) {
     return mesh;
 }
 
-/// Of the upper body.
+/// Volume of the upper body.
 template <int Dim>
 double volume(const mesh::Mesh<Dim>& mesh) {
     double sum = 0.0;

@@ -12,7 +12,7 @@
 /// equal, or onto a rigid plane. The contact point is the origin; the weight of the upper body presses along the last axis.
 namespace abut::studies {
 
-/// What is under the round body.
+/// Support under the round body.
 enum class HertzSupport { block, equal, rigid_plane };
 
 struct HertzOptions {
@@ -50,7 +50,7 @@ template <int Dim>
 [[nodiscard]] mesh::Mesh<Dim> round_body(const HertzOptions& options, double height, double size, int variant,
                                          const std::string& name);
 
-/// What a boundary face of the upper body carries.
+/// Pressure and traction that a boundary face of the upper body carries.
 template <int Dim>
 struct HertzFace {
     Vector<Dim> position;  ///< of its centroid [m]

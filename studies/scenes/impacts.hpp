@@ -48,7 +48,7 @@ struct HertzImpact {
 };
 [[nodiscard]] HertzImpact hertz_impact(const TwoSpheres& options);
 
-/// What a run of one or two bodies shows of their contact. The force is the mean of a step of the scheme on body 0.
+/// Observes the contact of one or two bodies in a run. The force is the mean of a step of the scheme on body 0.
 template <int Dim>
 class ImpactObserver : public run::Observer<Dim> {
 public:

@@ -63,7 +63,7 @@ double energy_density(const solid::Material& material, const Matrix<Dim>& gradie
     return material.lambda() * strain.trace() * strain.trace() + 2.0 * material.mu() * strain.squaredNorm();
 }
 
-/// What V holds beyond the elastic energy of the cells, twice it being the sum of |f| eta/h_f |[u]_f|^2 [J].
+/// Part of V beyond the elastic energy of the cells, twice it being the sum of |f| eta/h_f |[u]_f|^2 [J].
 template <int Dim>
 double stabilisation_energy(const Manufactured<Dim>& exact, solid::Solid<Dim>& solid, std::span<const double> q) {
     const auto u = as_vectors<Dim>(q);

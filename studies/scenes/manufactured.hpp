@@ -36,7 +36,7 @@ Manufactured<3> manufactured<3>();
 
 /// How far a static solution is from the exact one.
 struct StaticErrors {
-    /// Of u_c + G_c (x - x_c) in L2, over the L2 norm of the exact displacement [-]
+    /// Error of u_c + G_c (x - x_c) in L2, over the L2 norm of the exact displacement [-]
     double displacement;
     /// sqrt(integral of e:C:e + stabilisation), e being the error of the strain, over the same of the exact one [-]
     double energy;

@@ -3,10 +3,10 @@
 #include "abut/solid/boundary/boundary_conditions.hpp"
 #include "abut/solid/statics.hpp"
 
-/// What every discretisation of elasticity must keep: constant strain, and no energy of rigid motions.
+/// Patch test of what every discretisation of elasticity must keep: constant strain, and no energy of rigid motions.
 namespace abut::studies {
 
-/// Where the affine displacement of the patch test comes from.
+/// Source of the affine displacement of the patch test.
 enum class PatchBoundary {
     displacement,  ///< imposed on all sides
     mixed,         ///< on the sides across the first axis; the others have the traction of the constant stress

@@ -24,7 +24,7 @@ struct Trace {
 /// Second derivative of a Gaussian, its largest value 1 at t = 0, its spectrum largest at `frequency` [Hz].
 [[nodiscard]] double ricker(double t, double frequency);
 
-/// Where a displacement is recorded and which component.
+/// Position where a displacement is recorded and which component.
 template <int Dim>
 struct Receiver {
     Vector<Dim> position;

@@ -26,7 +26,7 @@ struct Quantity {
     std::string unit;  ///< "" for a ratio
     double value;
     double reference;  ///< exact, or of the source that the program names
-    /// What the error is divided by, in the same unit; 0: |reference|
+    /// Scale by which the error is divided, in the same unit; 0: |reference|
     double scale = 0.0;
     /// Largest error that counts as reproduced [-]; infinite: none is asked for at this level
     double allowed = no_target;
@@ -59,7 +59,7 @@ struct Level {
     double seconds = 0.0;             ///< of the computation, with its set-up
 };
 
-/// What a function returns, and the seconds that it took.
+/// Result of a function, and the seconds that it took.
 template <class Run>
 [[nodiscard]] auto timed(double& seconds, const Run& run) {
     const Stopwatch watch(seconds);

@@ -8,7 +8,7 @@
 namespace abut::studies::trade {
 namespace {
 
-/// What an option is a choice of.
+/// Scope of an option: what it is a choice of.
 enum class Of {
     reconstruction,  ///< the modified reconstruction in motion
     model,           ///< the same, at rest, too

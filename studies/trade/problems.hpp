@@ -9,7 +9,7 @@
 
 namespace abut::studies::trade {
 
-/// What errors are measured against, where there is no exact value.
+/// Reference against which errors are measured, where there is no exact value.
 struct Reference {
     double restitution = run::not_given;  ///< of the cell-centred solid on a finer mesh, under its default law
     std::vector<double> velocity = {};    ///< of the left body at the end (Dim), of finite elements on that mesh [m/s]

@@ -155,7 +155,7 @@ std::string colour_of(const std::string& problem) {
     return colours[static_cast<std::size_t>(place) % colours.size()];
 }
 
-/// What points and colours mean, for all panels.
+/// Meaning of points and colours, for all panels.
 std::vector<std::string> key(const std::vector<Row>& rows) {
     std::vector<std::string> lines;
     for (const Problem& problem : problems())

@@ -10,7 +10,7 @@
 
 namespace abut::studies::trade {
 
-/// What bodies are and what acts between them.
+/// Model of the bodies and of what acts between them.
 enum class Model { reconstruction, pair_potential, floating, rigid, nodes, finite_nodes };
 [[nodiscard]] Model model_of(const run::RunOptions& run);
 [[nodiscard]] Model model_of(const NodalRun& run);

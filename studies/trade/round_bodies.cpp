@@ -53,7 +53,7 @@ double restitution_of(const run::Scene<Dim>& scene, const run::RunResult<Dim>& r
     throw Misuse("two_cylinders has no restitution");
 }
 
-/// What is asked of velocities at the end.
+/// Adds what is asked of velocities at the end.
 template <int Dim>
 void add_errors(const run::Scene<Dim>& scene, const run::RunResult<Dim>& result, const Reference& reference, double speed,
                 Outcome& outcome) {
@@ -103,7 +103,7 @@ std::vector<double> reference_velocity(const Impact& impact) {
     return {velocity.begin(), velocity.end()};
 }
 
-/// Of the cell-centred solid.
+/// Restitution of the cell-centred solid.
 template <int Dim>
 double reference_restitution(const Impact& impact) {
     const run::Scene<Dim> scene = scene_of<Dim>(impact);

@@ -52,7 +52,7 @@ const std::vector<Sides> all_sides = {
 
 constexpr double exact = 1e-10;
 
-/// Where the method is exact.
+/// Target of the error where the method is exact; none elsewhere.
 double target(const PatchOptions& options, const Sides& sides) {
     const bool is_exact = options.mesh == PatchMesh::matching &&
                           options.contact.weighting == contact::InterfaceWeighting::stiffness &&

@@ -28,10 +28,10 @@ struct Options {
     run::RunOptions run{.out = "out/" + program.name};
 };
 
-/// What a prototype of the method gave for the disc on the left [m/s].
+/// Velocity that a prototype of the method gave for the disc on the left [m/s].
 Vector<2> prototype(double offset) { return offset == 0.0 ? Vector<2>(-0.0477, -0.001) : Vector<2>(-0.0278, -0.0394); }
 
-/// Of the file with the velocities of a run.
+/// Name of the file with the velocities of a run.
 std::string curve_name(double offset, double size) {
     return fmt::format("{}_{:g}", offset == 0.0 ? "head_on" : "off_centre", size);
 }

@@ -63,7 +63,7 @@ BarOnWall scene() {
             .time = end};
 }
 
-/// Of the contact.
+/// Exact stress of the contact.
 double exact_stress(double time) {
     const double t = std::fmod(time, period);
     return t > contact_begin && t < contact_begin + contact_duration ? stress : 0.0;
@@ -95,7 +95,7 @@ Level level(const BarRun& run, const BarOptions& options, int cells) {
     return level;
 }
 
-/// Where the profiles are taken [s].
+/// Times at which the profiles are taken [s].
 const std::vector<double> profile_times = {0.5, 1.25, period, 2.0 * period};
 
 void append_profiles(apps::Table& table, const BarRun& run, int cells) {

@@ -85,7 +85,7 @@ ChainDispersion exact(const solid::Solid<Dim>& solid, PlaneWave wave) {
     return {wave_modulus(wave, material), material.stabilisation(), material.density, 1.0};
 }
 
-/// What the operator makes of a plane wave.
+/// Answer of the operator to a plane wave.
 struct Answer {
     double square;    ///< omega^2 by the Rayleigh quotient over the cells away from the ends [1/s^2]
     double residual;  ///< largest |K q - m omega^2 q| of a cell there, over its mass and the wave's amplitude [1/s^2]
@@ -129,7 +129,7 @@ apps::Table spectrum(Level& level, const SpectrumOptions& options, PlaneWave wav
     return table;
 }
 
-/// Of the dense eigenvalue problem K x = omega^2 M x [rad/s].
+/// Highest frequency of the dense eigenvalue problem K x = omega^2 M x [rad/s].
 template <int Dim>
 double highest_frequency(solid::Solid<Dim>& solid) {
     Eigen::MatrixXd k = dense_stiffness(solid);
