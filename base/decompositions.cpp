@@ -63,7 +63,8 @@ SingularValues singular_values(const Matrix<3>& matrix) {
 }
 
 Matrix<3> rotation_between(const Vector<3>& from, const Vector<3>& to) {
-    // As Eigen::Quaterniond::FromTwoVectors, except for the axis of opposite vectors: its decomposition is one more to compile.
+    // As Eigen::Quaterniond::FromTwoVectors, except for the axis of opposite vectors: its decomposition is one more to
+    // compile.
     const Vector<3> start = from.normalized(), end = to.normalized();
     const double cosine = end.dot(start);
     Eigen::Quaterniond turn;

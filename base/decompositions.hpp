@@ -21,8 +21,8 @@ struct SymmetricEigen {
 [[nodiscard]] Vector<2> symmetric_eigenvalues(const Matrix<2>& matrix);
 [[nodiscard]] Vector<3> symmetric_eigenvalues(const Matrix<3>& matrix);
 
-/// The largest eigenvalue of a symmetric tridiagonal matrix without negative eigenvalues: its diagonal (n) and what is beside
-/// it (n - 1). NaN if a number on the diagonal is.
+/// The largest eigenvalue of a symmetric tridiagonal matrix without negative eigenvalues: its diagonal (n) and what is
+/// beside it (n - 1). NaN if a number on the diagonal is.
 [[nodiscard]] double largest_eigenvalue(std::span<const double> diagonal, std::span<const double> beside);
 
 /// Pseudo-inverse of a symmetric matrix without negative eigenvalues. Those up to `cut` times the largest count as 0, as

@@ -26,8 +26,8 @@ public:
     ForkJoin(const ForkJoin&) = delete;
     ForkJoin& operator=(const ForkJoin&) = delete;
 
-    /// All that is written before comes before each task; `body` is what they read first. Its address has to be known to have
-    /// left: stores to an object that nobody else can see yet may be moved past the release.
+    /// All that is written before comes before each task; `body` is what they read first. Its address has to be known
+    /// to have left: stores to an object that nobody else can see yet may be moved past the release.
     void begin(const void* body) {
 #if defined(ABUT_THREAD_SANITIZER)
         asm volatile("" : : "r"(body) : "memory");

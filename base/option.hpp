@@ -10,8 +10,8 @@
 #include <variant>
 #include <vector>
 
-/// Options as tables: an option is one member of a struct and one line of a list. Command lines, keys of scene files, arguments
-/// of Python and C, limits, summaries, help and documents are made from the list.
+/// Options as tables: an option is one member of a struct and one line of a list. Command lines, keys of scene files,
+/// arguments of Python and C, limits, summaries, help and documents are made from the list.
 namespace abut {
 
 /// A choice and its word in files, on command lines and in summaries.

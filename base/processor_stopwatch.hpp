@@ -3,8 +3,8 @@
 
 namespace abut {
 
-/// Adds the time of its life to a sum [s], as the processors of this machine have spent it on all threads of this process: other
-/// processes take nothing from it.
+/// Adds the time of its life to a sum [s], as the processors of this machine have spent it on all threads of this
+/// process: other processes take nothing from it.
 class ProcessorStopwatch {
 public:
     explicit ProcessorStopwatch(double& sum) : sum_(sum), start_(now()) {}

@@ -32,8 +32,8 @@ std::size_t length_of_character(std::string_view text, std::size_t at) {
 
 bool is_control(char c) { return static_cast<unsigned char>(c) < 0x20U || c == 0x7F; }
 
-/// Bytes of a mark that turns the direction of writing, where one begins here: U+061C, U+200E, U+200F, U+202A to U+202E, U+2066 to U+2069.
-/// 0: none does.
+/// Bytes of a mark that turns the direction of writing, where one begins here: U+061C, U+200E, U+200F, U+202A to
+/// U+202E, U+2066 to U+2069. 0: none does.
 std::size_t length_of_direction_mark(std::string_view text, std::size_t at) {
     const std::string_view rest = text.substr(at);
     if (rest.starts_with("\xD8\x9C")) return 2;

@@ -9,8 +9,8 @@ namespace abut {
 /// above U+10FFFF). What is valid stays as it is.
 [[nodiscard]] std::string as_utf8(std::string_view text);
 
-/// The text with a space in place of each control character, line ends and tabs among them, and of each mark that turns the direction
-/// of writing (Unicode's bidirectional controls), by which a text would look like another one.
+/// The text with a space in place of each control character, line ends and tabs among them, and of each mark that turns
+/// the direction of writing (Unicode's bidirectional controls), by which a text would look like another one.
 [[nodiscard]] std::string in_one_line(std::string text);
 
 /// True if a text has a control character or a mark that turns the direction of writing.

@@ -19,8 +19,9 @@ struct Unit {
     double over = 1.0;
 };
 
-/// A unit of the table of names and prefixes, or a product "N m", quotient "m/s" and power "m^2", "m2", "m²" of them; empty: none.
-/// Throws BadInput for a name that is not known, with the nearest one that is, and for what cannot be read.
+/// A unit of the table of names and prefixes, or a product "N m", quotient "m/s" and power "m^2", "m2", "m²" of them;
+/// empty: none. Throws BadInput for a name that is not known, with the nearest one that is, and for what cannot be
+/// read.
 [[nodiscard]] Unit unit_of(const std::string& text);
 
 /// A value with a unit, in the two parts that a text has.
@@ -33,8 +34,8 @@ struct ValueWithUnit {
 /// Nothing for a text that is not a number, or a formula in parentheses, and letters behind it.
 [[nodiscard]] std::optional<ValueWithUnit> value_with_unit(std::string_view text);
 
-/// Value of the number in another unit. Where the two differ by a power of ten it is the double that is nearest to the decimal
-/// number: "25" in mm is 0.025 m. Infinite beyond the range of numbers. The dimensions must be equal.
+/// Value of the number in another unit. Where the two differ by a power of ten it is the double that is nearest to the
+/// decimal number: "25" in mm is 0.025 m. Infinite beyond the range of numbers. The dimensions must be equal.
 [[nodiscard]] double converted(const std::string& number, const Unit& from, const Unit& to);
 /// A formula for what the formula is in another unit.
 [[nodiscard]] std::string converted_formula(const std::string& formula, const Unit& from, const Unit& to);
@@ -44,8 +45,8 @@ struct ValueWithUnit {
 /// Usual units of the dimension that `unit` has, beside itself: "mm, cm, km, in, ft"; empty where none is usual.
 [[nodiscard]] std::string usual_units(const std::string& unit);
 
-/// The unit of a value for an option or a key that has the unit `wanted`. Throws BadInput where its dimension is another one,
-/// saying which it is and which units are usual.
+/// The unit of a value for an option or a key that has the unit `wanted`. Throws BadInput where its dimension is
+/// another one, saying which it is and which units are usual.
 [[nodiscard]] Unit unit_for(const std::string& text, const std::string& wanted);
 
 /// Names of units, without prefixes.

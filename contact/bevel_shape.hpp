@@ -23,8 +23,9 @@ namespace abut::contact {
     return {.full = -std::max(full, none + narrowest), .none = -none};
 }
 
-/// Whether an edge of a body in space has a bevel: below 60 degrees, as corners in the plane, or where it is below 95 and may cross an
-/// edge of another body that its flanks do not face enough. `crossing`: the product with the half_sine of that edge.
+/// Whether an edge of a body in space has a bevel: below 60 degrees, as corners in the plane, or where it is below 95
+/// and may cross an edge of another body that its flanks do not face enough. `crossing`: the product with the half_sine
+/// of that edge.
 [[nodiscard]] inline bool has_bevel_across(double half_sine, double crossing) {
     constexpr double sharpest = 1e-9, blunt_for_faces = 0.5 - 1e-9, bluntest = 0.737, enough_for_edges = 0.32;
     return half_sine > sharpest && half_sine < bluntest && (half_sine < blunt_for_faces || crossing < enough_for_edges);

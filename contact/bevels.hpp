@@ -12,8 +12,8 @@
 
 namespace abut::contact {
 
-/// Small facets across sharp corners, that stand alone: the surface stays as it is, and a bevel is one more partner of what comes
-/// straight at the tip, which the flanks do not face. docs/method.md, Sharp corners.
+/// Small facets across sharp corners, that stand alone: the surface stays as it is, and a bevel is one more partner of
+/// what comes straight at the tip, which the flanks do not face. docs/method.md, Sharp corners.
 template <int Dim>
 struct Bevels {
     // Corners of bevels: fixed combinations of nodes of the host, y = A x, the rows of which sum to 1
@@ -36,9 +36,9 @@ struct Bevels {
     [[nodiscard]] bool is_at(const Vector<Dim>& position) const { return std::ranges::find(tips, position) != tips.end(); }
 };
 
-/// In 2D the bevels of all convex corners below 60 degrees. In 3D those of convex edges below 60 degrees, of edges below 95 degrees
-/// that cross an edge of another body unseen where their flanks face each other too little, and of corners which are sharper
-/// than the edges there tell. Their order is fixed; takes n log n.
+/// In 2D the bevels of all convex corners below 60 degrees. In 3D those of convex edges below 60 degrees, of edges
+/// below 95 degrees that cross an edge of another body unseen where their flanks face each other too little, and of
+/// corners which are sharper than the edges there tell. Their order is fixed; takes n log n.
 template <int Dim>
 [[nodiscard]] Bevels<Dim> bevels_of(const SurfaceView<Dim>& facets);
 
@@ -69,7 +69,8 @@ public:
 
     /// Appends the nodes of the host that the corners of bevels among `nodes` are made of.
     void append_host_nodes(std::vector<std::int32_t>& nodes) const;
-    /// Positions of all nodes, or of `listed` ones (increasing) alone, from those of the host; without bevels these themselves.
+    /// Positions of all nodes, or of `listed` ones (increasing) alone, from those of the host; without bevels these
+    /// themselves.
     [[nodiscard]] PointsView<Dim> place(PointsView<Dim> x, std::vector<Vector<Dim>>& y) const;
     [[nodiscard]] PointsView<Dim> place(PointsView<Dim> x, std::span<const std::int32_t> listed,
                                         std::vector<Vector<Dim>>& y) const;
@@ -87,7 +88,8 @@ private:
     double stretch_ = 1.0;
 };
 
-/// As `old_facets`, of the facets that act: a bevel was there before if both facets beside it were, and one was between them.
+/// As `old_facets`, of the facets that act: a bevel was there before if both facets beside it were, and one was between
+/// them.
 template <int Dim>
 [[nodiscard]] std::vector<std::int32_t> old_acting_facets(const BevelledSurface<Dim>& before,
                                                           const BevelledSurface<Dim>& after,

@@ -19,11 +19,13 @@ struct BlindCorner {
 ///
 ///     (w - v) . d <= 0 for all corners w of these faces,      n_i . d <= -facing_cosine for all i.
 ///
-/// In 2D these are tips of at most 180 degrees - 2 acos(-facing_cosine): 23 degrees by default. In 3D d is tried halfway between each two normals, and at equal angles to each three.
+/// In 2D these are tips of at most 180 degrees - 2 acos(-facing_cosine): 23 degrees by default. In 3D d is tried
+/// halfway between each two normals, and at equal angles to each three.
 ///
 /// Returns one per position with such a corner, in the order of SurfaceView::vertices; corners at exactly one position are
-/// one, that of the lowest body. Corners of a single face do not count. A lower |facing_cosine| (-1 < facing_cosine < 0) sees
-/// sharper corners. Throws BadInput for array sizes that disagree; otherwise the surface must be one that `check` lets pass.
+/// one, that of the lowest body. Corners of a single face do not count. A lower |facing_cosine|
+/// (-1 < facing_cosine < 0) sees sharper corners. Throws BadInput for array sizes that disagree; otherwise the surface
+/// must be one that `check` lets pass.
 template <int Dim>
 [[nodiscard]] std::vector<BlindCorner<Dim>> blind_corners(const SurfaceView<Dim>& surface, double facing_cosine);
 

@@ -24,10 +24,10 @@ struct CellSurface : NodalFaceArrays<Dim> {
     std::vector<std::int32_t> cell;  ///< (n_faces) the cell behind each
 };
 
-/// The faces that one cell alone has, turned outwards whatever the sense of the cells, and half the height of the cell behind
-/// each: of simplices Dim V/(2 A), of others V/(2 A), with the volume V of the cell and the area A of the face. Throws BadInput
-/// naming the cell: an index out of range, a number of corners that no cell has, a corner that is not finite, a cell without
-/// volume, three cells at one face, cells of two bodies at one face.
+/// The faces that one cell alone has, turned outwards whatever the sense of the cells, and half the height of the cell
+/// behind each: of simplices Dim V/(2 A), of others V/(2 A), with the volume V of the cell and the area A of the face.
+/// Throws BadInput naming the cell: an index out of range, a number of corners that no cell has, a corner that is not
+/// finite, a cell without volume, three cells at one face, cells of two bodies at one face.
 template <int Dim>
 [[nodiscard]] CellSurface<Dim> surface_of(PointsView<Dim> rest, const HostCells& cells);
 

@@ -53,9 +53,9 @@ public:
     Contact(Contact&&) noexcept;
     Contact& operator=(Contact&&) noexcept;
 
-    /// Contact along one step that takes `dt` [s], finite and > 0; searches first where the candidate list is no longer valid.
-    /// Without friction nothing depends on `dt`. Throws what `search` and `integrate` throw, BadInput for arrays of the wrong
-    /// size or a function that is not set.
+    /// Contact along one step that takes `dt` [s], finite and > 0; searches first where the candidate list is no longer
+    /// valid. Without friction nothing depends on `dt`. Throws what `search` and `integrate` throw, BadInput for arrays
+    /// of the wrong size or a function that is not set.
     const ContactStep<Dim>& step(double dt, const HostStep<Dim>& host);
 
     /// Whether the candidate list is still a superset of all that can touch, when no face has moved by more than `motion`
@@ -70,10 +70,10 @@ public:
     [[nodiscard]] std::span<const Face> faces() const;
 
     /// Decides admission at the start of a step that takes `dt` [s], finite and > 0, then integrates along it. With
-    /// TakenForce::end, for schemes that take the force at the end of a step alone, it takes corrections and pair forces there:
-    /// there are no events, and `gradient_0` is not read and may be empty. Throws TooDeep naming the faces when a pair is
-    /// pressed in deeper than `compression_limit`, Diverged when the path or a force is not finite, BadInput for a wrong size
-    /// or `dt`, Misuse without a list.
+    /// TakenForce::end, for schemes that take the force at the end of a step alone, it takes corrections and pair
+    /// forces there: there are no events, and `gradient_0` is not read and may be empty. Throws TooDeep naming the
+    /// faces when a pair is pressed in deeper than `compression_limit`, Diverged when the path or a force is not
+    /// finite, BadInput for a wrong size or `dt`, Misuse without a list.
     const ContactStep<Dim>& integrate(double dt, const FacePath<Dim>& path, TakenForce take = TakenForce::mean);
 
     /// Corrections and pair forces of one state (n_listed), as along a path without motion, with the admission as it stands;
@@ -91,16 +91,17 @@ public:
     [[nodiscard]] const PairStore& pair_store() const;
 
     /// All that the next steps depend on, and the counters of `report`, as bytes: versioned, with a checksum. After
-    /// `restore` of an object made for the same surface with the same options the next steps are bitwise identical; they begin
-    /// with a search. Throws BadInput, and stays as it is, for bytes that are damaged, of another version, dimension or
-    /// surface.
+    /// `restore` of an object made for the same surface with the same options the next steps are bitwise identical;
+    /// they begin with a search. Throws BadInput, and stays as it is, for bytes that are damaged, of another version,
+    /// dimension or surface.
     [[nodiscard]] std::vector<std::byte> state() const;
     void restore(std::span<const std::byte> state);
 
-    /// Goes on, between two steps, where `before` has stopped, which was made for another surface. `old_face_of`: of each face its
-    /// number there, -1 for one that was not there (n_faces). Old faces and their pairs keep what they remember. For those with a new face the
-    /// run begins: what is pressed in by less than D is a contact. Throws BadInput, and stays as it is, for numbers out of range
-    /// or given twice, and where one of both has friction and the other has not.
+    /// Goes on, between two steps, where `before` has stopped, which was made for another surface. `old_face_of`: of
+    /// each face its number there, -1 for one that was not there (n_faces). Old faces and their pairs keep what they
+    /// remember. For those with a new face the run begins: what is pressed in by less than D is a contact. Throws
+    /// BadInput, and stays as it is, for numbers out of range or given twice, and where one of both has friction and
+    /// the other has not.
     void take_over(const Contact& before, std::span<const std::int32_t> old_face_of);
 
     [[nodiscard]] const SurfaceView<Dim>& surface() const;

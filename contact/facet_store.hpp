@@ -10,11 +10,11 @@
 
 namespace abut::contact {
 
-/// Memory of facets from step to step: so many numbers of each as the law wants, 0 at the start, whether or not the facet is in
-/// a list. A law without memory of facets has a store without numbers, which costs neither time nor space.
+/// Memory of facets from step to step: so many numbers of each as the law wants, 0 at the start, whether or not the
+/// facet is in a list. A law without memory of facets has a store without numbers, which costs neither time nor space.
 ///
-/// A law reads where the last step ended, and writes where this one ends; a step that is refused leaves the memory as it was.
-/// A step costs as much as the facets that have been in use.
+/// A law reads where the last step ended, and writes where this one ends; a step that is refused leaves the memory as
+/// it was. A step costs as much as the facets that have been in use.
 class FacetStore {
 public:
     FacetStore() = default;
@@ -35,8 +35,8 @@ public:
     void set_next(Facet facet, std::span<const double> memory);
     void end_step();
 
-    /// Memory of facets that have got other numbers. `old_of_new`: the old number of each, -1 for a facet that was not there,
-    /// which remembers nothing.
+    /// Memory of facets that have got other numbers. `old_of_new`: the old number of each, -1 for a facet that was not
+    /// there, which remembers nothing.
     [[nodiscard]] FacetStore carried_over(std::span<const std::int32_t> old_of_new) const;
 
     void save(StateWriter& state) const;

@@ -8,8 +8,8 @@
 
 namespace abut::contact {
 
-/// A face that slides, or may begin to, in a step: what a coefficient of friction may depend on. All of it is known before the
-/// force is.
+/// A face that slides, or may begin to, in a step: what a coefficient of friction may depend on. All of it is known
+/// before the force is.
 struct Sliding {
     double speed;     ///< of the motion past the faces that press on it, mean over the time in which they do [m/s]
     double slid;      ///< path that it has slid until the start of the step [m]
@@ -48,8 +48,8 @@ struct Friction {
 /// Laws of friction, and the faces between which each acts.
 struct FrictionOptions {
     std::vector<Friction> laws = {};  ///< none: no friction anywhere
-    /// Index in `laws` of two faces, in either order; -1: none. Asked once per pair of a candidate list, and must always give
-    /// the same. Empty: the first law is that of all
+    /// Index in `laws` of two faces, in either order; -1: none. Asked once per pair of a candidate list, and must
+    /// always give the same. Empty: the first law is that of all
     std::function<std::int32_t(Face, Face)> law_of = {};
 
     [[nodiscard]] bool any() const { return !laws.empty(); }

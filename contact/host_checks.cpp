@@ -40,7 +40,8 @@ struct CouplingCheck {
                    {.value = static_cast<double>(coupling.blocks.size()), .allowed = static_cast<double>(n)});
     }
 
-    /// Checks the columns of row f: within range, increasing, finite, and f itself among them unless it is rigid: it takes no correction.
+    /// Checks the columns of row f: within range, increasing, finite, and f itself among them unless it is rigid: it
+    /// takes no correction.
     void columns_of(std::size_t f) const {
         const std::int32_t n_faces = static_cast<std::int32_t>(faces.size());
         for (std::int32_t i = begin(f); i < end(f); ++i) {

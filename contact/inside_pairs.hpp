@@ -11,9 +11,9 @@
 
 namespace abut::contact {
 
-/// Pairs of facets of one body that lie inside of each other and near at rest, as the two sides of a wedge or of a thin plate
-/// do: they are marked, and no contact. A mark goes for good once the pair is seen from outside: a plate that is rolled up
-/// touches itself with what were its two sides. docs/method.md, A body that touches itself.
+/// Pairs of facets of one body that lie inside of each other and near at rest, as the two sides of a wedge or of a thin
+/// plate do: they are marked, and no contact. A mark goes for good once the pair is seen from outside: a plate that is
+/// rolled up touches itself with what were its two sides. docs/method.md, A body that touches itself.
 template <int Dim>
 class InsidePairs {
 public:
@@ -45,9 +45,9 @@ private:
 template <int Dim>
 [[nodiscard]] double outside_gap(const SurfaceView<Dim>& facets, FacetPair pair);
 
-/// By which a pair is told to lie inside or outside: its least gap where the facets overlap; else that gap and the one of both planes
-/// halfway between the centroids, whichever is less, since facets at an edge may be beside each other with a common corner. Not
-/// finite without a normal in common: it tells nothing then [m].
+/// By which a pair is told to lie inside or outside: its least gap where the facets overlap; else that gap and the one
+/// of both planes halfway between the centroids, whichever is less, since facets at an edge may be beside each other
+/// with a common corner. Not finite without a normal in common: it tells nothing then [m].
 template <int Dim>
 [[nodiscard]] double inside_gap(const geometry::PairCorners<Dim>& corners, const geometry::PairState<Dim>& state);
 

@@ -9,8 +9,8 @@
 
 namespace abut::contact {
 
-/// How much of the overlap at the start is not there yet, of each of InterferenceOptions::times: all of it at first, then less and
-/// less, without a jump of its rate.
+/// How much of the overlap at the start is not there yet, of each of InterferenceOptions::times: all of it at first,
+/// then less and less, without a jump of its rate.
 class InterferenceRamps {
 public:
     explicit InterferenceRamps(const InterferenceOptions& options) : times_(options.times) {}

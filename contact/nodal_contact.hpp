@@ -51,8 +51,9 @@ struct NodalStableStep {
 
 /// The contact of bodies whose surfaces are made of nodes, and whose faces may turn: finite elements and nearly all other
 /// solvers. Every pair of facing facets has a potential W of its corners (geometry::pair_mean_gradient): the spring of the
-/// half elements behind both, over their overlap. In the plane a corner below 60 degrees has a facet of its own across the tip. H~, momentum and angular momentum are kept to round-off by MEMM, for steps
-/// of any size; other schemes take the force at the end of the step.
+/// half elements behind both, over their overlap. In the plane a corner below 60 degrees has a facet of its own across
+/// the tip. H~, momentum and angular momentum are kept to round-off by MEMM, for steps of any size; other schemes take
+/// the force at the end of the step.
 ///
 /// A host calls `step` once per step, with its nodes at both ends, and adds the forces to its own. Obstacles are bodies with
 /// infinite stiffness, whose nodes the host places where it wants (`Placement` turns and shifts). docs/embedding.md walks
@@ -69,9 +70,9 @@ public:
     NodalContact(NodalContact&&) noexcept;
     NodalContact& operator=(NodalContact&&) noexcept;
 
-    /// Contact along one step that takes `dt` [s], finite and > 0, and in which the nodes move from x_0 to x_1 (n_nodes) [m] on
-    /// straight lines. Without friction nothing depends on `dt`. Searches first where the candidate list is not valid. Throws
-    /// BadInput for a wrong `dt` or number of nodes, Diverged for a node that is not finite
+    /// Contact along one step that takes `dt` [s], finite and > 0, and in which the nodes move from x_0 to x_1
+    /// (n_nodes) [m] on straight lines. Without friction nothing depends on `dt`. Searches first where the candidate
+    /// list is not valid. Throws BadInput for a wrong `dt` or number of nodes, Diverged for a node that is not finite
     /// or moves too far, and for a force that is not finite (a face loses its area within the step), TooDeep for a pair that
     /// is deeper than `compression_limit`, both naming the faces, LimitExceeded for a search that takes more than it may.
     const NodalStep<Dim>& step(double dt, PointsView<Dim> x_0, PointsView<Dim> x_1, TakenForce take = TakenForce::mean);
@@ -87,8 +88,8 @@ public:
     /// Whether the candidate list is still a superset of all that can touch, when no node of a face is farther than `motion`
     /// [m] from where the step began that was last searched for.
     [[nodiscard]] bool is_valid_for(double motion) const;
-    /// Farthest that what acts reaches beyond the faces of the surface, at rest [m]: half the width of a facet across a sharp
-    /// corner, 0 without any; and how far its ends move at most when no node moves by more than 1.
+    /// Farthest that what acts reaches beyond the faces of the surface, at rest [m]: half the width of a facet across a
+    /// sharp corner, 0 without any; and how far its ends move at most when no node moves by more than 1.
     [[nodiscard]] double bevel_width() const;
     [[nodiscard]] double bevel_stretch() const;
     /// Makes a new list for a step from x_0 to x_1; throws as `step`. The list holds for that step, however long it is.
@@ -110,8 +111,8 @@ public:
     [[nodiscard]] NodalStableStep stable_step(std::span<const double> mass, double omega_free) const;
 
     /// Corners so sharp that pairs with a flat face that comes straight at them have less than a quarter of their weight
-    /// (`NodalOptions::facing`; by default tips of 38 degrees and less in 2D), and that have no bevel: bodies go through each
-    /// other there, or leave much too fast. To be asked once, where positions are those at rest.
+    /// (`NodalOptions::facing`; by default tips of 38 degrees and less in 2D), and that have no bevel: bodies go
+    /// through each other there, or leave much too fast. To be asked once, where positions are those at rest.
     [[nodiscard]] std::vector<BlindCorner<Dim>> blind_corners() const;
 
     /// Bodies whose sharpest edges have less than a quarter of the weight of flat sides where they cross
@@ -127,12 +128,13 @@ public:
 
     /// Goes on with another surface of the same nodes or of others, between two steps: faces have eroded, and what was
     /// behind them is a face now. `old_face_of`: of each new face that was there before, its old number, else -1 (n_faces).
-    /// Old faces, with their corners in the same order, and their pairs keep what they remember. For those with a new face the run begins: what is pressed in by less than
-    /// D is a contact, and W jumps by what `evaluate` tells before and after. Throws BadInput, and stays as it is, for numbers
-    /// out of range or given twice.
+    /// Old faces, with their corners in the same order, and their pairs keep what they remember. For those with a new
+    /// face the run begins: what is pressed in by less than D is a contact, and W jumps by what `evaluate` tells before
+    /// and after. Throws BadInput, and stays as it is, for numbers out of range or given twice.
     void surface_replaced(NodalSurface<Dim> surface, std::span<const std::int32_t> old_face_of);
-    /// The same for an object that was made for the new surface, which may have options of its own: it goes on where `before`
-    /// has stopped. Throws BadInput, too, where one of both has friction or interference and the other has not.
+    /// The same for an object that was made for the new surface, which may have options of its own: it goes on where
+    /// `before` has stopped. Throws BadInput, too, where one of both has friction or interference and the other has
+    /// not.
     void take_over(const NodalContact& before, std::span<const std::int32_t> old_face_of);
 
     [[nodiscard]] const NodalSurface<Dim>& surface() const;

@@ -81,8 +81,8 @@ public:
     [[nodiscard]] NodalPair<Dim> make_pair(const BevelledSurface<Dim>& surface, const FacetPair& facets) const;
 
     /// The list is pruned again and again while it holds: these of its pairs can act in the step from x_0 to x_1, and in the
-    /// next ones as long as no node moves too far. They are chosen again where they must be; what leaves them is admitted from
-    /// then on if it is apart, and else not, as if it had left the list. `memory`: of all pairs.
+    /// next ones as long as no node moves too far. They are chosen again where they must be; what leaves them is
+    /// admitted from then on if it is apart, and else not, as if it had left the list. `memory`: of all pairs.
     [[nodiscard]] std::span<const NodalPair<Dim>> in_reach(PointsView<Dim> x_0, PointsView<Dim> x_1,
                                                            std::span<PairMemory> memory);
     /// Pairs that can act in one state, and others.
@@ -125,8 +125,8 @@ inline constexpr double beside_depth = 0.01;
 
 /// Whether a pair may be pressed in from here on, where W = 0: it is no far side of a body. Sides that end on both bodies
 /// where their overlap would begin, and are behind each other there, look past each other: two corners or edges, the tips of
-/// which are thinner than D. Flanks that overlap without facing each other are contacts, for bodies turn; bevels are none then.
-/// docs/method.md, The potential of a pair.
+/// which are thinner than D. Flanks that overlap without facing each other are contacts, for bodies turn; bevels are
+/// none then. docs/method.md, The potential of a pair.
 template <int Dim>
 [[nodiscard]] bool may_touch(const NodalPair<Dim>& pair, const geometry::PairCorners<Dim>& corners,
                              const geometry::PairState<Dim>& state, const SideOutlines<Dim>& sides) {

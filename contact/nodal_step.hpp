@@ -14,7 +14,8 @@ struct BodyStep {
     std::int32_t body;
     Vector<Dim> force;        ///< mean over the step [N]
     AxialVector<Dim> moment;  ///< of the forces on its nodes about the origin, at the middle of the step [N m]
-    /// Work that the body does by its own motion on what it touches [J]: of a rigid body on a given path, the work from outside
+    /// Work that the body does by its own motion on what it touches [J]: of a rigid body on a given path, the work from
+    /// outside
     double work;
 };
 
@@ -47,8 +48,8 @@ struct NodalStep {
     double energy_0 = 0.0;                      ///< W at the start of the step [J], where interference has grown
     double energy = 0.0;                        ///< W at its end [J]
     double work = 0.0;                          ///< what rigid bodies on their paths did on the rest [J]
-    /// By how much W grows with the interference in the step, from outside (NodalOptions::interference); with `TakenForce::end`
-    /// the mean of that at its start and at its end [J]
+    /// By how much W grows with the interference in the step, from outside (NodalOptions::interference); with
+    /// `TakenForce::end` the mean of that at its start and at its end [J]
     double interference_work = 0.0;
     std::vector<FaceFriction> friction;  ///< of each facet with friction in the last step, by face
     StepReport report;

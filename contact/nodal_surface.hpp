@@ -24,12 +24,13 @@ struct NodalFaces {
     /// (n_bodies) k [Pa/m]: `skin_stiffness` of a deformable body, infinity of a rigid one. Contact is the spring of the
     /// half elements behind both faces in series, no penalty: a larger k costs time steps and gains nothing
     std::span<const double> stiffness;
-    /// (n_faces) k [Pa/m] of each face, for hosts whose faces give way by sigma/k each by itself, as cell-centred solids; that
-    /// of its body then bounds it, or infinity of one that the host holds or moves on a path. Empty: that of its body. Not
-    /// read for rigid bodies
+    /// (n_faces) k [Pa/m] of each face, for hosts whose faces give way by sigma/k each by itself, as cell-centred
+    /// solids; that of its body then bounds it, or infinity of one that the host holds or moves on a path. Empty: that
+    /// of its body. Not read for rigid bodies
     std::span<const double> face_stiffness = {};
-    /// (n_bodies) [Pa/m], needed with friction alone, else empty: mu/(lambda + 2 mu) of `stiffness`, with the shear modulus mu;
-    /// infinity of a rigid body. Faces that stick hold each other by it, with the depth that `stiffness` has
+    /// (n_bodies) [Pa/m], needed with friction alone, else empty: mu/(lambda + 2 mu) of `stiffness`, with the shear
+    /// modulus mu; infinity of a rigid body. Faces that stick hold each other by it, with the depth that `stiffness`
+    /// has
     std::span<const double> shear_stiffness = {};
     /// (n_faces) the same of `face_stiffness`; needed with friction where that is given
     std::span<const double> face_shear_stiffness = {};
@@ -55,8 +56,9 @@ class NodalSurface {
 public:
     /// `rest`: all nodes of the host at rest (n_nodes) [m], whether they belong to a face or not. Obstacles on a given path
     /// have nodes, too. Throws BadInput naming face, value, limit and remedy: array sizes that disagree, an index out of
-    /// range, a number of corners that is not allowed, a corner that is not finite, a facet without area, a depth or stiffness that is not > 0 (a rigid
-    /// body has depth >= 0), crossing edges; also lengths beyond 1e-75 to 1e75 m, stiffnesses beyond 1e-150 to 1e150 Pa/m.
+    /// range, a number of corners that is not allowed, a corner that is not finite, a facet without area, a depth or
+    /// stiffness that is not > 0 (a rigid body has depth >= 0), crossing edges; also lengths beyond 1e-75 to 1e75 m,
+    /// stiffnesses beyond 1e-150 to 1e150 Pa/m.
     NodalSurface(PointsView<Dim> rest, const NodalFaces<Dim>& faces);
 
     [[nodiscard]] std::int32_t n_nodes() const { return static_cast<std::int32_t>(facets_.vertices.size()); }
@@ -77,8 +79,8 @@ public:
     [[nodiscard]] std::vector<std::int32_t> inward_bodies() const;
     /// Nodes that belong to a face, increasing.
     [[nodiscard]] std::span<const std::int32_t> nodes() const { return nodes_; }
-    /// This surface with more facets, on nodes behind its own: facets across sharp corners, as the law has them. A face at the
-    /// corner stands for them in `face_of`.
+    /// This surface with more facets, on nodes behind its own: facets across sharp corners, as the law has them. A face
+    /// at the corner stands for them in `face_of`.
     [[nodiscard]] NodalSurface with(const Bevels<Dim>& bevels) const;
 
 private:

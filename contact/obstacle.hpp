@@ -23,8 +23,9 @@ template <int Dim>
                                                 std::function<Vector<Dim>(double time)> path = {});
 
 /// A plane through `point` that is without end to all that stays within `reach` of `middle`, seen along the normal: one face
-/// without a seam, a triangle (3D) or segment (2D) about the foot of `middle`. Its coordinates are as large as its reach, and
-/// gaps are rounded to 1e-16 of that: a few thousand sizes of the bodies cost nothing. Throws as `plane_obstacle`.
+/// without a seam, a triangle (3D) or segment (2D) about the foot of `middle`. Its coordinates are as large as its
+/// reach, and gaps are rounded to 1e-16 of that: a few thousand sizes of the bodies cost nothing. Throws as
+/// `plane_obstacle`.
 template <int Dim>
 [[nodiscard]] RigidObstacle<Dim> endless_plane_obstacle(const Vector<Dim>& point, const Vector<Dim>& normal,
                                                         const Vector<Dim>& middle, double reach,

@@ -43,8 +43,8 @@ struct CandidateOptions {
     double largest_motion = 1.0;
     /// [-] >= 0: largest distance of a corner from the plane of its face, over the face size
     double planarity_tolerance = geometry::planarity_tolerance;
-    /// Pairs: of the whole list. Memory: of each pair of bodies that is searched, beside the list; where parts share a search
-    /// (Sharing), of each of them
+    /// Pairs: of the whole list. Memory: of each pair of bodies that is searched, beside the list; where parts share a
+    /// search (Sharing), of each of them
     geometry::SearchLimits limits;
     /// Pairs of bodies of the surface, in either order, that pass through each other: none of their faces are candidates
     std::vector<std::array<std::int32_t, 2>> ignored_bodies = {};

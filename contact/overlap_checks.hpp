@@ -15,8 +15,8 @@ void check_arrays(const SurfaceView<Dim>& surface, std::span<const Vector<Dim>> 
 template <int Dim>
 void check_indices(const SurfaceView<Dim>& surface, std::span<const geometry::IndexPair> pairs);
 
-/// Throws as `check_indices`, and Diverged naming the face if one that a pair names has a displacement that is not finite. What no pair names
-/// may hold anything. The arrays must have passed `check_arrays`.
+/// Throws as `check_indices`, and Diverged naming the face if one that a pair names has a displacement that is not
+/// finite. What no pair names may hold anything. The arrays must have passed `check_arrays`.
 template <int Dim>
 void check_pairs(const SurfaceView<Dim>& surface, std::span<const Vector<Dim>> displacement,
                  std::span<const geometry::IndexPair> pairs);

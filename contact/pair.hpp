@@ -32,11 +32,11 @@ template <int Dim>
     return surface.area[face_1] > much_larger_area<Dim> * surface.area[face_2];
 }
 
-/// Which face gives n_12. `both`: it is the mean, along n_1 - n_2. A rigid face gives its own normal. Of two elastic ones the
-/// larger does: with any other normal the distance of the centroids along it, times the sine of its tilt, would count as
-/// gap, and bodies that are apart would be in contact; so the gap is the height of the smaller face's centroid over it. Of
-/// faces of one size that which is farther from a sharp edge of its body gives its own: a corner on a flat side would be
-/// pushed along it.
+/// Which face gives n_12. `both`: it is the mean, along n_1 - n_2. A rigid face gives its own normal. Of two elastic
+/// ones the larger does: with any other normal the distance of the centroids along it, times the sine of its tilt,
+/// would count as gap, and bodies that are apart would be in contact; so the gap is the height of the smaller face's
+/// centroid over it. Of faces of one size that which is farther from a sharp edge of its body gives its own: a corner
+/// on a flat side would be pushed along it.
 enum class NormalOf { both, face_1, face_2 };
 
 template <int Dim>

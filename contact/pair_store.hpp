@@ -46,8 +46,8 @@ public:
     [[nodiscard]] PairStore carried_over(std::span<const std::int32_t> old_of_new,
                                          const std::function<bool(FacetPair)>& is_kept) const;
 
-    /// Appends the store to a state, and reads it from there; `n_facets` is the size of the surface. Throws BadInput for pairs
-    /// out of order or range.
+    /// Appends the store to a state, and reads it from there; `n_facets` is the size of the surface. Throws BadInput
+    /// for pairs out of order or range.
     void save(StateWriter& state) const;
     [[nodiscard]] static PairStore restored(StateReader& state, std::int32_t n_facets);
 

@@ -4,9 +4,9 @@
 
 namespace abut::contact {
 
-/// The parts of a program, processes as a rule, that have the same contact and work for each other, as one of them sees them.
-/// Where contact takes time each part works out its share, and all of them get the results of all: each bit is that of one
-/// process. A program with one process has none of this (a null pointer).
+/// The parts of a program, processes as a rule, that have the same contact and work for each other, as one of them sees
+/// them. Where contact takes time each part works out its share, and all of them get the results of all: each bit is
+/// that of one process. A program with one process has none of this (a null pointer).
 ///
 /// Contact, NodalContact and CandidateSearch take one. All parts make these with the same surface and the same options, and
 /// call the same functions in the same order with the same arguments, to the last bit; the other parts would wait for one

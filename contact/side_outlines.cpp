@@ -62,8 +62,8 @@ double angle_at(const SurfaceView<3>& facets, std::int32_t facet, int corner) {
     return std::atan2(a.cross(b).norm(), a.dot(b));
 }
 
-/// The angle by which the side of `facet` goes on around one of its corners, beyond the edge to the next corner or that to the
-/// previous one: the sum of the angles of its facets there.
+/// The angle by which the side of `facet` goes on around one of its corners, beyond the edge to the next corner or that
+/// to the previous one: the sum of the angles of its facets there.
 float reach(const SurfaceView<3>& facets, const std::vector<Beyond>& beyond, std::int32_t facet, int corner,
             bool past_next) {
     const std::int32_t vertex = facets.face_vertices[3 * facet + corner];
@@ -81,8 +81,8 @@ float reach(const SurfaceView<3>& facets, const std::vector<Beyond>& beyond, std
     }
 }
 
-/// Along both flanks of a sharp corner, as long as they look the way they do there: half the thickness, half the distance from the
-/// corner times the sine of the angle between them. Places are twice the facet and the corner.
+/// Along both flanks of a sharp corner, as long as they look the way they do there: half the thickness, half the
+/// distance from the corner times the sine of the angle between them. Places are twice the facet and the corner.
 void bound_by_thickness(const SurfaceView<2>& facets, const std::vector<std::int32_t>& beyond, const Ridge& ridge,
                         std::vector<double>& deepest) {
     const double cosine = facets.normal[ridge.face_1].dot(facets.normal[ridge.face_2]);

@@ -9,10 +9,11 @@
 
 namespace abut::contact {
 
-/// Outlines of the sides of bodies. A side of a facet is all that is joined to it and looks much the way it does: it ends at a
-/// convex edge (3D) or corner (2D) where normals turn by more than at a sharp edge (`sharp_edge_cosine`), and where the surface
-/// is open; where two faces make a groove it is taken to go on. Near a corner below 60 degrees (2D) a body is thinner than a
-/// contact may be deep: there its side counts as far as half its thickness. Of the surface at rest, for facets of Dim corners.
+/// Outlines of the sides of bodies. A side of a facet is all that is joined to it and looks much the way it does: it
+/// ends at a convex edge (3D) or corner (2D) where normals turn by more than at a sharp edge (`sharp_edge_cosine`), and
+/// where the surface is open; where two faces make a groove it is taken to go on. Near a corner below 60 degrees (2D) a
+/// body is thinner than a contact may be deep: there its side counts as far as half its thickness. Of the surface at
+/// rest, for facets of Dim corners.
 template <int Dim>
 class SideOutlines;
 

@@ -66,8 +66,8 @@ struct FaceFriction {
     double dissipated = 0.0;  ///< in this step [J]
 };
 
-/// Figures of friction in a step; all 0 without any. Energy and dissipation close the balance of a host: H~ with `energy` in V,
-/// plus the sum of `dissipated`, less the work from outside, stays what it was.
+/// Figures of friction in a step; all 0 without any. Energy and dissipation close the balance of a host: H~ with
+/// `energy` in V, plus the sum of `dissipated`, less the work from outside, stays what it was.
 struct FrictionFigures {
     double energy = 0.0;            ///< E of all springs by which faces stick, at the end of the step [J]
     double dissipated = 0.0;        ///< D in the step [J]
@@ -95,8 +95,8 @@ struct StepReport {
     /// Active pairs whose normal is more than 20 degrees away from those of both faces: edges on edges, and coarse round
     /// bodies. Their force has a part along the faces.
     std::int64_t tilted_pairs = 0;
-    /// Correction of the pair potential that closes the balance of energy, over the forces of all pairs. Beyond 1e-3 the step is too
-    /// long to follow the pairs.
+    /// Correction of the pair potential that closes the balance of energy, over the forces of all pairs. Beyond 1e-3
+    /// the step is too long to follow the pairs.
     double correction = 0.0;
     FrictionFigures friction;
 };
@@ -111,7 +111,8 @@ struct ContactStep {
     IdVector<ListedFace, Vector<Dim>> mean_gradient;
     IdVector<ListedFace, double> mean_normal_force;  ///< of all pairs of a face (n) [N], > 0 in compression
     std::vector<PairStep<Dim>> pairs;                ///< the active ones, by (face_1, face_2)
-    /// Energy that the corrections add to the host's energy at the end of the step: sum y . delta + 1/2 sum delta . Q delta [J].
+    /// Energy that the corrections add to the host's energy at the end of the step: sum y . delta + 1/2 sum delta . Q
+    /// delta [J].
     double energy = 0.0;
     std::vector<FaceFriction> friction;  ///< of each face with friction in the last step, increasing
     StepReport report;

@@ -41,8 +41,8 @@ struct SurfaceView {
     /// of both
     std::span<const std::uint8_t> steps_to_sharp_edge = {};
 
-    /// (n) [Pa/m], needed with friction alone, else empty: shear stiffness of the boundary half-cell, mu |f|/|c|; infinity: a
-    /// rigid face
+    /// (n) [Pa/m], needed with friction alone, else empty: shear stiffness of the boundary half-cell, mu |f|/|c|;
+    /// infinity: a rigid face
     std::span<const double> shear_stiffness = {};
 
     [[nodiscard]] std::int32_t size() const { return static_cast<std::int32_t>(area.size()); }
@@ -88,9 +88,9 @@ void check_sizes(const SurfaceView<Dim>& surface);
 
 /// Throws BadInput naming the face, the value, the limit and the remedy: array sizes that disagree, an index
 /// out of range, a number of corners that is not 2 (2D) or 3 to geometry::max_polygon_vertices (3D), NaN, zero area, a
-/// normal that is not unit, a face that is not flat (within `planarity_tolerance` of its size) or not convex, area, centroid or
-/// normal that are not those of the corners (within 1e-10 of the face, and what rounding adds far from the origin), a cell
-/// depth that is not > 0
+/// normal that is not unit, a face that is not flat (within `planarity_tolerance` of its size) or not convex, area,
+/// centroid or normal that are not those of the corners (within 1e-10 of the face, and what rounding adds far from the
+/// origin), a cell depth that is not > 0
 /// (rigid: >= 0), a stiffness that is not > 0, more steps to a sharp edge than are counted.
 template <int Dim>
 void check(const SurfaceView<Dim>& surface, double planarity_tolerance = geometry::planarity_tolerance);

@@ -25,8 +25,8 @@ struct ContactPatch {
     std::vector<Hold<Dim>> holds;      ///< the momentum of rigid motions that these prevent is not the patch's own
 };
 
-/// A system that says which of its points were in contact, and what acts on them now. On several ranks both are calls of all:
-/// the patches are the same everywhere, and each asks for forces on points of its own.
+/// A system that says which of its points were in contact, and what acts on them now. On several ranks both are calls
+/// of all: the patches are the same everywhere, and each asks for forces on points of its own.
 template <class S>
 concept PatchSystem = MomentSystem<S> && requires(S& system, std::span<const std::int32_t> points, std::span<const double> q,
                                                   std::span<Vector<S::dimension>> force) {

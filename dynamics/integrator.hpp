@@ -40,7 +40,8 @@ void check_start(std::size_t size, std::span<const double> q, std::span<const do
 [[noreturn]] void refuse_constraints();
 }  // namespace detail
 
-/// Part that all schemes share: positions q^n, momenta p^{n-1/2} and p^{n+1/2} around them, start-up, changes of dt, energies.
+/// Part that all schemes share: positions q^n, momenta p^{n-1/2} and p^{n+1/2} around them, start-up, changes of dt,
+/// energies.
 ///
 /// A Scheme derives from it, calls `begin` in its constructor, and has
 ///     void start(span p)                  sets p_before_ and p_after_ (and what else it keeps) from p^n at q_, for dt_
@@ -50,8 +51,8 @@ void check_start(std::size_t size, std::span<const double> q, std::span<const do
 ///     takes_constraints                whether it runs a ConstrainedSystem that has constraints
 ///     takes_after_step, takes_node_restart    whether `set_after_step` and `set_node_restart` are offered
 ///     for_one_rank (optional)     where it is made for one rank alone: its name in the message that refuses others
-/// and, if it keeps numbers beside those of this class, `of_scheme()` that returns them and `set_of_scheme(span)`; if it keeps
-/// what follows from the momenta, `momenta_changed()`.
+/// and, if it keeps numbers beside those of this class, `of_scheme()` that returns them and `set_of_scheme(span)`; if
+/// it keeps what follows from the momenta, `momenta_changed()`.
 /// Static polymorphism: no virtual calls. After an exception from `step`, except for a bad dt, the run is over unless the
 /// scheme says more.
 template <class Scheme, System S>
@@ -115,8 +116,8 @@ public:
             state.of_scheme = static_cast<const Scheme&>(*this).of_scheme();
         return state;
     }
-    /// Goes on from there: with a system that is restored, too, the next steps have the same bits. Throws BadInput, and stays
-    /// as it is, for a state of another size or with a value that is not finite.
+    /// Goes on from there: with a system that is restored, too, the next steps have the same bits. Throws BadInput, and
+    /// stays as it is, for a state of another size or with a value that is not finite.
     void restore(IntegratorState state) {
         constexpr bool keeps_more = requires(const Scheme& s) { s.of_scheme(); };
         std::size_t n_more = 0;

@@ -58,7 +58,8 @@ struct LedgerEntry {
     std::int64_t sliding_faces;   ///< the same
     Losses losses;                ///< `dissipated` by kind
 
-    /// Energy that H~ has received since the start: work and jumps of restarts, less dissipation by friction and materials [J].
+    /// Energy that H~ has received since the start: work and jumps of restarts, less dissipation by friction and
+    /// materials [J].
     [[nodiscard]] double received() const { return work + restart_jumps - dissipated; }
 };
 

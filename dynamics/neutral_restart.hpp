@@ -84,8 +84,8 @@ void restart_body(const BodyPoints& body, const NodeView<Dim>& node, RestartRepo
 /// x + dt/4 M^-1 w', with which J~ is sum arm × p. r' is the rigid motion that carries the momentum and the angular momentum
 /// of the body; sigma makes H~ what it was: the vibration pays for e, the motion as a whole does not, whether something
 /// holds the body or not. theta = 1 takes all of e; it is halved until 1/4 <= sigma^2 <= 1.21. A body in which nothing
-/// vibrates is left as it is, and counted; a rigid one is left as it is. One force evaluation per restart; the bits do not depend
-/// on the number of threads and ranks.
+/// vibrates is left as it is, and counted; a rigid one is left as it is. One force evaluation per restart; the bits do
+/// not depend on the number of threads and ranks.
 template <BodySystem S>
 class NeutralRestart {
 public:

@@ -9,9 +9,9 @@
 
 namespace abut::dynamics {
 
-/// Times that a program outside dictates. MEMM keeps its constant step tau, and its nodes: inside a step the path is a straight line that
-/// is known before any force, so that q is there at any time. Without loads the nodes have the same bits whatever times are asked for.
-/// docs/loads.md, Times that are dictated.
+/// Times that a program outside dictates. MEMM keeps its constant step tau, and its nodes: inside a step the path is a
+/// straight line that is known before any force, so that q is there at any time. Without loads the nodes have the same
+/// bits whatever times are asked for. docs/loads.md, Times that are dictated.
 ///
 ///     dynamics::OwnClock clock(memm);
 ///     clock.advance(d, [&](double s) { impulse += s * load; }, [&] { system.set_load(impulse / memm.dt()); impulse = 0; });
@@ -27,10 +27,10 @@ public:
     [[nodiscard]] double since() const { return time_ - node_; }        ///< from the last node [s], >= 0
     [[nodiscard]] double left() const { return node_ + tau_ - time_; }  ///< to the next node [s], > 0
 
-    /// Goes on by d [s], of any length. `piece(s)` is called for each part of d within a step, and tells loads that they act for s [s].
-    /// At each node `node()` is called before the step is taken, whose mean load is known then. Throws BadInput, and changes
-    /// nothing, unless d > 0 and finite; Misuse where the integrator was stepped inside a step of the clock, or its dt was changed there;
-    /// as Memm::step and the two functions.
+    /// Goes on by d [s], of any length. `piece(s)` is called for each part of d within a step, and tells loads that
+    /// they act for s [s]. At each node `node()` is called before the step is taken, whose mean load is known then.
+    /// Throws BadInput, and changes nothing, unless d > 0 and finite; Misuse where the integrator was stepped inside a
+    /// step of the clock, or its dt was changed there; as Memm::step and the two functions.
     template <class Piece, class Node>
     void advance(double d, const Piece& piece, const Node& node) {
         advance(d, piece, node, [this] { memm_.step(); });

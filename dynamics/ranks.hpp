@@ -37,8 +37,8 @@ public:
     [[nodiscard]] virtual int n_ranks() const = 0;  ///< with this one
     /// Numbers of this rank's points among all, increasing (n_owned).
     [[nodiscard]] virtual std::span<const std::int32_t> numbers() const = 0;
-    /// Positions of this rank's points among the entries of the arrays that it fills, its points and copies of others, increasing
-    /// (n_owned).
+    /// Positions of this rank's points among the entries of the arrays that it fills, its points and copies of others,
+    /// increasing (n_owned).
     [[nodiscard]] virtual std::span<const std::int32_t> positions() const = 0;
     [[nodiscard]] virtual std::int32_t n_points() const = 0;  ///< of all ranks
     [[nodiscard]] virtual int dimension() const = 0;          ///< values per point
@@ -52,7 +52,8 @@ public:
     /// Fills what this rank copies of others, or chose of it: values by entry (n_entries, width).
     virtual void fill(std::span<double> values, int width, CopySet copies) const = 0;
     /// Sums of the terms of all ranks by component (width), with the bits that one rank gets which adds all of them up in
-    /// blocks of 1,024 values (base/parallel.hpp). `terms` are those of this rank's points in the range (n, per_point, width).
+    /// blocks of 1,024 values (base/parallel.hpp). `terms` are those of this rank's points in the range (n, per_point,
+    /// width).
     virtual void sum(const Summands& summands, std::span<const double> terms, std::span<double> total) const = 0;
     /// start + the terms of all ranks, one after the other by number. `numbers`: of this rank's terms, each on one rank.
     [[nodiscard]] virtual double fold(double start, std::span<const std::int64_t> numbers,
@@ -70,8 +71,8 @@ public:
     virtual void agree(const std::exception_ptr& error) const = 0;
 };
 
-/// The one rank that has all points. Without their number it serves a system that does not know of ranks: then only `numbers`,
-/// `positions` and `n_points` know none of them.
+/// The one rank that has all points. Without their number it serves a system that does not know of ranks: then only
+/// `numbers`, `positions` and `n_points` know none of them.
 class OneRank final : public Ranks {
 public:
     OneRank() = default;

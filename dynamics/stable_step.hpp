@@ -23,8 +23,9 @@ template <StiffnessProductSystem S>
         return 1.0;
 }
 
-/// The part of 2/omega that a mode of this frequency [rad/s] allows for a step where forces act on the mean of two rates [-]: with
-/// z = `damping_ratio(omega)` of the system, its damping over what is critical, sqrt(1 + z^2) - z; 1 if it has none.
+/// The part of 2/omega that a mode of this frequency [rad/s] allows for a step where forces act on the mean of two
+/// rates [-]: with z = `damping_ratio(omega)` of the system, its damping over what is critical, sqrt(1 + z^2) - z; 1 if
+/// it has none.
 template <StiffnessProductSystem S>
 [[nodiscard]] double damped_part(const S& system, double omega) {
     if constexpr (requires { system.damping_ratio(omega); }) {

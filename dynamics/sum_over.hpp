@@ -11,8 +11,8 @@
 
 namespace abut::dynamics {
 
-/// Sum of term(i) over the values of a system, i being numbered on this rank (n of them, which `summands` choose): `ordered_sum`
-/// over those of all ranks. `Value` is a double or a vector.
+/// Sum of term(i) over the values of a system, i being numbered on this rank (n of them, which `summands` choose):
+/// `ordered_sum` over those of all ranks. `Value` is a double or a vector.
 template <class Value, class Term>
 [[nodiscard]] Value sum_over(const Ranks& ranks, Summands summands, std::ptrdiff_t n, const Value& zero, const Term& term) {
     if (ranks.is_one()) return ordered_sum(n, zero, term);

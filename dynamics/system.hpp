@@ -9,8 +9,8 @@
 
 namespace abut::dynamics {
 
-/// System that an integrator steps: positions q with a mass and a potential. All arrays hold one double per degree of freedom.
-/// `inverse_mass` is a plain array of 1/m, or the factors of a sparse matrix (InverseMass).
+/// System that an integrator steps: positions q with a mass and a potential. All arrays hold one double per degree of
+/// freedom. `inverse_mass` is a plain array of 1/m, or the factors of a sparse matrix (InverseMass).
 template <class S>
 concept System = requires(S& system, std::span<const double> q, std::span<double> force) {
     { system.size() } -> std::convertible_to<std::size_t>;
@@ -38,9 +38,9 @@ concept FollowedSystem = PathMeanSystem<S> &&
 };
 
 /// A system some points of which stay at the distances that they have. What holds them are impulses along the lines between
-/// them: as these lie in the middle of a step they do no work on it and have no moment about its mean positions. Only schemes
-/// that call this may run it where `has_constraints`. On several ranks points are those of this one, and to constrain them is a
-/// call of all.
+/// them: as these lie in the middle of a step they do no work on it and have no moment about its mean positions. Only
+/// schemes that call this may run it where `has_constraints`. On several ranks points are those of this one, and to
+/// constrain them is a call of all.
 template <class S>
 concept ConstrainedSystem = System<S> &&
     requires(S& system, std::int32_t point, std::span<const double> q, std::span<double> p, double dt) {

@@ -20,8 +20,8 @@ struct SchemeSetup {
     double gauge = 0.0;                ///< c of bilbao [J]
 };
 
-/// Calls use(make), where make(system, q, p, dt, local_steps) is an integrator of this scheme; `local_steps` are of memm_async.
-/// This is the one place that knows all schemes. Throws BadInput for one that the system is not made for.
+/// Calls use(make), where make(system, q, p, dt, local_steps) is an integrator of this scheme; `local_steps` are of
+/// memm_async. This is the one place that knows all schemes. Throws BadInput for one that the system is not made for.
 template <System S, class Use>
 void with_scheme(Scheme scheme, const SchemeSetup& setup, const Use& use) {
     using Q = std::vector<double>;

@@ -35,8 +35,8 @@ private:
     std::vector<Node> nodes_;
 };
 
-/// Distance of two surfaces [m] where it is below `limit`, else `limit`: that of their nearest faces, each the convex hull of
-/// its corners. Accuracy and errors as `convex_distance`.
+/// Distance of two surfaces [m] where it is below `limit`, else `limit`: that of their nearest faces, each the convex
+/// hull of its corners. Accuracy and errors as `convex_distance`.
 template <int Dim>
 [[nodiscard]] double distance_below(const FaceTree<Dim>& tree_1, const FaceTree<Dim>& tree_2, double limit);
 

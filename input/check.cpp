@@ -90,8 +90,9 @@ std::string text_of_across(const run::Scene<Dim>& scene, const run::RunResult<Di
     return thinnest ? fmt::format("at most {} in '{}'", across[*thinnest], scene.mesh.body_names[*thinnest]) : "";
 }
 
-/// A body that deforms and rubs, and is not damped, vibrates, and its faces feel less than their limit: docs/friction.md. The damping
-/// of stiffness that leaves 0.9 of the step: sqrt(1 + z^2) - z = 0.9 with z = beta omega/2.
+/// A body that deforms and rubs, and is not damped, vibrates, and its faces feel less than their limit:
+/// docs/friction.md. The damping of stiffness that leaves 0.9 of the step: sqrt(1 + z^2) - z = 0.9 with z = beta
+/// omega/2.
 template <int Dim>
 std::string damping_of_friction(const run::Scene<Dim>& scene, const run::RunResult<Dim>& result) {
     constexpr double part_of_step = 0.9, z = (1.0 - part_of_step * part_of_step) / (2.0 * part_of_step);
@@ -160,8 +161,8 @@ private:
     bool has_begun_ = false;
 };
 
-/// What only a run knows, where nothing else is wrong: one that ends before its first step, under the kinematics of the scene
-/// where a pilot run would choose them.
+/// What only a run knows, where nothing else is wrong: one that ends before its first step, under the kinematics of the
+/// scene where a pilot run would choose them.
 template <int Dim>
 void check_run(const Settings& settings, CheckedScene& checked) {
     const run::Scene<Dim> scene = make_scene<Dim>(settings, checked.faults);

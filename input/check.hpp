@@ -40,8 +40,8 @@ struct CheckedScene {
 };
 
 /// All that can be known before a run: faults of keys and values, of meshes, groups and places, and all that run::simulate
-/// refuses before its first step, which is asked itself. What a body with a fault would say of others is not looked for. Throws
-/// nothing for a scene that is wrong.
+/// refuses before its first step, which is asked itself. What a body with a fault would say of others is not looked
+/// for. Throws nothing for a scene that is wrong.
 [[nodiscard]] CheckedScene check_scene(const std::filesystem::path& path, const Overrides& overrides = {});
 
 /// A line for each figure, with its unit.

@@ -35,8 +35,8 @@ private:
 constexpr int most_nested = 64;
 constexpr std::size_t most_shown = 80;  // of a text in a message [bytes]
 
-/// Looks through a text of TOML for keys and brackets that go deeper than `most_nested`. What is no TOML may count wrongly: the
-/// parser says then what is wrong.
+/// Looks through a text of TOML for keys and brackets that go deeper than `most_nested`. What is no TOML may count
+/// wrongly: the parser says then what is wrong.
 class Nesting {
 public:
     explicit Nesting(std::string_view text) : text_(text) {}

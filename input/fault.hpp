@@ -12,8 +12,8 @@ struct Fault {
     std::string text;   ///< the key with its value, what is allowed, and what to do
 };
 
-/// In the words of a scene (run::in_user_words, run::with_keys), by line and column; then those of a file as a whole, then those
-/// of other sources.
+/// In the words of a scene (run::in_user_words, run::with_keys), by line and column; then those of a file as a whole,
+/// then those of other sources.
 [[nodiscard]] std::vector<Fault> in_order(std::vector<Fault> faults);
 
 /// "bars.toml:12:5: ..." on a line for each.

@@ -117,8 +117,8 @@ Formula::Formula(const std::string& text, Variables variables, std::vector<Named
 
 namespace {
 
-/// The power of one base unit, `i`, in the dimension of a formula; `value` is its value. Scales are powers of 4: of most formulas the
-/// values scale without rounding.
+/// The power of one base unit, `i`, in the dimension of a formula; `value` is its value. Scales are powers of 4: of
+/// most formulas the values scale without rounding.
 int power_of(std::size_t i, double value, const std::string& formula, const std::vector<NamedNumber>& numbers) {
     const auto power_at = [&](int exponent) {
         std::vector<NamedNumber> scaled = numbers;

@@ -25,8 +25,8 @@ struct NamedNumber {
 /// Throws BadInput for a name that no formula could use, such as "t", "pi" or "a-b".
 void check_name_of_number(const std::string& name);
 
-/// A number, or an expression of muParser in t [s] and x, y, z [m], with pi and named numbers. Calls from several threads wait for each
-/// other.
+/// A number, or an expression of muParser in t [s] and x, y, z [m], with pi and named numbers. Calls from several
+/// threads wait for each other.
 class Formula {
 public:
     Formula() = default;
@@ -45,9 +45,9 @@ private:
     std::shared_ptr<Expression> expression_;  // null: `value_`
 };
 
-/// The dimension of a formula that depends on nothing, told from how its value scales when metre, kilogram and second do. Nothing
-/// where that cannot be told: it uses no number, or one without a unit, or it is 0. Angles are numbers in formulas. Throws BadInput
-/// for a value that scales as no unit does, such as a sum of a length and a plain number.
+/// The dimension of a formula that depends on nothing, told from how its value scales when metre, kilogram and second
+/// do. Nothing where that cannot be told: it uses no number, or one without a unit, or it is 0. Angles are numbers in
+/// formulas. Throws BadInput for a value that scales as no unit does, such as a sum of a length and a plain number.
 [[nodiscard]] std::optional<Unit::Powers> dimension_of(const std::string& formula, std::vector<NamedNumber> numbers);
 
 }  // namespace abut::input

@@ -9,7 +9,8 @@
 
 namespace abut::input {
 
-/// A key that a scene gives. It waits for what reads it: `mark_keys_read` lets each part of a run read the keys that it acts by.
+/// A key that a scene gives. It waits for what reads it: `mark_keys_read` lets each part of a run read the keys that it
+/// acts by.
 struct GivenKey {
     std::string path;   ///< "bodies.left.young"
     std::string where;  ///< Fault::where
@@ -43,7 +44,8 @@ private:
     std::map<std::string, std::shared_ptr<GivenKey>> keys_;
 };
 
-/// One for each key that asks for something and that nothing has read. Of a table that nothing reads the table alone is named.
+/// One for each key that asks for something and that nothing has read. Of a table that nothing reads the table alone is
+/// named.
 [[nodiscard]] std::vector<Fault> faults_of_unread(const std::vector<std::shared_ptr<GivenKey>>& keys);
 
 }  // namespace abut::input

@@ -10,9 +10,10 @@ namespace abut::input {
 /// Name of the cells of a body that none of its regions takes.
 inline constexpr const char* rest_of_regions = "rest";
 
-/// The mesh of a body in its place; bodies "<name>", of a file with several "<name>.<body of the file>", with regions "<name>.<region>";
-/// groups "<name>.<group>". What has common vertices in the file, or is cut into regions, is in BuildReport::joined_bodies. Files are looked for from `folder`, unless `given` (null: none) has the mesh. Throws MeshError, also where a table of BodySettings::parts has no
-/// body of the file.
+/// The mesh of a body in its place; bodies "<name>", of a file with several "<name>.<body of the file>", with regions
+/// "<name>.<region>"; groups "<name>.<group>". What has common vertices in the file, or is cut into regions, is in
+/// BuildReport::joined_bodies. Files are looked for from `folder`, unless `given` (null: none) has the mesh. Throws
+/// MeshError, also where a table of BodySettings::parts has no body of the file.
 template <int Dim>
 [[nodiscard]] mesh::Mesh<Dim> make_body(const BodySettings& body, const std::filesystem::path& folder,
                                         const GivenMeshes* given = nullptr);

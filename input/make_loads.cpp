@@ -89,8 +89,9 @@ void add_supports(run::Scene<Dim>& scene, const Settings& settings, const Names<
     }
 }
 
-/// Faces of the boundary that lie on a plane, as near as bodies lie that touch, and look away from its normal. Throws BadInput for one
-/// along the plane that nearly lies on it: it would be held by nothing, and whoever cut the body there means it to be.
+/// Faces of the boundary that lie on a plane, as near as bodies lie that touch, and look away from its normal. Throws
+/// BadInput for one along the plane that nearly lies on it: it would be held by nothing, and whoever cut the body there
+/// means it to be.
 template <int Dim>
 std::vector<std::int32_t> faces_on(const mesh::Mesh<Dim>& mesh, const Vector<Dim>& point, const Vector<Dim>& normal) {
     constexpr double apart = 1e-4;  // of the size of a face

@@ -19,8 +19,8 @@
 namespace abut::input {
 namespace {
 
-/// How far planes without a half width reach, in sizes of what all bodies are in at the start. Within that nothing is lost by
-/// the size of their one face: docs/limits.md.
+/// How far planes without a half width reach, in sizes of what all bodies are in at the start. Within that nothing is
+/// lost by the size of their one face: docs/limits.md.
 constexpr double reach_of_planes = 2000.0;
 
 template <int Dim>
@@ -76,8 +76,8 @@ struct Shell {
     bool closed = true;
 };
 
-/// Throws BadInput for a surface that looks to both sides: faces of one part that disagree, and parts that are turned against
-/// the others and are no cavities of them.
+/// Throws BadInput for a surface that looks to both sides: faces of one part that disagree, and parts that are turned
+/// against the others and are no cavities of them.
 void require_one_side(const mesh::SurfaceMesh& surface, const geometry::SurfaceReport& health, double volume) {
     if (!health.inconsistent_edges.empty())
         throw BadInput(fmt::format(

@@ -139,8 +139,8 @@ void check_apart(const mesh::Mesh<Dim>& mesh, const Settings& settings, mesh::Ig
                     fault.text += fmt::format(" {} more pairs of its bodies overlap.", n);
 }
 
-/// Names of the sides of pairs in a scene, by their number: bodies, obstacles behind them, and then groups of boundary faces. Nothing, and
-/// a fault, for a name that is none.
+/// Names of the sides of pairs in a scene, by their number: bodies, obstacles behind them, and then groups of boundary
+/// faces. Nothing, and a fault, for a name that is none.
 template <int Dim>
 class PairSides {
 public:

@@ -13,7 +13,8 @@ namespace abut::input {
 /// is not there.
 [[nodiscard]] std::string hint_of_key(const std::string& word, const std::vector<std::string>& known);
 
-/// As `hint`, of a name of several words: names that hold all of it, or one of its words, in small or capital letters, come first.
+/// As `hint`, of a name of several words: names that hold all of it, or one of its words, in small or capital letters,
+/// come first.
 [[nodiscard]] std::string hint_of_name(const std::string& name, const std::vector<std::string>& known);
 
 }  // namespace abut::input

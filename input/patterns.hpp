@@ -5,8 +5,8 @@
 
 namespace abut::input {
 
-/// Puts copies in the place of every body that a pattern names, and pairs and loads of all copies in the place of those of that
-/// body. Faults for patterns that cannot be laid out.
+/// Puts copies in the place of every body that a pattern names, and pairs and loads of all copies in the place of those
+/// of that body. Faults for patterns that cannot be laid out.
 void lay_out_patterns(Settings& settings, Reader& reader);
 
 }  // namespace abut::input

@@ -100,7 +100,8 @@ void take_material(BodySettings& body, const Node& name, const std::string& path
                                    path, name.text, hint_of_name(name.text, names)));
 }
 
-/// That of the table, or of a material known by its name, with its hardening and rates, where the law needs one and the scene gives none.
+/// That of the table, or of a material known by its name, with its hardening and rates, where the law needs one and the
+/// scene gives none.
 void take_yield_stress(BodySettings& body, const std::vector<MaterialSettings>& materials) {
     if (body.material.law != solid::MaterialLaw::j2 || body.material.yield_stress > 0.0) return;
     if (const auto& table = body.material.hardening_table; !table.empty()) {
@@ -494,8 +495,8 @@ ReadTables tables_from(Node document, const std::filesystem::path& file, const O
     return read;
 }
 
-/// Faults of keys that nothing reads. A key of the file that has no effect only beside `set` or an option is in order, and so is one
-/// of `set` beside an option: `set` and options of a command line are how a scene is tried.
+/// Faults of keys that nothing reads. A key of the file that has no effect only beside `set` or an option is in order,
+/// and so is one of `set` beside an option: `set` and options of a command line are how a scene is tried.
 std::vector<Fault> unread_keys(const ReadTables& read, const Node& document, const Overrides& overrides) {
     std::vector<Fault> faults = faults_of_unread(read.reader.given);
     if (faults.empty() || (overrides.set.empty() && !overrides.options)) return faults;

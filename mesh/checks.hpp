@@ -13,8 +13,8 @@ namespace abut::mesh {
 [[nodiscard]] std::string vertex_list(std::span<const std::int32_t> vertices, const std::vector<std::int64_t>& labels);
 
 /// The checks of `build_mesh` that need no geometry: sizes of the arrays, shapes of dimension Dim, indices in range, finite
-/// coordinates, no vertex twice in a cell, at least one cell in all and in each body, distinct names of bodies and of groups. Throws
-/// MeshError.
+/// coordinates, no vertex twice in a cell, at least one cell in all and in each body, distinct names of bodies and of
+/// groups. Throws MeshError.
 template <int Dim>
 void check_soup(const CellSoup<Dim>& soup);
 /// Throws MeshError for a vertex in two bodies.

@@ -24,8 +24,8 @@ struct Interpenetration {
 /// Pairs of bodies, in either order, that may overlap.
 using IgnoredPairs = std::span<const std::array<std::int32_t, 2>>;
 
-/// When a search for cells that overlap ends early: so many are enough to tell of bodies that overlap by mistake, and the depth of
-/// two cells takes 0.1 ms. It counts, so that the same mesh gives the same pairs everywhere.
+/// When a search for cells that overlap ends early: so many are enough to tell of bodies that overlap by mistake, and
+/// the depth of two cells takes 0.1 ms. It counts, so that the same mesh gives the same pairs everywhere.
 struct InterpenetrationLimits {
     std::int64_t of_two_bodies = std::numeric_limits<std::int64_t>::max();
     std::int64_t in_all = std::numeric_limits<std::int64_t>::max();
@@ -33,17 +33,19 @@ struct InterpenetrationLimits {
 /// Limits for `check_apart` and for the check of a scene.
 inline constexpr InterpenetrationLimits enough_interpenetrations{.of_two_bodies = 100, .in_all = 5000};
 
-/// All pairs of cells of different bodies that overlap, or the first so many, deepest first (equal depths by cells). Every cell is taken as the
-/// convex hull of its vertices. Cells that touch, or overlap by no more than `touching_tolerance` of the larger one's
-/// diameter, are none. A body that lies wholly inside another is found: its cells overlap those around it.
-/// The depth is that of two cells: bodies that are far inside each other have to be moved further.
+/// All pairs of cells of different bodies that overlap, or the first so many, deepest first (equal depths by cells).
+/// Every cell is taken as the convex hull of its vertices. Cells that touch, or overlap by no more than
+/// `touching_tolerance` of the larger one's diameter, are none. A body that lies wholly inside another is found: its
+/// cells overlap those around it. The depth is that of two cells: bodies that are far inside each other have to be
+/// moved further.
 template <int Dim>
 [[nodiscard]] std::vector<Interpenetration> find_interpenetrations(
     const Mesh<Dim>& mesh, geometry::BroadPhase broad_phase = geometry::BroadPhase::automatic, IgnoredPairs ignored = {},
     InterpenetrationLimits limits = {});
 
 /// Throws MeshError if there are any, naming the bodies, how many pairs of cells, and which are the deepest, of
-/// `enough_interpenetrations`; `remedy` ends the message. To be called before a run: contact takes what overlaps at the start for pressed together.
+/// `enough_interpenetrations`; `remedy` ends the message. To be called before a run: contact takes what overlaps at the
+/// start for pressed together.
 template <int Dim>
 void check_apart(const Mesh<Dim>& mesh, const std::string& remedy = "Move the bodies apart.",
                  geometry::BroadPhase broad_phase = geometry::BroadPhase::automatic, IgnoredPairs ignored = {});

@@ -247,8 +247,8 @@ std::vector<std::int32_t> first_of_joined(const Mesh<Dim>& mesh) {
     return first;
 }
 
-/// The boundary vertices on a grid of `spacing`, each once for every body or for those that are joined, sorted. The grid starts at no round number: what
-/// differs in its last digits comes to one point of it.
+/// The boundary vertices on a grid of `spacing`, each once for every body or for those that are joined, sorted. The
+/// grid starts at no round number: what differs in its last digits comes to one point of it.
 template <int Dim>
 std::vector<Place<Dim>> places_of_boundary_vertices(const Mesh<Dim>& mesh, double spacing) {
     geometry::Box<Dim> box;

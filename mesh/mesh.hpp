@@ -54,8 +54,8 @@ struct BuildReport {
     std::int32_t n_non_planar_faces = 0;  ///< faces beyond MeshOptions::planarity_tolerance (NonPlanarFaces::split only)
     std::int32_t n_cut_cells = 0;         ///< cells of the input that were cut into tetrahedra because of them
     std::int32_t n_turned_cells = 0;      ///< cells given inside out, whose vertices were put in the order of their shape
-    /// Bodies with a face in common in the input, which is one of each here (SharedVertices::separate): pairs, increasing. They touch, and
-    /// are not glued unless somebody bonds them
+    /// Bodies with a face in common in the input, which is one of each here (SharedVertices::separate): pairs,
+    /// increasing. They touch, and are not glued unless somebody bonds them
     std::vector<std::array<std::int32_t, 2>> joined_bodies;
     double worst_planarity = 0.0;  ///< largest distance of a vertex from its face's plane / face size, before cutting [-]
     std::int64_t worst_face_cell = -1;  ///< number in its input of a cell with that face; -1 if every face has Dim vertices
@@ -148,7 +148,8 @@ struct MeshOptions {
 /// face, value, limit and remedy: index out of range, NaN coordinate, zero measure, degenerate
 /// face, face of more than two cells, non-planar face, non-convex face, empty mesh, body without cells, two bodies or two
 /// groups of one name, named face that is no boundary face.
-/// Vertices used by no cell are dropped and cells inside out (of negative measure) are turned: both are counted in the report.
+/// Vertices used by no cell are dropped and cells inside out (of negative measure) are turned: both are counted in the
+/// report.
 template <int Dim>
 [[nodiscard]] Mesh<Dim> build_mesh(CellSoup<Dim> soup, const MeshOptions& options = {});
 

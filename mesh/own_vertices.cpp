@@ -72,7 +72,8 @@ Copies copy_shared_vertices(CellSoup<Dim>& soup, const Owners& owners) {
     return copies;
 }
 
-/// A named face of shared vertices is one of each body that has a face there; any other one is of the body that has all its vertices.
+/// A named face of shared vertices is one of each body that has a face there; any other one is of the body that has all
+/// its vertices.
 template <int Dim>
 void take_named_faces(CellSoup<Dim>& soup, const Owners& owners, const Copies& copies,
                       const std::map<std::vector<std::int32_t>, std::set<std::int32_t>>& shared) {

@@ -13,8 +13,8 @@
 
 namespace abut::ranks {
 
-/// Checks of what a rank gives of its nodes, beside what their owners give. All throw BadInput on this rank alone, naming node
-/// and ranks.
+/// Checks of what a rank gives of its nodes, beside what their owners give. All throw BadInput on this rank alone,
+/// naming node and ranks.
 template <int Dim>
 class CopyChecks {
 public:
@@ -26,7 +26,8 @@ public:
 
     /// An array with one entry per node of this rank.
     void check_size(std::int64_t size) const;
-    /// Copies are where their owners are, except for rounding. A position of an owner that is not finite is left to the search.
+    /// Copies are where their owners are, except for rounding. A position of an owner that is not finite is left to the
+    /// search.
     void check_copies(PointsView<Dim> x, std::span<const Vector<Dim>> of_owners,
                       std::span<const NodeGather::Here> copies) const;
     /// Masses of owned nodes, > 0 where a face is deformable.

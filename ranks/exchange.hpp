@@ -23,8 +23,8 @@ struct ExchangeCounts {
 class Exchange {
 public:
     /// `wanted`: positions in this rank's array of the copies that it wants, `owner` the rank that has each and `number` how
-    /// that rank calls it, its position there. A call of all ranks. Throws BadInput on all where an owner or a number does not
-    /// exist; `n_entries` is the length of this rank's array.
+    /// that rank calls it, its position there. A call of all ranks. Throws BadInput on all where an owner or a number
+    /// does not exist; `n_entries` is the length of this rank's array.
     Exchange(const Communicator& communicator, std::size_t n_entries, std::span<const std::int32_t> wanted,
              std::span<const int> owner, std::span<const std::int32_t> number);
     ~Exchange();

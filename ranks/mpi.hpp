@@ -28,8 +28,8 @@ struct Communicator::Impl {
     Impl& operator=(const Impl&) = delete;
 };
 
-/// Throws Error with MPI's own words where a call of MPI has failed. MPI stops the whole program instead, unless the host has
-/// set another error handler.
+/// Throws Error with MPI's own words where a call of MPI has failed. MPI stops the whole program instead, unless the
+/// host has set another error handler.
 void require(int result, const char* call);
 
 [[nodiscard]] inline MPI_Comm handle(const Communicator& communicator) { return communicator.impl().comm; }

@@ -12,8 +12,9 @@ template <int Dim>
 struct NodalPart {
     /// The nodes of this rank at rest (n_nodes) [m], whether they belong to a face or not
     PointsView<Dim> rest;
-    /// (n_nodes) their numbers among the nodes of all ranks, >= 0, in any order, each once. A node at the border of parts has
-    /// the same number and the same position at rest on every rank that has it, also where none of its faces is there
+    /// (n_nodes) their numbers among the nodes of all ranks, >= 0, in any order, each once. A node at the border of
+    /// parts has the same number and the same position at rest on every rank that has it, also where none of its faces
+    /// is there
     std::span<const std::int32_t> node_number;
     /// The faces that this rank gives, corners being its own nodes (indices in `rest`); none is allowed. Bodies are numbered
     /// as on all ranks, and `stiffness` is the same on all. Each face is given by one rank, the faces of an obstacle, too

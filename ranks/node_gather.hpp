@@ -13,8 +13,8 @@
 
 namespace abut::ranks {
 
-/// Brings what the owners of some nodes of a shared surface have to all ranks. Who sends what is known to all beforehand, and
-/// arrays are kept from call to call.
+/// Brings what the owners of some nodes of a shared surface have to all ranks. Who sends what is known to all
+/// beforehand, and arrays are kept from call to call.
 class NodeGather {
 public:
     /// A node of the surface that this rank has, too.

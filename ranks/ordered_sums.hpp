@@ -11,8 +11,9 @@
 
 namespace abut::ranks {
 
-/// Sums over the points of all ranks in the order of `ordered_sum` (base/parallel.hpp): each block of 1,024 values is added up
-/// on one rank, blocks shared out evenly in their order, and rank 0 adds up the blocks. Every term is sent once.
+/// Sums over the points of all ranks in the order of `ordered_sum` (base/parallel.hpp): each block of 1,024 values is
+/// added up on one rank, blocks shared out evenly in their order, and rank 0 adds up the blocks. Every term is sent
+/// once.
 class OrderedSums {
 public:
     /// `numbers`: of this rank's points among `n_points`, increasing; each is on one rank. All arguments must outlive it.

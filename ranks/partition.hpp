@@ -16,9 +16,9 @@ template <int Dim>
 [[nodiscard]] std::vector<int> partition(const Communicator& communicator, std::span<const Vector<Dim>> points,
                                          std::span<const double> weights = {});
 
-/// The points of a part as PointRanks takes them: their numbers among `n_points`, increasing, and their owners (n each), of cells
-/// as mesh::MeshPart has them, or as solid::points_of gives them. The points of a rank are those that it owns, `dimension`
-/// values each.
+/// The points of a part as PointRanks takes them: their numbers among `n_points`, increasing, and their owners (n
+/// each), of cells as mesh::MeshPart has them, or as solid::points_of gives them. The points of a rank are those that
+/// it owns, `dimension` values each.
 [[nodiscard]] SharedPoints shared_points(const Communicator& communicator, int dimension, std::int32_t n_points,
                                          std::span<const std::int32_t> number, std::span<const int> owner);
 

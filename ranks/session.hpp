@@ -13,7 +13,8 @@ namespace abut::ranks {
 /// MPICH and others that follow PMI, Slurm's srun).
 [[nodiscard]] bool is_launched();
 
-/// MPI from here to the end of the scope, for programs of ours; a host has its own, and needs none of this. One in a process.
+/// MPI from here to the end of the scope, for programs of ours; a host has its own, and needs none of this. One in a
+/// process.
 class Session {
 public:
     Session();
@@ -40,8 +41,8 @@ private:
 [[nodiscard]] int most_ranks_here();
 
 /// Runs that command in place of this process: does not return. The process ends with its exit code, or with 130, 143 or 129
-/// where SIGINT, SIGTERM or SIGHUP has ended it; the command is sent these, and ends where this process ends. To be called before
-/// the program has threads. Throws BadInput where the command cannot be started.
+/// where SIGINT, SIGTERM or SIGHUP has ended it; the command is sent these, and ends where this process ends. To be
+/// called before the program has threads. Throws BadInput where the command cannot be started.
 [[noreturn]] void start_on(int n_ranks);
 
 }  // namespace abut::ranks

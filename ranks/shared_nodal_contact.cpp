@@ -204,8 +204,8 @@ private:
         }));
     }
 
-    /// Calls body(), which makes a list from x_0_ and x_1_, the positions that all ranks have been brought. Where it fails on
-    /// one rank, all go back to where they were before, so that they stay the same.
+    /// Calls body(), which makes a list from x_0_ and x_1_, the positions that all ranks have been brought. Where it
+    /// fails on one rank, all go back to where they were before, so that they stay the same.
     template <class Body>
     void search(const Body& body, PointsView<Dim> x_0, PointsView<Dim> x_1) {
         const std::vector<std::byte> before = contact_.state();

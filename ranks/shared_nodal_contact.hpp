@@ -14,8 +14,9 @@
 namespace abut::ranks {
 
 /// contact::NodalContact for a host whose nodes and faces are shared out to several ranks: each gives its own, and gets the
-/// forces on its own. With face numbers (NodalPart::face_number) all bits are those of contact::NodalContact on one rank that
-/// has the faces in the order of their numbers, for any number of ranks. docs/ranks.md, Nodes of a foreign code.
+/// forces on its own. With face numbers (NodalPart::face_number) all bits are those of contact::NodalContact on one
+/// rank that has the faces in the order of their numbers, for any number of ranks. docs/ranks.md, Nodes of a foreign
+/// code.
 ///
 /// Every rank has the whole surface and does all pairs; what is sent in a step are positions, docs/ranks.md says how many.
 ///
@@ -34,11 +35,11 @@ public:
     SharedNodalContact(SharedNodalContact&&) noexcept;
     SharedNodalContact& operator=(SharedNodalContact&&) noexcept;
 
-    /// Contact along one step that takes `dt` [s], the same on all ranks, and in which the nodes of this rank move from x_0 to
-    /// x_1 (n_nodes) [m]. What comes back is the same on all ranks, except for `nodes`, `gradient` and `least_force_size`, which
-    /// are of this rank's nodes (indices as in NodalPart::rest): `add_force_to` adds to the forces of this rank. Faces of `pairs`
-    /// are face numbers. Throws as contact::NodalContact::step, and BadInput where copies of a node are farther apart than
-    /// rounding explains, or ranks give different `dt`.
+    /// Contact along one step that takes `dt` [s], the same on all ranks, and in which the nodes of this rank move from
+    /// x_0 to x_1 (n_nodes) [m]. What comes back is the same on all ranks, except for `nodes`, `gradient` and
+    /// `least_force_size`, which are of this rank's nodes (indices as in NodalPart::rest): `add_force_to` adds to the
+    /// forces of this rank. Faces of `pairs` are face numbers. Throws as contact::NodalContact::step, and BadInput
+    /// where copies of a node are farther apart than rounding explains, or ranks give different `dt`.
     const contact::NodalStep<Dim>& step(double dt, PointsView<Dim> x_0, PointsView<Dim> x_1,
                                         contact::TakenForce take = contact::TakenForce::mean);
 
@@ -46,8 +47,8 @@ public:
     const contact::NodalStep<Dim>& evaluate(PointsView<Dim> x);
 
     /// As contact::NodalContact::stable_step. `mass`: of each node of this rank (n_nodes) [kg], the whole of it on each rank
-    /// that has a copy. Of `omega_free` the largest of all ranks counts. `node` is a node number. Throws BadInput, too, where
-    /// copies have different masses.
+    /// that has a copy. Of `omega_free` the largest of all ranks counts. `node` is a node number. Throws BadInput, too,
+    /// where copies have different masses.
     [[nodiscard]] contact::NodalStableStep stable_step(std::span<const double> mass, double omega_free) const;
 
     /// Goes on from what `state` gave, on any number of ranks whose faces have the same numbers: all ranks give the same
@@ -63,8 +64,8 @@ public:
     [[nodiscard]] const contact::ContactReport& report() const;
     [[nodiscard]] const contact::CandidateReport& search_report() const;
     [[nodiscard]] double skin() const;  ///< of the current list [m]
-    /// See contact::NodalSurface::inward_bodies, contact::NodalContact::blind_corners and ::unseen_edges: of the surface of all
-    /// ranks.
+    /// See contact::NodalSurface::inward_bodies, contact::NodalContact::blind_corners and ::unseen_edges: of the
+    /// surface of all ranks.
     [[nodiscard]] std::vector<std::int32_t> inward_bodies() const;
     [[nodiscard]] std::vector<contact::BlindCorner<Dim>> blind_corners() const;
     [[nodiscard]] std::optional<contact::EdgePair<Dim>> unseen_edges() const;

@@ -11,8 +11,8 @@ namespace abut::run {
 /// Energy and momentum that a run had so far, by its records: scales for its errors.
 template <int Dim>
 struct Accounts {
-    /// The largest of the kinetic energy at the start, |work|, H~0 + work, what of that is not in V, as in a fall, and -V [J].
-    /// Energy that came from nowhere, H - H~, is no part of it.
+    /// The largest of the kinetic energy at the start, |work|, H~0 + work, what of that is not in V, as in a fall, and
+    /// -V [J]. Energy that came from nowhere, H - H~, is no part of it.
     double energy_in_play = 0.0;
     double speed = 0.0;  ///< largest |p_i| / m_i [m/s]
     /// max |P - P0 - I| [kg m/s], I being what gravity and contact with obstacles have given

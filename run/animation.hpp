@@ -17,10 +17,11 @@ inline constexpr const char* animation_name = "animation.html";
 /// Size that an animation is kept within [bytes].
 inline constexpr double animation_limit = 50e6;
 
-/// A run as a film in one HTML file that needs no other and no network: the bodies as SnapshotMaker has them and the obstacles,
-/// in `n_frames` frames equally far apart, first and last step included; fewer where as many would not fit in `limit`, two at
-/// least, which the page says. A run that goes on beyond the end of another one adds more, as far apart, whatever their size.
-/// Positions are rounded to 1/65535 of the box that holds all bodies of a frame, values to 1/65534 of the largest one.
+/// A run as a film in one HTML file that needs no other and no network: the bodies as SnapshotMaker has them and the
+/// obstacles, in `n_frames` frames equally far apart, first and last step included; fewer where as many would not fit
+/// in `limit`, two at least, which the page says. A run that goes on beyond the end of another one adds more, as far
+/// apart, whatever their size. Positions are rounded to 1/65535 of the box that holds all bodies of a frame, values to
+/// 1/65534 of the largest one.
 ///
 /// It is written as it goes, and is called `path`.partial until `finish`; renamed to .html that can be looked at, too. On
 /// several ranks the whole is brought together for each frame.

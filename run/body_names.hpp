@@ -16,7 +16,8 @@ template <int Dim>
 template <int Dim>
 [[nodiscard]] std::string quoted_name(const Scene<Dim>& scene, std::int32_t body);
 
-/// A side that a law of friction acts on (solid::BodyFriction): a body or an obstacle as above, or a group of faces, "'left.xmin'".
+/// A side that a law of friction acts on (solid::BodyFriction): a body or an obstacle as above, or a group of faces,
+/// "'left.xmin'".
 template <int Dim>
 [[nodiscard]] std::string quoted_side(const Scene<Dim>& scene, std::int32_t side);
 

@@ -6,8 +6,8 @@
 
 namespace abut::run {
 
-/// How much of some bonds is bonded, in words: "1 of 0.6 m, 0.6 of the smaller side, largest gap 0 m". Of several it has the least shares, the
-/// area of all and the largest gap. Empty without bonds.
+/// How much of some bonds is bonded, in words: "1 of 0.6 m, 0.6 of the smaller side, largest gap 0 m". Of several it
+/// has the least shares, the area of all and the largest gap. Empty without bonds.
 template <int Dim>
 [[nodiscard]] std::string bonded_text(std::span<const solid::BondCoverage> bonds);
 

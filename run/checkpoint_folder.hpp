@@ -15,8 +15,8 @@ public:
     /// Nothing is made before the first checkpoint comes.
     explicit CheckpointFolder(std::filesystem::path directory) : directory_(std::move(directory)) {}
 
-    /// Later ones go, which a run that goes on from an earlier one has refused. Throws BadInput if it cannot be written: those
-    /// before it stay.
+    /// Later ones go, which a run that goes on from an earlier one has refused. Throws BadInput if it cannot be
+    /// written: those before it stay.
     void add(const Checkpoint& checkpoint) const;
     /// A file that whoever goes on needs, beside them: "scene.toml".
     void add_text(const std::string& name, const std::string& text) const;

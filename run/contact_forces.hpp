@@ -23,13 +23,14 @@ struct ForceRow {
     double normal_force = 0.0;                   ///< the sum over all faces of what presses them together, the mean [N]
     Vector<Dim> friction = Vector<Dim>::Zero();  ///< part of `force` that is friction [N]
     double rubbing_force = 0.0;                  ///< part of `normal_force` where there is friction [N]
-    /// Velocity of body 2 past body 1 [m/s]: the mean over faces with friction, weighted with the force that presses on them.
+    /// Velocity of body 2 past body 1 [m/s]: the mean over faces with friction, weighted with the force that presses on
+    /// them.
     Vector<Dim> slip_velocity = Vector<Dim>::Zero();
 };
 
-/// Forces of contact of a run: a row for each pair that touched since the last rows, every `Outputs::interval` steps and at the
-/// end. Force times interval, summed over all rows, is the change of momentum that contact made, to round-off; not so of Bilbao's
-/// scheme, whose steps take more than the force.
+/// Forces of contact of a run: a row for each pair that touched since the last rows, every `Outputs::interval` steps
+/// and at the end. Force times interval, summed over all rows, is the change of momentum that contact made, to
+/// round-off; not so of Bilbao's scheme, whose steps take more than the force.
 template <int Dim>
 class ContactForces {
 public:

@@ -12,10 +12,10 @@
 
 namespace abut::run {
 
-/// True if a run has not diverged, after its last record: energies are finite, H~ less the work from outside is at most 1,000
-/// times `scale` [J], and H - H~ of the records before is at most `scale` itself, whatever H~ says. That of the last record
-/// is left out: where all was at rest until now, what a force is about to do is in H - H~ before it is in any other energy.
-/// `excess_before`: Ledger::energy_excess without the last record [J].
+/// True if a run has not diverged, after its last record: energies are finite, H~ less the work from outside is at most
+/// 1,000 times `scale` [J], and H - H~ of the records before is at most `scale` itself, whatever H~ says. That of the
+/// last record is left out: where all was at rest until now, what a force is about to do is in H - H~ before it is in
+/// any other energy. `excess_before`: Ledger::energy_excess without the last record [J].
 template <int Dim>
 [[nodiscard]] bool is_alive(const dynamics::LedgerEntry<Dim>& entry, double scale, double excess_before);
 

@@ -29,8 +29,8 @@ bool take(std::string_view& text, std::string_view start) {
     return true;
 }
 
-/// Drops the name of a series, and of those beside it, and a dot in front: what a file is called while it is written. Says whether it is
-/// that of the cells.
+/// Drops the name of a series, and of those beside it, and a dot in front: what a file is called while it is written.
+/// Says whether it is that of the cells.
 bool take_series(std::string_view& name, std::string_view series, bool& is_of_cells) {
     take(name, ".");
     if (!take(name, series)) return false;

@@ -10,9 +10,10 @@
 
 namespace abut::run {
 
-/// Forces of contact (ContactForces) as CSV. Columns: step, time [s], body_1, body_2 (names), the mean on body 2 as "force_on_2_x" and
-/// so on [N], "normal_force" [N], what of the first is friction, "friction_on_2_x", the part of the second where there is friction,
-/// "rubbing_force" [N], and the velocity of body 2 past body 1 there, "slip_velocity_of_2_x" [m/s].
+/// Forces of contact (ContactForces) as CSV. Columns: step, time [s], body_1, body_2 (names), the mean on body 2 as
+/// "force_on_2_x" and so on [N], "normal_force" [N], what of the first is friction, "friction_on_2_x", the part of the
+/// second where there is friction, "rubbing_force" [N], and the velocity of body 2 past body 1 there,
+/// "slip_velocity_of_2_x" [m/s].
 ///
 /// It is written as it goes, and is called `path`.partial until `finish`.
 template <int Dim>

@@ -91,8 +91,8 @@ private:
         return around;
     }
 
-    /// Means over all cells around a vertex, one after the other by number, of where each carries it: by its displacement and,
-    /// where a body turns, by its displacement gradient. Other ranks bring those of their cells.
+    /// Means over all cells around a vertex, one after the other by number, of where each carries it: by its
+    /// displacement and, where a body turns, by its displacement gradient. Other ranks bring those of their cells.
     [[nodiscard]] std::vector<Vector<Dim>> vertex_means(const std::vector<int>& around) const {
         std::vector<Vector<Dim>> of_cells(mesh_.cell_measure.size(), Vector<Dim>::Zero());
         std::vector<Matrix<Dim>> gradients(any_turns_ ? of_cells.size() : 0, Matrix<Dim>::Zero());

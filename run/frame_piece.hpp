@@ -9,8 +9,8 @@
 
 namespace abut::run {
 
-/// The gap of a face as frames show it [m]: where it is in contact, so that it is not above 0; NaN elsewhere. Gaps of open faces
-/// are known of pairs that are listed alone, and lists depend on ranks and restarts, which results do not.
+/// The gap of a face as frames show it [m]: where it is in contact, so that it is not above 0; NaN elsewhere. Gaps of
+/// open faces are known of pairs that are listed alone, and lists depend on ranks and restarts, which results do not.
 [[nodiscard]] inline double gap_in_contact(double gap) {
     return gap <= 0.0 ? gap : std::numeric_limits<double>::quiet_NaN();
 }
@@ -42,8 +42,8 @@ struct FramePiece {
     std::vector<double> bond;  ///< left_of_bonds (n_faces); empty without bonds
 };
 
-/// Remaining part of the pull of the bonds, per boundary face of the solid's mesh, by area [-]; NaN where none is, and empty without
-/// bonds.
+/// Remaining part of the pull of the bonds, per boundary face of the solid's mesh, by area [-]; NaN where none is, and
+/// empty without bonds.
 template <int Dim>
 [[nodiscard]] std::vector<double> left_of_bonds(const solid::Solid<Dim>& solid);
 

@@ -28,14 +28,15 @@ class XdmfSeries;
 /// obstacle), normal and force on the second body [N], normal force [N], gap [m] and area [m^(Dim-1)]; and, where there are
 /// obstacles, SERIES_obstacles with their faces where they are. `n_frames` equally
 /// far apart, first and last step included (a run that goes on beyond the end of another one writes more, as far apart);
-/// Outputs::fields may leave fields out. `series` is what the files are called by, see mesh::VtuSeries, which also says what they
-/// throw if they cannot be written.
+/// Outputs::fields may leave fields out. `series` is what the files are called by, see mesh::VtuSeries, which also says
+/// what they throw if they cannot be written.
 ///
 /// With FrameFormat::xdmf cells and boundary faces are in one file (SERIES.h5, beside SERIES.xmf and SERIES_surface.xmf) in
 /// place of the .vtu and .vtp files.
 ///
-/// In pieces the same, but each rank writes its own cells and their boundary faces (mesh::PieceSeries; on ranks other than 0 by
-/// PieceFiles). Pairs are not in pieces: rank 0 writes them, and brings the whole together for them unless they are left out.
+/// In pieces the same, but each rank writes its own cells and their boundary faces (mesh::PieceSeries; on ranks other
+/// than 0 by PieceFiles). Pairs are not in pieces: rank 0 writes them, and brings the whole together for them unless
+/// they are left out.
 template <int Dim>
 class Frames : public Observer<Dim> {
 public:

@@ -12,8 +12,8 @@
 namespace abut::run {
 
 /// Measures by parts of a run how fully bodies that slide past each other rub: of the bodies as a whole, since single faces
-/// that vibrate stick and slide in turn, each by its law, while the body glides on less than mu N. Parts in which bodies hardly
-/// move past each other, or do so without a loss, as where they stick and swing, do not count.
+/// that vibrate stick and slide in turn, each by its law, while the body glides on less than mu N. Parts in which
+/// bodies hardly move past each other, or do so without a loss, as where they stick and swing, do not count.
 template <int Dim>
 class FrictionWatch {
 public:

@@ -10,14 +10,15 @@
 namespace abut::run {
 
 /// Looks on while a scene is run; by itself nothing. An exception that it throws ends the run; a run that it asks to stop
-/// ends well, earlier. Where several ranks run a scene, that of rank 0 is called, and sees all of it; it is asked once per step
-/// what it wants, `asks_to_stop` and all that begins with `wants_`. Of the others `piece` alone is called.
+/// ends well, earlier. Where several ranks run a scene, that of rank 0 is called, and sees all of it; it is asked once
+/// per step what it wants, `asks_to_stop` and all that begins with `wants_`. Of the others `piece` alone is called.
 template <int Dim>
 class Observer {
 public:
     virtual ~Observer() = default;
-    /// While bodies are brought to rest (RunOptions::settle), before `begin`: steps so far and the largest speed of a body's points
-    /// [m/s], now and then. `asks_to_stop` is asked with it: true ends the run by an error, as there is nothing to go on from.
+    /// While bodies are brought to rest (RunOptions::settle), before `begin`: steps so far and the largest speed of a
+    /// body's points [m/s], now and then. `asks_to_stop` is asked with it: true ends the run by an error, as there is
+    /// nothing to go on from.
     virtual void settling(std::int64_t /*step*/, double /*speed*/) {}
     /// All is set up, no step is taken.
     virtual void begin(const Scene<Dim>&, const RunResult<Dim>&) {}
@@ -32,14 +33,14 @@ public:
     virtual void progress(std::int64_t /*step*/, double /*time*/) {}  ///< at the start and after each step, before `look`
     /// Asked at the start and after each step but the last: true makes it the last one, which is recorded in any case.
     [[nodiscard]] virtual bool asks_to_stop() const { return false; }
-    /// A step could not be ended, or the run has diverged: nothing follows but the error, whatever is thrown here. The solid may
-    /// be evaluated.
+    /// A step could not be ended, or the run has diverged: nothing follows but the error, whatever is thrown here. The
+    /// solid may be evaluated.
     virtual void fail(const Failure&, solid::Solid<Dim>&) {}
 
     // Frames in pieces: each rank looks at its own cells, and nothing is brought together
 
-    /// The number of the frame of which each rank is to have its piece at the start (0) or after this step; -1: of none. Asked
-    /// as `wants_look`, of the observer of rank 0 alone.
+    /// The number of the frame of which each rank is to have its piece at the start (0) or after this step; -1: of
+    /// none. Asked as `wants_look`, of the observer of rank 0 alone.
     [[nodiscard]] virtual std::int64_t wants_piece(std::int64_t /*step*/) const { return -1; }
     virtual void piece(const FramePiece<Dim>&) {}  ///< of this rank, on each; must not call what all ranks call together
     virtual void all_pieces(const FramePiece<Dim>&) {}  ///< on rank 0, with its own, once `piece` has ended on all of them
@@ -51,8 +52,8 @@ public:
     virtual void keep(const Checkpoint&) {}  ///< a checkpoint, wherever one is wanted
     /// Writes all that `resume` needs, for a checkpoint.
     virtual void save(StateWriter&) {}
-    /// In place of `begin`, where a run goes on after a checkpoint: `result` has the entries of the ledger until then, `state`
-    /// holds what `save` has put there.
+    /// In place of `begin`, where a run goes on after a checkpoint: `result` has the entries of the ledger until then,
+    /// `state` holds what `save` has put there.
     virtual void resume(const Scene<Dim>& scene, const RunResult<Dim>& result, StateReader&) { begin(scene, result); }
 };
 

@@ -27,8 +27,8 @@ inline constexpr std::array<Word<bool>, 2> filter_words{{{"none", false}, {"neut
 /// Names and values for a summary, as OptionTraits::named says. `scheme`: that of the owner.
 template <class Owner>
 [[nodiscard]] NamedValues named_values(const OptionList<Owner>& options, const Owner& owner, const std::string& scheme);
-/// Values of the options of a run; of `dt` and `cfl` the one that decided. The end of the run, the skin and the threads are in
-/// RunResult.
+/// Values of the options of a run; of `dt` and `cfl` the one that decided. The end of the run, the skin and the threads
+/// are in RunResult.
 [[nodiscard]] NamedValues named_values(const RunOptions& options);
 /// The options on which bodies at rest depend as well: "weighting", "area", "free_faces", "corners".
 [[nodiscard]] NamedValues model_values(const RunOptions& options);

@@ -19,7 +19,8 @@ namespace abut::run {
 inline constexpr double not_given = std::numeric_limits<double>::quiet_NaN();
 inline constexpr int restart_not_given = std::numeric_limits<int>::min();
 
-/// A solid with contact runs under those of integrator_words (run/option_table.hpp); `simulate` refuses others. docs/integrators.md says which to choose.
+/// A solid with contact runs under those of integrator_words (run/option_table.hpp); `simulate` refuses others.
+/// docs/integrators.md says which to choose.
 using SolidIntegrator = dynamics::Scheme;
 
 /// How bodies may move (solid::Kinematics): one choice for all of them, that of the scene, or `automatic`: for each body the
@@ -54,8 +55,9 @@ struct RunOptions {
     int contact_levels = 0;    ///< of memm_async: levels that cells in contact are finer than all others
     double gauge = not_given;  ///< c of the Bilbao scheme [J]; not given: the energy at the start
     bool filter = false;       ///< energy-neutral filter of the parasitic mode, near the contact
-    /// Steps between neutral restarts, which clear that mode everywhere; 0: none. Not given, with memm: 10, and the filter whatever
-    /// `filter` is, where there is friction, which is lost without; whoever gives `restart` chooses both; 50 where a body is finite, whose forces feed the mode; else none
+    /// Steps between neutral restarts, which clear that mode everywhere; 0: none. Not given, with memm: 10, and the
+    /// filter whatever `filter` is, where there is friction, which is lost without; whoever gives `restart` chooses
+    /// both; 50 where a body is finite, whose forces feed the mode; else none
     int restart = restart_not_given;
     int threads = 0;    ///< at most; 0: all. The results do not depend on it
     int ranks = 0;      ///< that the programs start; 0: none but those of mpirun. The results do not depend on it
@@ -80,8 +82,8 @@ using dynamics::name_of;  ///< "memm"
 /// Kinematics of all bodies; nothing where the scene or a pilot run decides.
 [[nodiscard]] std::optional<solid::Kinematics> kinematics_of_all(BodyKinematics kinematics);
 
-/// The steps between two records of a run of so many steps, where none are given: so many that there are about 2,000 records,
-/// in 3D at least 10. It shares no factor with `restart`, so that not all records come right after a restart.
+/// The steps between two records of a run of so many steps, where none are given: so many that there are about 2,000
+/// records, in 3D at least 10. It shares no factor with `restart`, so that not all records come right after a restart.
 template <int Dim>
 [[nodiscard]] int records_interval(std::int64_t steps, int restart);
 
@@ -97,8 +99,8 @@ template <int Dim>
 [[nodiscard]] double choose_step(const RunOptions& options, double stable_dt);
 
 /// Throws BadInput if options do not go together: a filter, restarts, levels or a gauge for a scheme that has none; and for
-/// a number of steps, a bound or a fade that there cannot be. Choices that the law of contact does not read are refused where a
-/// Solid is made: the bodies decide which law acts.
+/// a number of steps, a bound or a fade that there cannot be. Choices that the law of contact does not read are refused
+/// where a Solid is made: the bodies decide which law acts.
 void check(const RunOptions& options);
 
 }  // namespace abut::run

@@ -30,7 +30,8 @@ Matrix<3> axes_of(std::span<const Position> corners) {
     return axes;
 }
 
-/// The end of a spring by the corners of the nearest cell of its body, weighted so that it moves with them where they move affinely.
+/// The end of a spring by the corners of the nearest cell of its body, weighted so that it moves with them where they
+/// move affinely.
 template <int Dim>
 PictureMarks::SpringEnd end_of(const mesh::Mesh<Dim>& mesh, const solid::Anchor<Dim>& anchor,
                                const std::function<std::int32_t(std::int32_t)>& number) {

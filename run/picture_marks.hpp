@@ -11,8 +11,8 @@
 
 namespace abut::run {
 
-/// Marks in pictures of a scene beside its bodies: loads, springs and names of obstacles. Corners and points of bodies are numbers
-/// of positions of a Snapshot.
+/// Marks in pictures of a scene beside its bodies: loads, springs and names of obstacles. Corners and points of bodies
+/// are numbers of positions of a Snapshot.
 struct PictureMarks {
     using Position = std::array<double, 3>;  ///< in 2D the third is 0 [m]
 
@@ -41,7 +41,8 @@ struct PictureMarks {
     std::vector<std::int32_t> obstacle;  ///< of each face of Snapshot::obstacles
 };
 
-/// At most twelve loaded faces per condition, and 48 in all. `number` gives the number of the position of a vertex of the mesh.
+/// At most twelve loaded faces per condition, and 48 in all. `number` gives the number of the position of a vertex of
+/// the mesh.
 template <int Dim>
 [[nodiscard]] PictureMarks marks_of(const Scene<Dim>& scene, const std::function<std::int32_t(std::int32_t)>& number);
 

@@ -11,7 +11,8 @@ namespace abut::run {
 struct PilotBody {
     solid::Kinematics picked;
     double rotation;  ///< at most, from its position at rest [rad]
-    /// Elastic energy that it takes at most, over the largest kinetic energy of the scene [-]; an estimate: docs/kinematics.md
+    /// Elastic energy that it takes at most, over the largest kinetic energy of the scene [-]; an estimate:
+    /// docs/kinematics.md
     double strain_share;
 };
 

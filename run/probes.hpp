@@ -11,9 +11,9 @@
 
 namespace abut::run {
 
-/// The probes of a scene while it is run. A probe at a place takes the cell that holds it: the displacement is that of the place
-/// itself, velocity and stress are those of the cell. That of a body takes the means over its volume; with `Probe::contact` also
-/// the forces of contact on it, the mean since the look before, and its slip.
+/// The probes of a scene while it is run. A probe at a place takes the cell that holds it: the displacement is that of
+/// the place itself, velocity and stress are those of the cell. That of a body takes the means over its volume; with
+/// `Probe::contact` also the forces of contact on it, the mean since the look before, and its slip.
 template <int Dim>
 class Probes {
 public:
@@ -21,14 +21,14 @@ public:
     /// Throws BadInput for a body that does not exist, and for a place that is beside its body, with the distance.
     Probes(const Scene<Dim>& scene, const RunResult<Dim>& result);
 
-    /// "displacement_x" [m], "velocity_x" [m/s], "stress_xx" [Pa] and so on, "von_mises" [Pa]; in 2D stress_zz is that of plane
-    /// strain. With `contact` also "contact_normal_x" and "friction_x" [N], which together are the force on the body, and
-    /// "slip_velocity_x" [m/s], its velocity past what it touches with friction, 0 where nothing presses.
+    /// "displacement_x" [m], "velocity_x" [m/s], "stress_xx" [Pa] and so on, "von_mises" [Pa]; in 2D stress_zz is that
+    /// of plane strain. With `contact` also "contact_normal_x" and "friction_x" [N], which together are the force on
+    /// the body, and "slip_velocity_x" [m/s], its velocity past what it touches with friction, 0 where nothing presses.
     [[nodiscard]] static std::vector<std::string> columns(const Probe<Dim>& probe);
     /// At the start, every `Outputs::interval` steps, and at the end.
     [[nodiscard]] bool wants_look(std::int64_t step) const;
-    /// The columns of each probe; evaluates the solid. Called at each look, the start included: forces of contact are those since
-    /// the last one.
+    /// The columns of each probe; evaluates the solid. Called at each look, the start included: forces of contact are
+    /// those since the last one.
     [[nodiscard]] std::vector<std::vector<double>> values(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid);
     void save(StateWriter& state) const { forces_.save(state); }
     void restore(StateReader& state) { forces_.restore(state); }

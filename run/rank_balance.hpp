@@ -19,8 +19,8 @@ public:
     [[nodiscard]] bool is_on() const { return interval_ > 0; }
     [[nodiscard]] bool is_due(std::int64_t step) const { return is_on() && step % interval_ == 0; }
 
-    /// `seconds`: of this rank, since the last call. Returns weights of all points, by number; none where they stay where they
-    /// are. A call of all ranks.
+    /// `seconds`: of this rank, since the last call. Returns weights of all points, by number; none where they stay
+    /// where they are. A call of all ranks.
     [[nodiscard]] std::vector<double> weights(const dynamics::Ranks& ranks, double seconds);
     /// Cells have been shared out again after this step: `before` are the numbers that this rank had. A call of all ranks.
     void shared_out(std::int64_t step, std::span<const std::int32_t> before, const dynamics::Ranks& ranks, double seconds);

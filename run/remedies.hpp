@@ -7,8 +7,8 @@
 
 namespace abut::run {
 
-/// "a lower --cfl, --filter neutral or --restart 50": choices that take the alternating mode out of a run, without those that act
-/// in it already.
+/// "a lower --cfl, --filter neutral or --restart 50": choices that take the alternating mode out of a run, without
+/// those that act in it already.
 [[nodiscard]] inline std::string calming_choices(const RunOptions& options) {
     std::vector<std::string> choices{"a lower --cfl"};
     if (!options.filter) choices.emplace_back("--filter neutral");

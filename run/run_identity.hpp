@@ -6,7 +6,8 @@
 
 namespace abut::run {
 
-/// Identity of a run: all that its rest depends on beside its state, as JSON: sizes, step and end, the options of scene and run.
+/// Identity of a run: all that its rest depends on beside its state, as JSON: sizes, step and end, the options of scene
+/// and run.
 template <int Dim>
 [[nodiscard]] std::string identity(const Scene<Dim>& scene, const RunResult<Dim>& result);
 

@@ -33,9 +33,9 @@ namespace abut::run {
 /// Scale of the energies of a run.
 struct EnergyScale {
     std::string name = "K0";  ///< a letter and its index
-    /// [J]; 0: the largest of kinetic energy, V and work from outside so far (Accounts::energy_in_play), which is K0 as long as
-    /// nothing acts from outside and nothing is strained at the start, and is called E where it is more; RunResult::rest_energy
-    /// and less count as nothing
+    /// [J]; 0: the largest of kinetic energy, V and work from outside so far (Accounts::energy_in_play), which is K0 as
+    /// long as nothing acts from outside and nothing is strained at the start, and is called E where it is more;
+    /// RunResult::rest_energy and less count as nothing
     double value = 0.0;
 
     /// An energy over the scale [-]; 0 as long as nothing has moved.
@@ -139,8 +139,8 @@ template <int Dim>
 /// Whether some bodies or obstacles of a run rub.
 template <int Dim>
 [[nodiscard]] bool has_friction(const Scene<Dim>& scene, const RunOptions& options);
-/// Throws BadInput where bodies rub under a scheme that has no friction, or are of a material that remembers under one that does not
-/// take mean forces.
+/// Throws BadInput where bodies rub under a scheme that has no friction, or are of a material that remembers under one
+/// that does not take mean forces.
 template <int Dim>
 void check_scheme(const Scene<Dim>& scene, const RunOptions& options);
 /// With `restart` filled in, by friction and the kinematics that the bodies are run with; with friction the filter, too.

@@ -138,8 +138,8 @@ private:
             {.value = crossing.gap, .allowed = 0.0});
     }
 
-    /// Whether two faces look at each other across an opening of the body at rest, so that one that is behind the other has gone through
-    /// it: faces of one tip or of both sides of a plate are behind each other from the start.
+    /// Whether two faces look at each other across an opening of the body at rest, so that one that is behind the other
+    /// has gone through it: faces of one tip or of both sides of a plate are behind each other from the start.
     [[nodiscard]] bool are_apart_at_rest(std::int32_t face_1, std::int32_t face_2) const {
         const Vector<Dim> between = rest_middle(face_2) - rest_middle(face_1);
         return between.dot(surface_.normal[static_cast<std::size_t>(face_1)]) > 0.0 &&

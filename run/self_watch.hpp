@@ -10,17 +10,17 @@
 namespace abut::run {
 
 /// Looks at records whether a body comes together with itself, where contact does not see that: two faces of its boundary
-/// that look at each other, share area, and are no farther apart than a tenth of the depth of their cells, nor deeper in each
-/// other than it, though they were more than twice as far from each other at rest.
+/// that look at each other, share area, and are no farther apart than a tenth of the depth of their cells, nor deeper
+/// in each other than it, though they were more than twice as far from each other at rest.
 ///
 /// A look takes as long as some steps. The next one is due when the body, seen from the rotation that fits it best, has
-/// deformed by as much as the faces that it found need to meet; what is never bent much is looked at once. Said once per body, until it
-/// has gone through itself.
+/// deformed by as much as the faces that it found need to meet; what is never bent much is looked at once. Said once
+/// per body, until it has gone through itself.
 template <int Dim>
 class SelfWatch {
 public:
-    /// Watches the bodies of the scene that deform, except those within which contact acts. `solid`: the whole of them, or that of
-    /// a rank that only says with the others whether there is anything to watch.
+    /// Watches the bodies of the scene that deform, except those within which contact acts. `solid`: the whole of them,
+    /// or that of a rank that only says with the others whether there is anything to watch.
     SelfWatch(const Scene<Dim>& scene, const solid::Solid<Dim>& solid);
     ~SelfWatch();
     SelfWatch(const SelfWatch&) = delete;
@@ -28,8 +28,8 @@ public:
 
     /// Whether any body is watched, on any rank.
     [[nodiscard]] bool is_on() const { return is_on_; }
-    /// `solid`, which has the whole of all bodies, has been evaluated in q last. Throws Diverged where two faces that look at each other
-    /// across an opening at rest are more than 0.3 of the depth of both cells inside each other.
+    /// `solid`, which has the whole of all bodies, has been evaluated in q last. Throws Diverged where two faces that
+    /// look at each other across an opening at rest are more than 0.3 of the depth of both cells inside each other.
     void look(const solid::Solid<Dim>& solid, std::span<const double> q, double time, std::int64_t step,
               Sightings<Dim>& found);
 

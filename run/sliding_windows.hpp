@@ -10,14 +10,14 @@
 
 namespace abut::run {
 
-/// Force of sliding faces over the limit at which they slide, by parts of a run: a slip that alternates for a while is seen even
-/// where the whole run has slid well.
+/// Force of sliding faces over the limit at which they slide, by parts of a run: a slip that alternates for a while is
+/// seen even where the whole run has slid well.
 class SlidingWindows {
 public:
     /// An eightieth of a run with as many records as there are by default: one of them lies within any bad fortieth.
     static constexpr std::int64_t records_per_window = 25;
-    /// Part of the limit of the window with most of it that a part of the run has at least [-]: windows with less are joined with those after
-    /// them, as faces that stick slip a little now and then.
+    /// Part of the limit of the window with most of it that a part of the run has at least [-]: windows with less are
+    /// joined with those after them, as faces that stick slip a little now and then.
     static constexpr double least_part = 0.1;
 
     /// A record of a run: what happened until then.

@@ -15,10 +15,10 @@ struct BodyPictures {
     std::vector<Snapshot> snapshots;
 };
 
-/// Takes snapshots of a run: at the start, in the middle, near the largest force of contact and at the end. For the third the
-/// forces of contact are looked at in about 60 records, and a snapshot replaces the one before where they are larger by a twentieth. What it
-/// keeps and does is proportional to the cells in 2D, to the boundary in 3D, and evaluations of the solid; between snapshots
-/// it does nothing.
+/// Takes snapshots of a run: at the start, in the middle, near the largest force of contact and at the end. For the
+/// third the forces of contact are looked at in about 60 records, and a snapshot replaces the one before where they are
+/// larger by a twentieth. What it keeps and does is proportional to the cells in 2D, to the boundary in 3D, and
+/// evaluations of the solid; between snapshots it does nothing.
 template <int Dim>
 class Snapshots {
 public:

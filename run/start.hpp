@@ -15,8 +15,8 @@ namespace abut::run {
 template <int Dim>
 void check_for_ranks(const dynamics::Ranks& ranks, const Scene<Dim>& scene, const RunOptions& options);
 
-/// With the value that it has so far where the scene gives none and anything has moved, and then with the name E unless that is K0. Throws BadInput
-/// for one without a name.
+/// With the value that it has so far where the scene gives none and anything has moved, and then with the name E unless
+/// that is K0. Throws BadInput for one without a name.
 template <int Dim>
 [[nodiscard]] EnergyScale known_scale(EnergyScale scale, const RunResult<Dim>& result);
 /// sum + a - b
@@ -29,8 +29,8 @@ struct Start {
     Start(const Scene<Dim>& scene, const RunOptions& options, std::optional<PilotReport> pilot, const Share<Dim>& share,
           Observer<Dim>& observer);
 
-    /// The solid, q and momentum of another part, at the start of the run again: everything that refers to the solid now refers
-    /// to this one.
+    /// The solid, q and momentum of another part, at the start of the run again: everything that refers to the solid
+    /// now refers to this one.
     void take_part(const Share<Dim>& share);
 
     const Scene<Dim>& scene;

@@ -17,15 +17,15 @@ struct Encounter {
 /// records, as often as costs about a hundredth of the run.
 struct SurfaceLooks {
     std::int64_t looks = 0;
-    /// Two cells of different bodies that were deepest inside each other: the shortest way that parts these two, and that over
-    /// the size of the smaller one. The depth of the bodies is at least as much.
+    /// Two cells of different bodies that were deepest inside each other: the shortest way that parts these two, and
+    /// that over the size of the smaller one. The depth of the bodies is at least as much.
     Encounter deepest{};
     /// Two faces that pushed each other from farthest away: their distance, and that over the size of the smaller one.
     Encounter remote{};
     /// Two bodies that slid along each other under the highest mean pressure: that over E of the softer one is `ratio`.
     Encounter pressed{};
-    /// Surfaces nearest to each other at the end, where nothing has touched. Without names: nothing could touch, or some lie on
-    /// each other without a force.
+    /// Surfaces nearest to each other at the end, where nothing has touched. Without names: nothing could touch, or
+    /// some lie on each other without a force.
     Encounter nearest{};
 };
 

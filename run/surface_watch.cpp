@@ -27,11 +27,13 @@ using geometry::Box;
 using geometry::box_of;
 using geometry::mean_of;
 
-// What a look costs, in times that a step takes for a cell, and a step beside its cells: measured on the scenes of `scenes/`.
+// What a look costs, in times that a step takes for a cell, and a step beside its cells: measured on the scenes of
+// `scenes/`.
 constexpr std::int64_t cost_of_part = 8, cost_of_pair = 25, cost_of_acting_pair = 100, cost_of_step = 200;
 constexpr std::int64_t steps_per_cost = 100;  // a look takes a hundredth of the steps until the next one
 
-/// Cells inside each other by this part of the smaller one touch, and so do bodies as near to each other: mesh::touching_tolerance.
+/// Cells inside each other by this part of the smaller one touch, and so do bodies as near to each other:
+/// mesh::touching_tolerance.
 constexpr double touching_cells = 1e-6;
 /// Bodies slide along each other where their speed along the faces is more than this part of the largest speed.
 constexpr double sliding_share = 0.1;

@@ -13,8 +13,8 @@
 
 namespace abut::run {
 
-/// Measures how the surfaces of a scene lie to each other while it is run. How often it looks follows from counts of cells and
-/// pairs, not from a clock: all figures are the same for any number of threads and ranks.
+/// Measures how the surfaces of a scene lie to each other while it is run. How often it looks follows from counts of
+/// cells and pairs, not from a clock: all figures are the same for any number of threads and ranks.
 template <int Dim>
 class SurfaceWatch {
 public:

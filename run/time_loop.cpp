@@ -358,7 +358,8 @@ private:
         });
     }
 
-    /// The record before the last one tells of H - H~, and at the end of the run the last one, too, unless all was at rest until then.
+    /// The record before the last one tells of H - H~, and at the end of the run the last one, too, unless all was at
+    /// rest until then.
     void check_alive(const dynamics::LedgerEntry<Dim>& entry, double scale, double excess_before) {
         const bool at_end = result_.ledger.entries().size() > 1 && entry.step == result_.steps;
         const bool moved = result_.accounts.energy_in_play > result_.rest_energy;

@@ -17,8 +17,8 @@ struct Name {
     std::string_view word;
 };
 
-/// Longer ones before those that they begin with. tests/project/check_messages.py asks for every name of C++ that a message of
-/// any layer has.
+/// Longer ones before those that they begin with. tests/project/check_messages.py asks for every name of C++ that a
+/// message of any layer has.
 constexpr std::array names_of_cpp = std::to_array<Name>({
     {"BodyKinematics::scene", "run.kinematics = \"scene\""},
     {"Bond::fixed", "fixed"},

@@ -210,7 +210,8 @@ std::string bears_text(int across) {
     return fmt::format("{:.2f} to {:.2f}", least->bricks, most->simplices);
 }
 
-/// Notes what the finite body with the fewest cells across bears where contact presses on whole sides of it: no balance shows it.
+/// Notes what the finite body with the fewest cells across bears where contact presses on whole sides of it: no balance
+/// shows it.
 template <int Dim>
 void add_pressed(Counts& counts, const Scene<Dim>& scene, const RunResult<Dim>& result) {
     constexpr int enough = 16;

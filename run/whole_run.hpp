@@ -10,8 +10,8 @@
 
 namespace abut::run {
 
-/// The whole of a run, for its observers: they are on rank 0, and the other ranks take part where the whole is brought together.
-/// On one rank it is the run itself. All functions but `seen` are calls of all ranks.
+/// The whole of a run, for its observers: they are on rank 0, and the other ranks take part where the whole is brought
+/// together. On one rank it is the run itself. All functions but `seen` are calls of all ranks.
 template <int Dim>
 class WholeRun {
 public:
@@ -43,8 +43,8 @@ public:
         });
     }
 
-    /// In `show`: faces stand where contact has moved them in the last evaluation. On one rank that was at the record before; the
-    /// whole that rank 0 sees was only restored.
+    /// In `show`: faces stand where contact has moved them in the last evaluation. On one rank that was at the record
+    /// before; the whole that rank 0 sees was only restored.
     void evaluate(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) const {
         if (!ranks().is_one()) static_cast<void>(solid.potential(run.q));
     }

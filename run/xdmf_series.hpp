@@ -9,17 +9,17 @@
 
 namespace abut::run {
 
-/// Frames as mesh::VtuSeries writes them, in one file of HDF5, BASENAME.h5, with BASENAME.xmf and BASENAME_surface.xmf (XDMF 3, temporal
-/// collections), which ParaView opens. Values are bitwise those of the VTU files; tensors are matrices of their six
-/// components in the order of VTK; the surface shares the vertices of the cells.
+/// Frames as mesh::VtuSeries writes them, in one file of HDF5, BASENAME.h5, with BASENAME.xmf and BASENAME_surface.xmf
+/// (XDMF 3, temporal collections), which ParaView opens. Values are bitwise those of the VTU files; tensors are
+/// matrices of their six components in the order of VTK; the surface shares the vertices of the cells.
 ///
 /// BASENAME.h5 has `points`, `cells`, `body` (its attribute `names` has those of the bodies), `faces`, `face_body`,
 /// `groups/NAME`, and `frames/000012` with the attribute `time` and an array for each field: `points/displacement`,
 /// `cells/NAME`, `faces/NAME`, where a slash in a name is written " per ".
 ///
-/// A frame is appended to the .h5 file, in space that is taken for it before; then the .xmf files, which are written beside their
-/// places and moved, list it. A full disc leaves the frames before it alone, and so does a process that is killed
-/// (journaled_hdf5.hpp).
+/// A frame is appended to the .h5 file, in space that is taken for it before; then the .xmf files, which are written
+/// beside their places and moved, list it. A full disc leaves the frames before it alone, and so does a process that is
+/// killed (journaled_hdf5.hpp).
 template <int Dim>
 class XdmfSeries {
 public:
@@ -29,8 +29,8 @@ public:
     /// Throws BadInput naming a field whose size is wrong, or the file that cannot be written.
     void write(const mesh::Frame<Dim>& frame);
     [[nodiscard]] const std::vector<double>& times() const { return times_; }  ///< of the frames [s]
-    /// Goes on after frames of these times: later ones are removed. Where the file is not there a new one begins with the next
-    /// frame. Throws BadInput if the file cannot be opened, or if a frame is missing in it.
+    /// Goes on after frames of these times: later ones are removed. Where the file is not there a new one begins with
+    /// the next frame. Throws BadInput if the file cannot be opened, or if a frame is missing in it.
     void go_on_after(std::vector<double> times);
 
 private:

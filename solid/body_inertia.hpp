@@ -8,8 +8,9 @@ namespace abut::solid {
 template <int Dim>
 class Solid;
 
-/// The moments of inertia of a body about the principal axes through its centre, of which the masses of its points may have less:
-/// those of the cells themselves are missing where points are at their centroids (Kinematics::small, Kinematics::finite).
+/// The moments of inertia of a body about the principal axes through its centre, of which the masses of its points may
+/// have less: those of the cells themselves are missing where points are at their centroids (Kinematics::small,
+/// Kinematics::finite).
 template <int Dim>
 struct BodyInertia {
     AxialVector<Dim> exact;  ///< of its cells at rest, increasing [kg m^2]

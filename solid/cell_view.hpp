@@ -17,9 +17,10 @@ struct OwnCells {
     std::vector<std::int32_t> position;  ///< of each in the part of the rank, increasing
 };
 
-/// The cells of the mesh of a solid (Solid::cells), and the path to its points, as long as the solid lives. Cells are numbered as
-/// in `Solid::mesh`; stresses and gradients are those of the state that was evaluated last, by a step or otherwise. On several
-/// ranks functions that take or return q or p are calls of all ranks, except `displacement_gradient`.
+/// The cells of the mesh of a solid (Solid::cells), and the path to its points, as long as the solid lives. Cells are
+/// numbered as in `Solid::mesh`; stresses and gradients are those of the state that was evaluated last, by a step or
+/// otherwise. On several ranks functions that take or return q or p are calls of all ranks, except
+/// `displacement_gradient`.
 template <int Dim>
 class CellView {
 public:
@@ -30,13 +31,13 @@ public:
 
     /// sigma of a cell in space, with what contact and bonds push its free faces with [Pa]; 0 in rigid bodies.
     [[nodiscard]] Matrix<Dim> stress(std::int32_t cell) const;
-    /// In 2D: sigma_zz of a cell, which `stress` does not have [Pa]; of an elastic body that of small strains, nu (sigma_xx +
-    /// sigma_yy). In 3D 0.
+    /// In 2D: sigma_zz of a cell, which `stress` does not have [Pa]; of an elastic body that of small strains, nu
+    /// (sigma_xx + sigma_yy). In 3D 0.
     [[nodiscard]] double out_of_plane_stress(std::int32_t cell) const;
     /// Equivalent plastic strain of a cell [-]; 0 where its material has none.
     [[nodiscard]] double plastic_strain(std::int32_t cell) const;
-    /// F - I of a cell in space, in q: a point of the cell that is at X at rest is displaced by the displacement of the cell and
-    /// this times X - x_c. On several ranks of an own cell, without the others.
+    /// F - I of a cell in space, in q: a point of the cell that is at X at rest is displaced by the displacement of the
+    /// cell and this times X - x_c. On several ranks of an own cell, without the others.
     [[nodiscard]] Matrix<Dim> displacement_gradient(std::int32_t cell, std::span<const double> q) const;
     /// Largest deformation of cells of large strains in all steps so far. H~ does not show where they collapse: a step in
     /// which det F of one falls to 0.1 throws Diverged.
@@ -44,8 +45,8 @@ public:
 
     /// Displacement of the cells (n_cells) [m] in q.
     [[nodiscard]] std::vector<Vector<Dim>> displacement(std::span<const double> q) const;
-    /// Displacement of the vertices of the mesh (n_vertices) [m] in q, which was evaluated last: the mean over the cells around
-    /// each of where these carry it, turned and stretched as they are. Throws BadInput on several ranks.
+    /// Displacement of the vertices of the mesh (n_vertices) [m] in q, which was evaluated last: the mean over the
+    /// cells around each of where these carry it, turned and stretched as they are. Throws BadInput on several ranks.
     [[nodiscard]] std::vector<Vector<Dim>> vertex_displacement(std::span<const double> q) const;
     /// Velocity of the cells (n_cells) [m/s] at momenta p.
     [[nodiscard]] std::vector<Vector<Dim>> velocity(std::span<const double> p) const;

@@ -42,8 +42,8 @@ struct Left {
     double mass = 0.0;                           ///< [kg]
     Vector<Dim> momentum = Vector<Dim>::Zero();  ///< of p = (p^- + p^+)/2 [kg m/s]
     double kinetic = 0.0;                        ///< 1/2 p^- . M^-1 p^+ [J]
-    /// V, which has no sign: faces behind become free, and may touch. What faces stored that stuck is not in it: friction books it
-    /// as dissipated [J]
+    /// V, which has no sign: faces behind become free, and may touch. What faces stored that stuck is not in it:
+    /// friction books it as dissipated [J]
     double potential = 0.0;
     [[nodiscard]] double energy() const { return kinetic + potential; }  ///< of H~ + D - W [J]
 };

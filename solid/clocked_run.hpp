@@ -16,16 +16,17 @@ namespace abut::solid {
 
 /// How tractions that change within a step of the solid act in it. docs/loads.md, Times that are dictated.
 enum class LoadImpulse {
-    /// Their mean over the step: the work of the program outside and that of the solid are the same to round-off. Where tractions answer
-    /// to the motion of a step it feeds the alternating mode, which neutral restarts take out.
+    /// Their mean over the step: the work of the program outside and that of the solid are the same to round-off. Where
+    /// tractions answer to the motion of a step it feeds the alternating mode, which neutral restarts take out.
     as_given,
-    /// The mean of the loads at both nodes, each from the impulses of the two steps before it: it feeds no mode. The works differ by a
-    /// part of order 2.
+    /// The mean of the loads at both nodes, each from the impulses of the two steps before it: it feeds no mode. The
+    /// works differ by a part of order 2.
     trapezoid,
 };
 
-/// A solid under MEMM at times that a program outside dictates, as a fluid does that chooses its own steps: docs/loads.md, Times that are
-/// dictated. The solid keeps its constant step, so that H~, the order and the remedies are as in any other run.
+/// A solid under MEMM at times that a program outside dictates, as a fluid does that chooses its own steps:
+/// docs/loads.md, Times that are dictated. The solid keeps its constant step, so that H~, the order and the remedies
+/// are as in any other run.
 ///
 ///     solid::ClockedRun<2> clock(run);                        // of a solid::SteppedRun<2>
 ///     while (clock.time() < end) {
@@ -43,17 +44,18 @@ public:
     [[nodiscard]] double time() const { return clock_.time(); }          ///< [s]
     [[nodiscard]] double time_to_node() const { return clock_.left(); }  ///< of the next step of the solid [s], > 0
 
-    /// Tractions on a group that is loaded from outside, from now on until they are set again (n_faces) [Pa]. Throws BadInput naming the
-    /// group, a wrong number of values or one that is not finite.
+    /// Tractions on a group that is loaded from outside, from now on until they are set again (n_faces) [Pa]. Throws
+    /// BadInput naming the group, a wrong number of values or one that is not finite.
     void set_traction(const std::string& group, std::span<const Vector<Dim>> traction);
     /// Goes on by d [s], of any length; steps of the solid are taken as its nodes are passed. Throws BadInput, and nothing
     /// has changed, unless d > 0 and finite; as SteppedRun::step.
     void advance(double d);
 
-    /// How far the centroids of a group move in the next d [s], whatever acts (n_faces) [m]: sum of |f| t . this is the work of the
-    /// tractions. Throws BadInput for a d beyond the next node, where the motion is not known yet.
+    /// How far the centroids of a group move in the next d [s], whatever acts (n_faces) [m]: sum of |f| t . this is the
+    /// work of the tractions. Throws BadInput for a d beyond the next node, where the motion is not known yet.
     [[nodiscard]] std::vector<Vector<Dim>> motion(const std::string& group, double d);
-    /// Positions of the faces of a group now; their velocity is that of the step that goes on, normals are those at the last node.
+    /// Positions of the faces of a group now; their velocity is that of the step that goes on, normals are those at the
+    /// last node.
     [[nodiscard]] OutsideFaces<Dim> faces(const std::string& group);
     /// Displacements of the points now (n_points * Dim) [m].
     [[nodiscard]] std::vector<double> q() { return clock_.q(); }

@@ -24,8 +24,8 @@ namespace abut::solid {
 template <int Dim>
 class Solid;
 
-/// Contact of a solid as it is now (Solid::contact): figures, forces, faces. It is of use as long as the solid lives; without
-/// contact all is 0, null or empty.
+/// Contact of a solid as it is now (Solid::contact): figures, forces, faces. It is of use as long as the solid lives;
+/// without contact all is 0, null or empty.
 template <int Dim>
 class ContactView {
 public:

@@ -9,8 +9,8 @@
 
 namespace abut::solid {
 
-/// Throws BadInput where cells cannot have steps of their own. `contact_makes_parts`: contact, if there is any, can act in parts of
-/// a step.
+/// Throws BadInput where cells cannot have steps of their own. `contact_makes_parts`: contact, if there is any, can act
+/// in parts of a step.
 template <int Dim>
 void require_local_steps(const std::string& mesh, const SolidOptions<Dim>& options, bool contact_makes_parts) {
     const bool all_can =

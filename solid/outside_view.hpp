@@ -11,8 +11,9 @@ namespace abut::solid {
 template <int Dim>
 class Solid;
 
-/// The faces of a group whose tractions a program outside sets (TractionCondition::from_outside, Solid::outside), all in the order
-/// of the group. It is of use as long as the solid lives. docs/loads.md; `outside_faces` gives all of it in one value.
+/// The faces of a group whose tractions a program outside sets (TractionCondition::from_outside, Solid::outside), all
+/// in the order of the group. It is of use as long as the solid lives. docs/loads.md; `outside_faces` gives all of it
+/// in one value.
 template <int Dim>
 class OutsideView {
 public:

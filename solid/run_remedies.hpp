@@ -6,7 +6,8 @@
 
 namespace abut::solid {
 
-/// Steps between neutral restarts of runs with a body of finite strains: its forces feed the alternating mode (docs/filter.md).
+/// Steps between neutral restarts of runs with a body of finite strains: its forces feed the alternating mode
+/// (docs/filter.md).
 inline constexpr int restart_with_finite_strains = 50;
 
 /// Remedies of a run against the alternating mode (dynamics::Remedies).
@@ -15,7 +16,8 @@ struct RunRemedies {
     int restart = 0;  ///< steps between neutral restarts; 0: none
 };
 
-/// Remedies of a run of MEMM that is told none. `kinematics`: of each body, empty: all are `small`; `rubs`: there is friction.
+/// Remedies of a run of MEMM that is told none. `kinematics`: of each body, empty: all are `small`; `rubs`: there is
+/// friction.
 [[nodiscard]] constexpr RunRemedies default_remedies(std::span<const Kinematics> kinematics, bool rubs) {
     if (rubs) return {.filter = true, .restart = restart_with_friction};
     const bool any_finite = any_body(kinematics, &KinematicsProperties::finite_strains);

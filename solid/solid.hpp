@@ -73,13 +73,14 @@ template <int Dim>
 /// Deformable bodies on one mesh, in contact with each other and with rigid obstacles: a System. With contact or with loads
 /// that vary it is for one run, beginning at t = 0: loads, work and contacts go on from one `mean_force` to the next.
 ///
-/// Its points are the cells of the bodies that deform, in their order, then Dim + 1 points of each body of Kinematics::rigid,
-/// which stay at their distances (ConstrainedSystem): displacements q, forces and momenta have shape (n_points, Dim).
+/// Its points are the cells of the bodies that deform, in their order, then Dim + 1 points of each body of
+/// Kinematics::rigid, which stay at their distances (ConstrainedSystem): displacements q, forces and momenta have shape
+/// (n_points, Dim).
 ///
 /// A face whose displacement is prescribed along its normal is a rigid one to what touches it, on the path of the support.
 ///
-/// `force`, `potential` and `contact_at` take any state before the first step, and later the last state or one that no face has
-/// left by more than half the skin since the last search; they throw Misuse for others.
+/// `force`, `potential` and `contact_at` take any state before the first step, and later the last state or one that no
+/// face has left by more than half the skin since the last search; they throw Misuse for others.
 template <int Dim>
 class Solid {
 public:
@@ -87,10 +88,10 @@ public:
 
     /// The mesh must outlive the solid. Throws BadInput saying where, how much, how much is allowed and what to do.
     ///
-    /// On several ranks `mesh` is that of a part (part_of), and `ranks`, which must outlive the solid, tell whose its points are
-    /// (points_of, ranks::PointRanks): those of the solid are the ones of this rank then, and functions that take q or p, `state`
-    /// and `restore` are calls of all ranks together, except CellView::displacement_gradient. All bits are those of one rank; what is not
-    /// made for several throws BadInput (docs/ranks.md).
+    /// On several ranks `mesh` is that of a part (part_of), and `ranks`, which must outlive the solid, tell whose its
+    /// points are (points_of, ranks::PointRanks): those of the solid are the ones of this rank then, and functions that
+    /// take q or p, `state` and `restore` are calls of all ranks together, except CellView::displacement_gradient. All
+    /// bits are those of one rank; what is not made for several throws BadInput (docs/ranks.md).
     Solid(const mesh::Mesh<Dim>& mesh, SolidOptions<Dim> options, const dynamics::Ranks& ranks = dynamics::one_rank());
     Solid(const Solid&) = delete;
     Solid& operator=(const Solid&) = delete;
@@ -101,11 +102,11 @@ public:
     [[nodiscard]] std::span<const double> masses() const;                ///< of the points (n_points) [kg]
     [[nodiscard]] std::span<const Vector<Dim>> rest_positions() const;   ///< of the points (n_points) [m]
     [[nodiscard]] std::span<const std::int32_t> body_of_points() const;  ///< (n_points)
-    /// Arms of angular momentum. Where no body turns strains are linear, and what is free keeps it about the positions at rest; bodies
-    /// with a frame of their own keep J~.
+    /// Arms of angular momentum. Where no body turns strains are linear, and what is free keeps it about the positions
+    /// at rest; bodies with a frame of their own keep J~.
     [[nodiscard]] dynamics::MomentArms moment_arms() const;
-    /// The part of 2/omega_max that is stable [-]: a closed contact stiffens its cells, and noise feeds the alternating mode of
-    /// bodies of Kinematics::finite. docs/method.md, Space and Bodies that bend.
+    /// The part of 2/omega_max that is stable [-]: a closed contact stiffens its cells, and noise feeds the alternating
+    /// mode of bodies of Kinematics::finite. docs/method.md, Space and Bodies that bend.
     [[nodiscard]] double step_margin() const;
     /// The largest of all cells (Material::damping_ratio). A call of all ranks.
     [[nodiscard]] double damping_ratio(double omega) const;
@@ -128,8 +129,8 @@ public:
     [[nodiscard]] bool is_constrained(std::int32_t point) const;
     void constrain_along(std::span<const double> q, double dt, std::span<double> p);
     void constrain_at(std::span<const double> q, double dt, std::span<double> p);
-    /// RateSystem: what dashpots and brakes act on next is the mean of the rates of p in q and of those of the next step. So is what
-    /// damped materials act on where p is 0 everywhere; else their rates stay those of the last step.
+    /// RateSystem: what dashpots and brakes act on next is the mean of the rates of p in q and of those of the next
+    /// step. So is what damped materials act on where p is 0 everywhere; else their rates stay those of the last step.
     void set_rates(std::span<const double> q, std::span<const double> p);
     /// Whether V depends on q alone: no condition has a history, no obstacle a path, and no material remembers.
     [[nodiscard]] bool is_autonomous() const;
@@ -148,7 +149,8 @@ public:
     [[nodiscard]] double potential(std::span<const double> q);
     /// Work of prescribed displacements, of changing tractions, of moving obstacles and of interference so far [J].
     [[nodiscard]] double work() const { return work_; }
-    /// Energy that materials have dissipated so far by flow, damping and viscosity, and bonds that broke; friction is not counted [J].
+    /// Energy that materials have dissipated so far by flow, damping and viscosity, and bonds that broke; friction is
+    /// not counted [J].
     [[nodiscard]] dynamics::Losses dissipated() const { return dissipated_; }
     /// The linear part alone, without loads and contact: K q [N]; for the stable step.
     void stiffness_product(std::span<const double> q, std::span<double> product);
@@ -166,16 +168,16 @@ public:
     /// next steps have the same bits. Contact has no force on obstacles and no patches before the next step. Throws BadInput
     /// for bytes that are damaged, of another version, mesh or options; the solid is of no use then.
     void restore(std::span<const std::byte> state, std::span<const double> q);
-    /// A run begins in the present state: time, work and all counts are 0 from here on, while loads, dashpots, pairs and faces
-    /// remember what they do. For loads and obstacles whose paths are the same at all times.
+    /// A run begins in the present state: time, work and all counts are 0 from here on, while loads, dashpots, pairs
+    /// and faces remember what they do. For loads and obstacles whose paths are the same at all times.
     void begin_run();
     /// Goes on with a solid of another mesh, which has fewer cells or other numbers. change.hpp.
     friend Change<Dim> change<Dim>(Solid<Dim>& before, const dynamics::IntegratorState& motion, Solid<Dim>& after,
                                    std::span<const std::int32_t> old_cells);
 
-    /// Tractions on a group with a TractionCondition::from_outside, in the order of its faces, that act from the next step on until
-    /// they are set again (n_faces) [Pa]; what that changes in V is booked as work. Throws BadInput, and nothing has changed, for
-    /// another group, another number, or one that is not finite. docs/loads.md.
+    /// Tractions on a group with a TractionCondition::from_outside, in the order of its faces, that act from the next
+    /// step on until they are set again (n_faces) [Pa]; what that changes in V is booked as work. Throws BadInput, and
+    /// nothing has changed, for another group, another number, or one that is not finite. docs/loads.md.
     void set_traction(const std::string& group, std::span<const Vector<Dim>> traction);
     /// Work of tractions from outside so far; q is where the last step ended.
     [[nodiscard]] OutsideWork outside_work(std::span<const double> q) const;

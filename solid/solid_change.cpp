@@ -92,8 +92,8 @@ void Solid<Dim>::check_old_cells(const Solid& before, std::span<const std::int32
     }
 }
 
-/// Displacements and momenta in the numbers of this solid. Of bodies that keep all their cells, and of those whose points are the
-/// centroids, they are the same.
+/// Displacements and momenta in the numbers of this solid. Of bodies that keep all their cells, and of those whose
+/// points are the centroids, they are the same.
 template <int Dim>
 dynamics::IntegratorState Solid<Dim>::motion_of(const Solid& before, const dynamics::IntegratorState& motion,
                                                 std::span<const std::int32_t> old_cells) const {

@@ -160,8 +160,8 @@ double Solid<Dim>::energy_lost_by(std::span<const BondChange> changes, const End
     return at_start + energy_at_end(When::middle) - energy_at_end(When::end);
 }
 
-/// Books the work of the step, makes the force of its gradient, and ends it. Where only a share of the work is booked the rest
-/// belongs to a force before: at the end of a step to that at its start.
+/// Books the work of the step, makes the force of its gradient, and ends it. Where only a share of the work is booked
+/// the rest belongs to a force before: at the end of a step to that at its start.
 template <int Dim>
 void Solid<Dim>::finish_step(const Ends& ends, double time, double dt, contact::TakenForce take, double share,
                              std::span<Vector<Dim>> gradient, std::span<double> force) {
@@ -297,8 +297,8 @@ void Solid<Dim>::add_drag(const Ends& ends, double dt, std::span<Vector<Dim>> fo
     });
 }
 
-/// Cells remember the step. Where they have moved faces as they flowed contact and bonds go with these, and what that takes out of them
-/// is dissipated.
+/// Cells remember the step. Where they have moved faces as they flowed contact and bonds go with these, and what that
+/// takes out of them is dissipated.
 template <int Dim>
 void Solid<Dim>::flow_faces(std::span<const Vector<Dim>> q_1) {
     const bool moves =

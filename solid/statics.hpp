@@ -53,9 +53,9 @@ struct StaticSolution {
 /// docs/method.md, Statics.
 ///
 /// Throws BadInput if q_0 has another size than the solid, if an option is out of range, where a body is free to move as a
-/// rigid one (held neither by a prescribed displacement nor by a bond or a contact of q_0), and where a body leaves the others for
-/// good; TooDeep where the state reached is pressed in deeper than ContactOptions::compression_limit: a run refuses it, too. A
-/// solution that is not as good as asked for is returned with what it reached: see `converged`.
+/// rigid one (held neither by a prescribed displacement nor by a bond or a contact of q_0), and where a body leaves the
+/// others for good; TooDeep where the state reached is pressed in deeper than ContactOptions::compression_limit: a run
+/// refuses it, too. A solution that is not as good as asked for is returned with what it reached: see `converged`.
 template <int Dim>
 [[nodiscard]] StaticSolution solve_statics(Solid<Dim>& solid, std::vector<double> q_0, const StaticOptions& options = {});
 

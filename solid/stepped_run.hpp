@@ -33,8 +33,8 @@ public:
     /// Adds the present state to the ledger. Throws Diverged where its energy is not finite.
     void record();
 
-    /// Goes back to a state of this run (run_state), with what restarts had reported then: what follows has the same bits. The
-    /// ledger keeps its entries. Throws as go_on_from.
+    /// Goes back to a state of this run (run_state), with what restarts had reported then: what follows has the same
+    /// bits. The ledger keeps its entries. Throws as go_on_from.
     void restore(const RunState& state, const dynamics::RestartReport& restarts);
 
     /// Goes on with another solid, whose mesh has fewer cells or other numbers: change.hpp, which says what it throws, and

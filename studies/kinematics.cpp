@@ -1,9 +1,10 @@
-// Bodies that turn, however they move: small, floating, finite or rigid. What each keeps, where it is right, and what it costs.
+// Bodies that turn, however they move: small, floating, finite or rigid. What each keeps, where it is right, and what
+// it costs.
 //
 // Cell-centred elasticity and rigid bodies touch by the potential of a pair (docs/method.md). Runs are asked for H~ less the
 // work from outside, momentum, J~ = sum x × p - dt/4 sum v^- × p^+ where nothing holds the bodies, missed contacts and the
-// force that closes the balance of energy; scenes are asked for closed forms: tops, times of impact, Hertz, a cradle, gears. No
-// energy is claimed without H - H~, |e|/m and the number of events beside it.
+// force that closes the balance of energy; scenes are asked for closed forms: tops, times of impact, Hertz, a cradle,
+// gears. No energy is claimed without H - H~, |e|/m and the number of events beside it.
 #include "studies/kinematics/rows.hpp"
 #include "studies/program/entry.hpp"
 

@@ -3,8 +3,9 @@
 // Each setting, as it would be typed, is run on each mesh of each problem: two cylinders that slip (2D, 3D), two discs that
 // turn before they meet, a cylinder on a block at rest, a bar that hits a wall. The table has five errors beside the
 // seconds: drift of H~, error of the true energy H, of the restitution, of the velocity after an impact, of the contact
-// pressure. Round bodies are run with finite elements and contact on their nodes, too ("nodes"), on the same meshes. A run is on the front where no other one of its problem is as fast
-// and as good. docs/trade.md reads the table; the presets of the other programs follow from it.
+// pressure. Round bodies are run with finite elements and contact on their nodes, too ("nodes"), on the same meshes. A
+// run is on the front where no other one of its problem is as fast and as good. docs/trade.md reads the table; the
+// presets of the other programs follow from it.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 

@@ -23,7 +23,8 @@ struct Sweep {
 /// folder of its own in RunOptions::out, run_1 and so on, and a row in sweep.csv there, which is rewritten after each:
 /// values, state, main figures, and the message of a run that did not end. States are held (it ended), stopped (by a signal,
 /// which ends the sweep as well), refused (BadInput), diverged (Diverged, TooDeep) and failed (all else). `run_one` runs a
-/// scene into its folder. A table is printed where messages are normal. Throws BadInput at the end if a run did not end well.
+/// scene into its folder. A table is printed where messages are normal. Throws BadInput at the end if a run did not end
+/// well.
 void run_sweep(const std::filesystem::path& scene, const input::Overrides& overrides, const std::vector<Sweep>& sweeps,
                Messages messages, const std::function<void(const input::SceneFile&)>& run_one);
 

@@ -55,7 +55,8 @@ public:
     /// `turns`: bodies turn or deform in some step. If not, normals help to choose the candidates.
     Detection(const Bodies& bodies, const DetectOptions& options, const Nearness& near, bool turns);
 
-    /// Finds for the present positions of the bodies. The candidate list is rebuilt where it is not valid for the motion since.
+    /// Finds for the present positions of the bodies. The candidate list is rebuilt where it is not valid for the
+    /// motion since.
     [[nodiscard]] const StepResult& find(int step);
     /// Fills `distances` and `nearest` of what `find` has given last.
     void measure_distances();

@@ -13,7 +13,8 @@ struct NearestBodies {
     geometry::NearestFaces faces;
 };
 
-/// A body that is wholly inside of another one, whose surface is closed with normals outwards, and their faces that are nearest.
+/// A body that is wholly inside of another one, whose surface is closed with normals outwards, and their faces that are
+/// nearest.
 struct InsideBody {
     std::int32_t inner, outer;
     double distance;  ///< of their surfaces [m]
@@ -24,8 +25,8 @@ inline constexpr std::size_t most_nearest_bodies = 2000;
 
 /// How bodies lie to each other. Both are empty for more than `most_nearest_bodies`.
 struct Neighbours {
-    /// Every body with the one that is nearest to it, each pair once, body_1 < body_2, sorted: the least distance of all is among them. Of
-    /// surfaces alone: a body inside of another one is as far away as its surface.
+    /// Every body with the one that is nearest to it, each pair once, body_1 < body_2, sorted: the least distance of
+    /// all is among them. Of surfaces alone: a body inside of another one is as far away as its surface.
     std::vector<NearestBodies> nearest;
     std::vector<InsideBody> inside;  ///< sorted by the inner body
 };

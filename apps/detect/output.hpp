@@ -17,7 +17,8 @@ namespace abut::apps {
 
 /// The files of a run: pairs as .csv, and pictures for ParaView. A pair names faces as their files do. Rows are written as
 /// they come and outlive a process that is killed: candidates.csv, overlaps.csv, contacts.csv and nearest.csv (of bodies, by
-/// name) and steps.csv are called candidates.csv.partial and so on until `finish`. Whatever cannot be written is BadInput that names the file.
+/// name) and steps.csv are called candidates.csv.partial and so on until `finish`. Whatever cannot be written is
+/// BadInput that names the file.
 class Output {
 public:
     /// `every` > 0: also each so many-th step, and all .vtp files with the number of their step.

@@ -43,8 +43,9 @@ struct PlacedFile {
 
 /// Keys of every input: how it is scaled, turned and moved.
 [[nodiscard]] std::vector<std::string> placing_keys();
-/// In this order: lengths are those of `unit` times `scale`; turned about the origin by the rotation vector rx, ry, rz [degrees];
-/// moved by x, y, z [m]. `flip` turns all faces round; `name` names the body, or stands in front of the names of several.
+/// In this order: lengths are those of `unit` times `scale`; turned about the origin by the rotation vector rx, ry, rz
+/// [degrees]; moved by x, y, z [m]. `flip` turns all faces round; `name` names the body, or stands in front of the
+/// names of several.
 void place(mesh::SurfaceMesh& surface, const Keys& keys);
 
 /// Units and keys for --help.

@@ -228,8 +228,8 @@ std::string facing_text(const DetectReport& report, const BodyContact* contact) 
     return fmt::format("{:.4g} m^2 lie opposite each other within {:.4g} m{}", contact->area, report.near.distance, deep);
 }
 
-/// The answer, before how it was found: which bodies are inside of others, how near each is to its nearest one, and which others
-/// have faces that lie opposite.
+/// The answer, before how it was found: which bodies are inside of others, how near each is to its nearest one, and
+/// which others have faces that lie opposite.
 void print_answer(const DetectReport& report) {
     constexpr std::size_t most_answers = 5;
     const std::vector<std::string>& names = report.bodies.names;

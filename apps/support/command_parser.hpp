@@ -56,8 +56,8 @@ private:
     CLI::Option* option_;
 };
 
-/// Reads the command line of a program, or of one of its commands. It hides the library behind it, whose header takes seconds
-/// to compile. Whatever an option sets must outlive the parser, and is set when the command line is read.
+/// Reads the command line of a program, or of one of its commands. It hides the library behind it, whose header takes
+/// seconds to compile. Whatever an option sets must outlive the parser, and is set when the command line is read.
 class CommandParser {
 public:
     /// For words that no user of a terminal has typed just now.

@@ -1,5 +1,5 @@
-// Stands in for rank_session.cpp and the layer ranks where MPI or Zoltan was not there to build with: programs run alone, and
-// refuse what asks for more.
+// Stands in for rank_session.cpp and the layer ranks where MPI or Zoltan was not there to build with: programs run
+// alone, and refuse what asks for more.
 #include "abut/base/error.hpp"
 #include "apps/support/rank_session.hpp"
 

@@ -24,8 +24,8 @@ struct Program {
 };
 
 /// The body of a main function: reads the command line and then calls `body`. One message on standard error and 1 if either
-/// fails; 0 after --help or a good end; 130, 143 or 129 if SIGINT, SIGTERM or SIGHUP were noted (StopSignals) and `body` ended
-/// well. Standard streams that are closed lead to /dev/null. A
+/// fails; 0 after --help or a good end; 130, 143 or 129 if SIGINT, SIGTERM or SIGHUP were noted (StopSignals) and
+/// `body` ended well. Standard streams that are closed lead to /dev/null. A
 /// command line that cannot be read touches no file. `program` is read again once the command line is: `messages` may be an
 /// option.
 int run_program(const Program& program, int argc, char** argv, const std::function<void(CommandParser&)>& add_options,

@@ -31,8 +31,8 @@ private:
     Clock::time_point last_;
 };
 
-/// How far bodies have come to rest before a run, whose number of steps nobody knows: one line that rewrites itself on a terminal, otherwise
-/// a line of the log now and then.
+/// How far bodies have come to rest before a run, whose number of steps nobody knows: one line that rewrites itself on
+/// a terminal, otherwise a line of the log now and then.
 class SettlingLine {
 public:
     SettlingLine();

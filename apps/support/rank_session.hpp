@@ -14,18 +14,19 @@
 
 namespace abut::apps {
 
-/// The ranks that this program is one of, from the first call on; null where it runs alone. Of all but rank 0 nothing is seen:
-/// their standard output and standard error are closed.
+/// The ranks that this program is one of, from the first call on; null where it runs alone. Of all but rank 0 nothing
+/// is seen: their standard output and standard error are closed.
 [[nodiscard]] const ranks::Session* rank_session();
 /// To be called once, at the start of the program; the ranks end with what it returns. Null where it runs alone.
 [[nodiscard]] std::unique_ptr<ranks::Session> join_ranks();
 
-/// To be called by a rank that ends with this error, which rank 0 has told of. Where the others wait for this rank in vain it ends
-/// all of them, after 10 seconds or as many as ABUT_RANKS_PATIENCE says; a rank that nobody sees tells of it first.
+/// To be called by a rank that ends with this error, which rank 0 has told of. Where the others wait for this rank in
+/// vain it ends all of them, after 10 seconds or as many as ABUT_RANKS_PATIENCE says; a rank that nobody sees tells of
+/// it first.
 void leave_ranks(const std::string& error);
 
-/// Starts the program again where it runs alone and is to have `n_ranks` > 1. Throws BadInput where mpirun has started another
-/// number of them, or cannot be started, or Abut was built without MPI.
+/// Starts the program again where it runs alone and is to have `n_ranks` > 1. Throws BadInput where mpirun has started
+/// another number of them, or cannot be started, or Abut was built without MPI.
 void start_ranks(int n_ranks);
 /// Throws BadInput where there are several: `what` is done by one.
 void refuse_ranks(const char* what);
@@ -47,8 +48,8 @@ void on_all(const Body& body) {
 template <int Dim>
 class SceneShare {
 public:
-    /// A call of all ranks; nothing is made where the program runs alone. The mesh must outlive it. Throws BadInput on all where
-    /// their meshes differ, and as solid::part_of and ranks::PointRanks.
+    /// A call of all ranks; nothing is made where the program runs alone. The mesh must outlive it. Throws BadInput on
+    /// all where their meshes differ, and as solid::part_of and ranks::PointRanks.
     SceneShare(const mesh::Mesh<Dim>& mesh, std::vector<solid::Kinematics> kinematics);
     ~SceneShare();
     SceneShare(const SceneShare&) = delete;

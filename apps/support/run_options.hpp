@@ -12,8 +12,8 @@ class CommandParser;
 /// --ranks, --rebalance, --rebalance-above.
 void add_ranks_options(CommandParser& parser, run::RunOptions& options);
 
-/// Groups of options, from run::run_options; their defaults are the present values of `options`. With OptionDepth::expert those of
-/// the laboratory are left out, and --help-all alone shows more than the everyday ones.
+/// Groups of options, from run::run_options; their defaults are the present values of `options`. With
+/// OptionDepth::expert those of the laboratory are left out, and --help-all alone shows more than the everyday ones.
 /// `default_of_time` says in --help what the end of the run is by default.
 void add_time_options(CommandParser& parser, run::RunOptions& options, const std::string& default_of_time,
                       OptionDepth deepest = OptionDepth::laboratory);

@@ -54,8 +54,8 @@ struct Start {
     dynamics::LocalSteps local_steps;  ///< of memm_async
 };
 
-/// Calls body(integrator). The first step must be step(dt, StepChange::keep): an integrator that starts naively was made for a
-/// step of nearly nothing, so that both of its half-step momenta are p^0.
+/// Calls body(integrator). The first step must be step(dt, StepChange::keep): an integrator that starts naively was
+/// made for a step of nearly nothing, so that both of its half-step momenta are p^0.
 template <class S, class Body>
 void with_integrator(Scheme scheme, S& system, const Start& start, const SchemeOptions& options, const Body& body) {
     const double dt = options.naive_start ? 1e-100 * start.dt : start.dt;

@@ -7,9 +7,9 @@
 
 namespace abut::apps {
 
-/// While it lives, the first SIGINT (Ctrl-C), SIGTERM or SIGHUP (the terminal is gone) is noted, so that a run can end well; one
-/// that comes half a second later or more ends the process at once. A signal that whoever started the program ignores stays
-/// ignored. Afterwards all is as it was before.
+/// While it lives, the first SIGINT (Ctrl-C), SIGTERM or SIGHUP (the terminal is gone) is noted, so that a run can end
+/// well; one that comes half a second later or more ends the process at once. A signal that whoever started the program
+/// ignores stays ignored. Afterwards all is as it was before.
 class StopSignals {
 public:
     static constexpr std::size_t n_signals = 3;

@@ -7,8 +7,8 @@
 
 namespace abut::python {
 
-/// A number, or a text with a unit such as "210 GPa", in `unit`; empty: none. Throws py::cast_error for what is neither, BadInput for a unit
-/// of another dimension.
+/// A number, or a text with a unit such as "210 GPa", in `unit`; empty: none. Throws py::cast_error for what is
+/// neither, BadInput for a unit of another dimension.
 inline double number_in(const std::string& unit, const pybind11::handle& value) {
     if (!pybind11::isinstance<pybind11::str>(value)) return pybind11::cast<double>(value);
     const auto parts = value_with_unit(pybind11::cast<std::string>(value));

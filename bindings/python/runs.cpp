@@ -100,8 +100,8 @@ py::object simulate(const mesh::Mesh<Dim>& mesh, const std::vector<solid::Materi
     return run_scene<Dim>(scene, options_of(given), "python", look);
 }
 
-/// A scene in TOML with the options of Python above its own. Without `out` it writes nothing, whatever the scene says. `least_steps`: of
-/// one that does not say when it ends.
+/// A scene in TOML with the options of Python above its own. Without `out` it writes nothing, whatever the scene says.
+/// `least_steps`: of one that does not say when it ends.
 input::SceneFile scene_file(const SceneSource& source, const py::dict& given, int least_steps) {
     const input::Overrides overrides{.set = source.set,
                                      .options =

@@ -48,7 +48,8 @@ struct CompressionLimits {
 /// - `is_pressed_in`, `decide_first`: of a pair of the list, by its index;
 /// - `sees_from_outside`: whether a pair that was no contact, since it lay inside of its body, has come out at the end of a
 ///   step: the list does not have it; `seen_from_outside`, `set_seen_from_outside`: all that have come out; `lies_inside`;
-/// - `end_step`: the last step has happened; `saved_interference`, `set_interference`: what it remembers of overlaps at the start;
+/// - `end_step`: the last step has happened; `saved_interference`, `set_interference`: what it remembers of overlaps at
+///   the start;
 /// - `stored_energy`: what the memory of facets holds [J];
 /// - `clear`: a result without a step; `step`: admission and forces of a step, gives the number of pairs that are pressed in
 ///   without being contacts; `evaluate`: forces of one state.
@@ -147,8 +148,8 @@ public:
         return step_;
     }
 
-    /// By a list of its own, of which nothing is left but its result: a pair that is out of reach there must not lose what it
-    /// remembers.
+    /// By a list of its own, of which nothing is left but its result: a pair that is out of reach there must not lose
+    /// what it remembers.
     const Step& evaluate_elsewhere(const State& state) {
         const PairStore pairs = pairs_;
         const ContactReport report = report_;
@@ -197,9 +198,9 @@ public:
         drop_list();
     }
 
-    /// Goes on where another engine has stopped, with the law and the surface of this one. `old_of_new`: of each facet its number
-    /// there, -1 for one that was not there; for pairs of that one the run begins. Throws BadInput, and stays as it is, where
-    /// the laws remember other things.
+    /// Goes on where another engine has stopped, with the law and the surface of this one. `old_of_new`: of each facet
+    /// its number there, -1 for one that was not there; for pairs of that one the run begins. Throws BadInput, and
+    /// stays as it is, where the laws remember other things.
     void take_over(const Engine& before, std::span<const std::int32_t> old_of_new) {
         if (facets_.size() != before.facets_.size())
             throw BadInput(law_.name() + ": its facets remember " + std::to_string(facets_.size()) +

@@ -16,9 +16,9 @@
 
 namespace abut::contact {
 
-/// Friction beside the modified reconstruction, on faces that translate: a force between each two faces that press, across the
-/// normal of the pair, on their displacements without corrections. It is added to a step whose normal forces are there.
-/// docs/friction.md.
+/// Friction beside the modified reconstruction, on faces that translate: a force between each two faces that press,
+/// across the normal of the pair, on their displacements without corrections. It is added to a step whose normal forces
+/// are there. docs/friction.md.
 template <int Dim>
 class FaceFrictionLaw {
 public:

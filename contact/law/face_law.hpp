@@ -79,8 +79,9 @@ public:
 
 private:
     [[nodiscard]] bool is_pressed_in(const ContactPair<Dim>& pair, const Vector<Dim>& u_1, const Vector<Dim>& u_2) const;
-    /// Decides admission again. Where A min(g, 0) = 0 the flag of a pair may change without a change of the potential: there, and only there, it is
-    /// decided again. `u`: of the listed faces [m]. Returns how many pairs are pressed in without being contacts.
+    /// Decides admission again. Where A min(g, 0) = 0 the flag of a pair may change without a change of the potential:
+    /// there, and only there, it is decided again. `u`: of the listed faces [m]. Returns how many pairs are pressed in
+    /// without being contacts.
     std::int64_t update_admission(std::span<PairMemory> memory, std::span<const Vector<Dim>> u) const;
     /// All but friction; gives the pairs of the step.
     const ActivePairs<Dim>& apply(const FacePath<Dim>& path, std::span<const PairMemory> memory, ContactStep<Dim>& step);

@@ -19,7 +19,8 @@ namespace abut::contact {
 /// Sign with which one of the facets of a pair (0 or 1) sees its slip, that of facet 2 past facet 1.
 constexpr double sign_of(std::size_t side) { return side == 0 ? -1.0 : 1.0; }
 
-/// Normal force of a pair, mean over a step [N], its area in contact [m^(Dim-1)], and the part of the step in which it is active.
+/// Normal force of a pair, mean over a step [N], its area in contact [m^(Dim-1)], and the part of the step in which it
+/// is active.
 struct Pressing {
     double normal_force;
     double area;
@@ -35,8 +36,8 @@ struct FrictionPair {
     std::array<double, 2> weight{};            ///< FrictionHalf::weight of each; 0: it is rigid
 };
 
-/// Appends the halves of a pair that presses. `tangents_of(side)` gives the tangents of a facet in the plane of the pair, `motion`
-/// is that of facet 2 past facet 1 [m].
+/// Appends the halves of a pair that presses. `tangents_of(side)` gives the tangents of a facet in the plane of the
+/// pair, `motion` is that of facet 2 past facet 1 [m].
 template <int Dim, class Facets, class TangentsOf>
 void append_halves(const Facets& facets, const Friction& law, const Pressing& pressing, const Vector<Dim>& motion,
                    const TangentsOf& tangents_of, FrictionPair& pair, std::vector<FrictionHalf<Dim - 1>>& halves) {

@@ -25,8 +25,8 @@ Memory<N> memory_of(const StickState<N>& state) {
     return memory;
 }
 
-/// Nothing presses on the facet any more: what its spring holds is lost. The direction is kept, and the path: faces that vibrate
-/// open for a step or two.
+/// Nothing presses on the facet any more: what its spring holds is lost. The direction is kept, and the path: faces
+/// that vibrate open for a step or two.
 template <int N>
 double let_go(StickState<N>& state) {
     const double lost = state.energy();

@@ -44,8 +44,8 @@ template <int N>
 template <int N>
 class FrictionPass {
 public:
-    /// Fills the results of the halves, the next memory of facets, `figures`, and `of_facets`, one per facet, increasing, with
-    /// its index as face. Halves of one facet are joined in their order.
+    /// Fills the results of the halves, the next memory of facets, `figures`, and `of_facets`, one per facet,
+    /// increasing, with its index as face. Halves of one facet are joined in their order.
     void apply(double dt, TakenForce take, std::span<FrictionHalf<N>> halves, FacetStore& facets, FrictionFigures& figures,
                std::vector<FaceFriction>& of_facets);
 

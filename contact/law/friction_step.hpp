@@ -40,9 +40,10 @@ template <int N>
 }
 
 /// The mean force along a step in which the face moves by `motion` [m], for MEMM. The limit is that of the step [N];
-/// `creep` = dt/(2 relaxation time) [-], 0 without. Stretches are means of start and end, so that a slip which alternates from
-/// step to step has no force: a force that followed it at once would feed the alternating mode. A face that slides bears the limit
-/// of the step, the mean of both directions, unless that would take less from the motion than its spring gains. docs/friction.md.
+/// `creep` = dt/(2 relaxation time) [-], 0 without. Stretches are means of start and end, so that a slip which
+/// alternates from step to step has no force: a force that followed it at once would feed the alternating mode. A face
+/// that slides bears the limit of the step, the mean of both directions, unless that would take less from the motion
+/// than its spring gains. docs/friction.md.
 template <int N>
 [[nodiscard]] FrictionStep<N> take_mean_step(StickState<N>& state, const Along<N>& motion, double limit, double creep) {
     const double k = state.stiffness, largest = limit / k;
@@ -80,8 +81,8 @@ template <int N>
     return step;
 }
 
-/// The force at the end of a step, for schemes that take that. D, with the mean of the forces at both ends, may be below 0 by
-/// what the normal force changes.
+/// The force at the end of a step, for schemes that take that. D, with the mean of the forces at both ends, may be
+/// below 0 by what the normal force changes.
 template <int N>
 [[nodiscard]] FrictionStep<N> take_end_step(StickState<N>& state, const Along<N>& motion, double limit, double creep) {
     const double k = state.stiffness, largest = limit / k;

@@ -36,7 +36,8 @@ public:
              double area, double active_share);
     void apply(const NodalSurface<Dim>& surface, FacetStore& facets, NodalStep<Dim>& step);
 
-    /// A state: `begin` with it at both ends, `add`, then the forces of the springs as they are, which it adds to the normal forces.
+    /// A state: `begin` with it at both ends, `add`, then the forces of the springs as they are, which it adds to the
+    /// normal forces.
     void evaluate(const NodalSurface<Dim>& surface, const FacetStore& facets, NodalStep<Dim>& step);
 
 private:
@@ -44,8 +45,8 @@ private:
     using Half = FrictionHalf<n_tangents>;
     using Corners = geometry::PairCorners<Dim>;
 
-    /// Two facets that press and rub: their corners, where they press, their part in the friction of both, and the indices in the step
-    /// of all that its forces are added to.
+    /// Two facets that press and rub: their corners, where they press, their part in the friction of both, and the
+    /// indices in the step of all that its forces are added to.
     struct Pair {
         std::array<std::int32_t, 2 * Dim> node;
         std::array<std::int32_t, 2 * Dim> listed;

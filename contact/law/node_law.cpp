@@ -14,8 +14,8 @@
 namespace abut::contact {
 namespace {
 
-/// A list of a body that touches itself ends where its corners have moved by this share of the mean width of its facets, by which
-/// a facet of that width turns by 0.15 rad.
+/// A list of a body that touches itself ends where its corners have moved by this share of the mean width of its
+/// facets, by which a facet of that width turns by 0.15 rad.
 constexpr double share_of_width = 0.065;
 /// Two facets of one body that may turn by more than this in all are judged by their distance alone [rad].
 constexpr double most_turn = 0.6;
@@ -118,16 +118,17 @@ void NodeLaw<Dim>::place_facets(State x) {
         1024);
 }
 
-/// A facet whose corners move by at most r stays at least as wide as its width - 2 r, and its corners differ by at most 2 r in height.
+/// A facet whose corners move by at most r stays at least as wide as its width - 2 r, and its corners differ by at most
+/// 2 r in height.
 template <int Dim>
 void NodeLaw<Dim>::bound_turns(double reach) {
     for (PlacedFacet& facet : placed_)
         facet.turn = facet.width > 2.0 * reach ? std::atan(2.0 * reach / (facet.width - 2.0 * reach)) : most_turn;
 }
 
-/// Of two facets of one body, when no corner moves by more than `reach`. Those that look too much the same way, and those that are
-/// far above, behind or beside each other seen along n, come together after the next search at the earliest, however they turn by then.
-/// What has a mark comes out only if it is shallow.
+/// Of two facets of one body, when no corner moves by more than `reach`. Those that look too much the same way, and
+/// those that are far above, behind or beside each other seen along n, come together after the next search at the
+/// earliest, however they turn by then. What has a mark comes out only if it is shallow.
 template <int Dim>
 bool NodeLaw<Dim>::may_come_together(FacetPair pair, double reach) const {
     const PlacedFacet& facet_1 = placed_[static_cast<std::size_t>(pair.facet_1)];

@@ -16,8 +16,8 @@ namespace abut::contact {
 template <int Dim>
 void clear_step(const NodalPairs<Dim>& listed, NodalStep<Dim>& step);
 
-/// The law of contact on nodes: every pair by itself, docs/method.md, The potential of a pair; then friction between those that
-/// press.
+/// The law of contact on nodes: every pair by itself, docs/method.md, The potential of a pair; then friction between
+/// those that press.
 template <int Dim>
 class PairPotential {
 public:

@@ -19,8 +19,8 @@ enum class Cuts {
 /// straight step, exactly: each pair force is cut where the formula of any pair coupled to it changes. docs/method.md,
 /// Contact and Time.
 ///
-/// An instance keeps its work arrays from step to step; after a few steps it allocates nothing. Parts that share contact find
-/// the gradients of as many active pairs each, and all of them all sums by face.
+/// An instance keeps its work arrays from step to step; after a few steps it allocates nothing. Parts that share
+/// contact find the gradients of as many active pairs each, and all of them all sums by face.
 template <int Dim>
 class Reconstruction {
 public:

@@ -6,8 +6,8 @@
 
 namespace abut::contact {
 
-/// Measures of the active pairs of a step, whatever the law that acts between them: everything of a PairStep that is geometry,
-/// and the figures of the step as a whole. An instance keeps its work arrays.
+/// Measures of the active pairs of a step, whatever the law that acts between them: everything of a PairStep that is
+/// geometry, and the figures of the step as a whole. An instance keeps its work arrays.
 template <int Dim>
 class PathMeasures {
 public:

@@ -6,8 +6,8 @@
 namespace abut::geometry {
 namespace {
 
-/// Solid angle of a triangle whose corners lie at a, b and c from the point [sr]; above 0 on its inner side (van Oosterom and
-/// Strackee 1983).
+/// Solid angle of a triangle whose corners lie at a, b and c from the point [sr]; above 0 on its inner side (van
+/// Oosterom and Strackee 1983).
 double solid_angle(const Vector<3>& a, const Vector<3>& b, const Vector<3>& c) {
     const double la = a.norm(), lb = b.norm(), lc = c.norm();
     const double around = la * lb * lc + a.dot(b) * lc + a.dot(c) * lb + b.dot(c) * la;

@@ -309,8 +309,8 @@ DecisionCounts& DecisionCounts::operator+=(const DecisionCounts& other) {
     return *this;
 }
 
-// Most candidates share nothing, and most of these are told by one line. The others are moved together, those to be looked at
-// closely after the clear ones.
+// Most candidates share nothing, and most of these are told by one line. The others are moved together, those to be
+// looked at closely after the clear ones.
 AreaBatch overlap_areas(const TriangleBatch& triangles, int n) {
     Columns columns;
     for (int first = 0; first < n; first += lane_count) sort_out(triangles, first, columns);

@@ -24,13 +24,13 @@ struct AreaBatch {
     std::uint64_t undecided = 0;  ///< bit k: doubles cannot answer for pair k, whose numbers above mean nothing
 };
 
-/// A_12 and dA/ds of `overlap_area` for the first n columns, as far as doubles decide them for sure. Where a corner is within 8e-12
-/// of the extent of the pair of the line of an edge, its side is found from the end of the edge that is nearer, if need be
-/// with twice the digits: corners that coincide except for rounding, and most that lie on edges except for rounding, are
-/// decided here. Not decided are pairs whose coordinates were rounded before (`rounded_shift`) and that have such a corner,
-/// thin, tiny or huge faces, and corners nearer to a line than 1e-31 that neither have the place of an end of the edge nor
-/// are above or beside it along an axis. The answer for a pair does not depend on its column or on the others.
-/// Columns that fill up the last register must hold numbers, too.
+/// A_12 and dA/ds of `overlap_area` for the first n columns, as far as doubles decide them for sure. Where a corner is
+/// within 8e-12 of the extent of the pair of the line of an edge, its side is found from the end of the edge that is
+/// nearer, if need be with twice the digits: corners that coincide except for rounding, and most that lie on edges
+/// except for rounding, are decided here. Not decided are pairs whose coordinates were rounded before (`rounded_shift`)
+/// and that have such a corner, thin, tiny or huge faces, and corners nearer to a line than 1e-31 that neither have the
+/// place of an end of the edge nor are above or beside it along an axis. The answer for a pair does not depend on its
+/// column or on the others. Columns that fill up the last register must hold numbers, too.
 [[nodiscard]] AreaBatch overlap_areas(const TriangleBatch& triangles, int n);
 
 /// `overlap_area` of one pair by the method `fast`, for what the batch leaves undecided. Adds the pair to `counts`.

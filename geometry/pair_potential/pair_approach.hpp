@@ -10,8 +10,8 @@ namespace abut::geometry {
 struct OutlinePart {
     int corner = -1;  ///< of the face; -1: between two corners
     int edge = -1;    ///< 3D, where it is no corner: the edge from this corner to the next one
-    /// 3D, of a corner: how far the direction to the other face is turned, in the plane normal to n, out of the face past the
-    /// edge to the next corner, and past that to the previous one [rad]; 0 both: it does not leave the face
+    /// 3D, of a corner: how far the direction to the other face is turned, in the plane normal to n, out of the face
+    /// past the edge to the next corner, and past that to the previous one [rad]; 0 both: it does not leave the face
     double past_next = 0.0;
     double past_previous = 0.0;
 };

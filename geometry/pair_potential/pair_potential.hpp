@@ -11,9 +11,9 @@ namespace abut::geometry {
 template <int Dim>
 using PairCorners = std::array<Vector<Dim>, 2 * Dim>;
 
-/// Normal force of a pair by corner, chi int k |g| N_v dA with the linear shape function N_v of a corner on its face [N], >= 0.
-/// The corners of one face together have the whole normal force, and so have those of the other; the point of face i at which
-/// the pair presses is the mean of its corners with these weights.
+/// Normal force of a pair by corner, chi int k |g| N_v dA with the linear shape function N_v of a corner on its face
+/// [N], >= 0. The corners of one face together have the whole normal force, and so have those of the other; the point
+/// of face i at which the pair presses is the mean of its corners with these weights.
 template <int Dim>
 using PairPressure = std::array<double, 2 * Dim>;
 
@@ -28,8 +28,9 @@ struct FacingFade {
 ///
 ///     W = chi(n_1 . n_2) k/2 int_P min(g, 0)^2 dA,
 ///
-/// over the overlap P of the faces, seen along n = (n_1 - n_2)/|n_1 - n_2|; g is the height of face 2 over face 1 along n, and
-/// `offset` more. W does not change when the pair moves or turns as a whole. docs/method.md, The potential of a pair.
+/// over the overlap P of the faces, seen along n = (n_1 - n_2)/|n_1 - n_2|; g is the height of face 2 over face 1 along
+/// n, and `offset` more. W does not change when the pair moves or turns as a whole. docs/method.md, The potential of a
+/// pair.
 template <int Dim>
 struct PairLaw {
     double stiffness;                    ///< k [Pa/m]

@@ -9,8 +9,9 @@ namespace {
 /// A face is continued to a point that is so many of its least heights from where it presses, where that can be.
 constexpr double continued_at_most = 0.25;
 
-/// x_c between the points where both faces press: half way where neither face is continued farther than is `allowed` [m], else
-/// nearer to the one that is a needle. Where both are, each is continued by as many of its heights as the other one.
+/// x_c between the points where both faces press: half way where neither face is continued farther than is `allowed`
+/// [m], else nearer to the one that is a needle. Where both are, each is continued by as many of its heights as the
+/// other one.
 template <int Dim>
 Vector<Dim> common_point(const std::array<Vector<Dim>, 2>& pressed, double distance, const std::array<double, 2>& allowed) {
     if (0.5 * distance <= std::min(allowed[0], allowed[1])) return 0.5 * (pressed[0] + pressed[1]);

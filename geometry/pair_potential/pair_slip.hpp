@@ -10,14 +10,15 @@ namespace abut::geometry {
 /// How the faces of a pair move past each other along a step, and what a force between them does to their corners.
 /// docs/friction.md.
 ///
-/// One material point of each face is followed: that which lies at the common point x_c, half way between the points at which
-/// the faces press. Where a face would have to be continued by more than a quarter of its least height, x_c is nearer to that
-/// face. The motion is a linear function of those of the corners, with coefficients of the mid positions X = (x_0 + x_1)/2. A
-/// motion dx = V + omega x X of both faces together moves both points alike: the slip of a rotation of any angle is zero. Forces
-/// are the transpose of that function: they have no sum, no moment about X, and do the work force . motion().
+/// One material point of each face is followed: that which lies at the common point x_c, half way between the points at
+/// which the faces press. Where a face would have to be continued by more than a quarter of its least height, x_c is
+/// nearer to that face. The motion is a linear function of those of the corners, with coefficients of the mid positions
+/// X = (x_0 + x_1)/2. A motion dx = V + omega x X of both faces together moves both points alike: the slip of a
+/// rotation of any angle is zero. Forces are the transpose of that function: they have no sum, no moment about X, and
+/// do the work force . motion().
 ///
-/// No pair slips by more than its corners move past each other. Needles that are pressed in deeper than they are wide would: the
-/// function is then scaled down, and its forces with it (`is_clipped`).
+/// No pair slips by more than its corners move past each other. Needles that are pressed in deeper than they are wide
+/// would: the function is then scaled down, and its forces with it (`is_clipped`).
 template <int Dim>
 class PairSlip {
 public:
@@ -28,8 +29,8 @@ public:
     [[nodiscard]] const Vector<Dim>& normal() const { return normal_; }  ///< n at X, from face 1 to face 2
     /// Motion of the point of face 2 less that of the point of face 1 [m].
     [[nodiscard]] const Vector<Dim>& motion() const { return motion_; }
-    /// Tangents of the plane across n that turn with a face (0 or 1): its own, turned by the shortest rotation that takes its
-    /// normal to n or -n.
+    /// Tangents of the plane across n that turn with a face (0 or 1): its own, turned by the shortest rotation that
+    /// takes its normal to n or -n.
     [[nodiscard]] Tangents<Dim> tangents(int face) const;
     /// Whether motion and forces are scaled down.
     [[nodiscard]] bool is_clipped() const { return scale_ < 1.0; }

@@ -34,7 +34,8 @@ private:
     std::filesystem::path path_, temporary_;
 };
 
-/// A file of these bytes, one part behind the other. Throws MeshError naming the path and the reason if they cannot be written.
+/// A file of these bytes, one part behind the other. Throws MeshError naming the path and the reason if they cannot be
+/// written.
 [[nodiscard]] PreparedFile prepared_file(const std::filesystem::path& path, std::span<const std::string_view> parts);
 [[nodiscard]] PreparedFile prepared_text(const std::filesystem::path& path, std::string_view text);
 

@@ -34,7 +34,8 @@ struct GmshFunctions {
     void (*add_nodes)(int dimension, int entity, const std::vector<std::size_t>& tags,
                       const std::vector<double>& coordinates);
     void (*add_elements)(int entity, int type, const std::vector<std::size_t>& nodes);
-    /// Cuts the discrete surfaces into patches at edges sharper than `angle` [rad]; create_geometry gives each patch parameters
+    /// Cuts the discrete surfaces into patches at edges sharper than `angle` [rad]; create_geometry gives each patch
+    /// parameters
     void (*classify_surfaces)(double angle);
     void (*create_geometry)();
     void (*add_surface_loop)(const std::vector<int>& surfaces, int tag);

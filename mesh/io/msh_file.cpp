@@ -138,8 +138,9 @@ private:
         return n;
     }
 
-    /// Points, curves, surfaces, volumes: a tag, the box around it (of a point: where it is), the tags of its physical groups
-    /// and those of its boundary (a point has none). A partitioned one has its parent and its parts before the box.
+    /// Points, curves, surfaces, volumes: a tag, the box around it (of a point: where it is), the tags of its physical
+    /// groups and those of its boundary (a point has none). A partitioned one has its parent and its parts before the
+    /// box.
     void read_entities(bool are_parts) {
         if (values_.is_binary()) (void)values_.rest_of_line();
         if (are_parts) {

@@ -18,8 +18,8 @@ struct PointFrame {
     std::vector<NamedNumber> numbers{};
 };
 
-/// Points, or faces between them, that come and go, as files for ParaView: frames/BASENAME_000000.vtp, ... BASENAME.pvd lists them
-/// with their times.
+/// Points, or faces between them, that come and go, as files for ParaView: frames/BASENAME_000000.vtp, ... BASENAME.pvd
+/// lists them with their times.
 /// Written as by VtuSeries: 2D vectors get a third component 0, a run that breaks off leaves a readable series.
 template <int Dim>
 class PointSeries {

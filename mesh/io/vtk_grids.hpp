@@ -26,8 +26,8 @@ template <int Dim>
 template <int Dim>
 [[nodiscard]] OutputGrid grid_of_surface(const Mesh<Dim>& mesh, std::span<const std::int32_t> boundary,
                                          std::span<const std::int32_t> vertices);
-/// All cells, and behind them the boundary faces that are in groups as cells of one dimension less, with a cell array for each
-/// group of the mesh.
+/// All cells, and behind them the boundary faces that are in groups as cells of one dimension less, with a cell array
+/// for each group of the mesh.
 template <int Dim>
 [[nodiscard]] OutputGrid grid_with_groups(const Mesh<Dim>& mesh);
 

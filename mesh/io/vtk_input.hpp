@@ -41,8 +41,8 @@ enum VtkCell : std::uint8_t {
     vtk_biquadratic_triangle = 34
 };
 
-/// The array that says which faces are in a group, and the number of a body in the array "body", are called so, with the name of
-/// the group or body behind it.
+/// The array that says which faces are in a group, and the number of a body in the array "body", are called so, with
+/// the name of the group or body behind it.
 inline constexpr const char* group_prefix = "group: ";
 inline constexpr const char* body_prefix = "body: ";
 
@@ -68,12 +68,12 @@ struct VtkGrid {
 
 enum class VtkKind { unstructured_grid, poly_data };
 
-/// Reads ascii, binary and appended arrays (base64 and raw), compressed by zlib or not, in either order of bytes, with headers
-/// of 32 and 64 bits, of all types of numbers. Of arrays of several time steps the first is taken.
+/// Reads ascii, binary and appended arrays (base64 and raw), compressed by zlib or not, in either order of bytes, with
+/// headers of 32 and 64 bits, of all types of numbers. Of arrays of several time steps the first is taken.
 ///
-/// Memory is taken for what a file holds, not for what it promises. Numbers of points, cells, components and bytes are weighed
-/// against the size of the file first: a value takes 2 bytes as text and those of its type in binary, and zlib shrinks that by
-/// 1,032 at most.
+/// Memory is taken for what a file holds, not for what it promises. Numbers of points, cells, components and bytes are
+/// weighed against the size of the file first: a value takes 2 bytes as text and those of its type in binary, and zlib
+/// shrinks that by 1,032 at most.
 ///
 /// Throws MeshError naming the path, with the line where there is one: missing, empty, truncated, of another kind, damaged,
 /// compressed by another method, more than 2^31 - 1 points.
@@ -82,8 +82,8 @@ enum class VtkKind { unstructured_grid, poly_data };
 /// Value of the array "body" in each cell; empty without that array. Throws MeshError for a value that is no whole number.
 [[nodiscard]] std::vector<std::int64_t> body_values(const std::string& name, const VtkGrid& grid);
 
-/// Replaces values of the array "body" by indices into the names that are returned, in increasing order of the values: "ball" where
-/// the file has that value as its number "body: ball", else "body_<value>".
+/// Replaces values of the array "body" by indices into the names that are returned, in increasing order of the values:
+/// "ball" where the file has that value as its number "body: ball", else "body_<value>".
 [[nodiscard]] std::vector<std::string> names_of_bodies(std::vector<std::int64_t>& values, const VtkGrid& grid);
 
 /// The cells of dimension Dim; errors and the rest as told of `read_vtu`.

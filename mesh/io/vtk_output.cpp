@@ -23,8 +23,8 @@ std::string field_tag(const char* type, const std::string& name, const std::stri
            "\" NumberOfTuples=\"1\" format=\"ascii\">" + value + "</DataArray>\n";
 }
 
-/// Puts tags one behind the other, and their data in reverse: meshio 5 rewrites offsets as it goes through the data and looks each
-/// array up by its offset, which then is that of no array before it.
+/// Puts tags one behind the other, and their data in reverse: meshio 5 rewrites offsets as it goes through the data and
+/// looks each array up by its offset, which then is that of no array before it.
 class Document {
 public:
     Document(const OutputGrid& grid, const std::string& field_data) : text_(vtk_head(grid.type)) {

@@ -109,7 +109,8 @@ void add_fields(std::vector<OutputArray>& data, std::span<const Field<Dim>> fiel
         std::visit([&](const auto& values) { add_field(data, field.name, values, wanted, of_what, writer); }, field.values);
 }
 
-/// A file of this grid with more arrays and tags of field data behind its own. Throws MeshError naming the path and the reason.
+/// A file of this grid with more arrays and tags of field data behind its own. Throws MeshError naming the path and the
+/// reason.
 [[nodiscard]] PreparedFile prepared_grid(const OutputGrid& grid, const std::filesystem::path& path,
                                          const std::string& more_field_data = "",
                                          std::span<const OutputArray> more_point_data = {},

@@ -25,9 +25,9 @@ struct PieceFrame {
     std::vector<Field<Dim>> boundary_fields{};         ///< each of n_faces
 };
 
-/// A series for ParaView, written in pieces: as VtuSeries, but a frame is frames/BASENAME_000000.pvtu, which names the files of its
-/// pieces BASENAME_000000_0.vtu, ..., and so is that of the surfaces (.pvtp, .vtp). Cells have a cell array more, "cell", their
-/// number in the mesh; boundary faces have "face", their index in Mesh::boundary_faces.
+/// A series for ParaView, written in pieces: as VtuSeries, but a frame is frames/BASENAME_000000.pvtu, which names the
+/// files of its pieces BASENAME_000000_0.vtu, ..., and so is that of the surfaces (.pvtp, .vtp). Cells have a cell
+/// array more, "cell", their number in the mesh; boundary faces have "face", their index in Mesh::boundary_faces.
 ///
 /// Each rank writes its piece by `write_piece`; when all have, one of them calls `publish`.
 class PieceSeries {
@@ -35,8 +35,8 @@ public:
     /// Makes the folder if needed. Throws MeshError if that fails.
     PieceSeries(std::filesystem::path directory, std::string basename);
 
-    /// The next frame has this many pieces of `mesh`, which are there, with the arrays of this one. Throws MeshError if a file cannot be
-    /// written.
+    /// The next frame has this many pieces of `mesh`, which are there, with the arrays of this one. Throws MeshError if
+    /// a file cannot be written.
     template <int Dim>
     void publish(int n_pieces, const Mesh<Dim>& mesh, const PieceFrame<Dim>& frame);
     [[nodiscard]] std::size_t n_frames() const { return times_.size(); }

@@ -32,7 +32,8 @@ template <int Dim>
 struct Frame {
     double time = 0.0;                            ///< [s]
     std::span<const Vector<Dim>> displacement{};  ///< u_c [m], (n_cells, Dim), or empty
-    /// Displacement of the vertices [m], (n_vertices, Dim), or empty: of a host that has them, in place of means over the cells around
+    /// Displacement of the vertices [m], (n_vertices, Dim), or empty: of a host that has them, in place of means over
+    /// the cells around
     std::span<const Vector<Dim>> vertex_displacement{};
     std::vector<Field<Dim>> cell_fields{};      ///< each of n_cells
     std::vector<Field<Dim>> boundary_fields{};  ///< each of boundary_faces.size(), in that order
@@ -42,14 +43,15 @@ struct Frame {
 inline constexpr const char* frames_folder = "frames";
 
 /// The mesh in motion, as files for ParaView: frames/BASENAME_000000.vtu, ... with the cells and
-/// frames/BASENAME_surface_000000.vtp, ... with the boundary faces. BASENAME.pvd and BASENAME_surface.pvd list them with their
-/// times: open these two.
+/// frames/BASENAME_surface_000000.vtp, ... with the boundary faces. BASENAME.pvd and BASENAME_surface.pvd list them
+/// with their times: open these two.
 ///
-/// Both carry the cell array "body", the number "body: <name>" of each body and the time, "TimeValue"; boundary faces an array
-/// "group: <name>" for each group of the mesh, 1 on its faces and 0 elsewhere. The displacement is written on cells and on points, where the filter Warp By Vector
-/// takes it: that of the vertices if the frame has it, else the mean over the cells around each. 2D vectors get a third
-/// component 0, tensors six components (xx, yy, zz, xy, yz, xz). Data are binary and compressed. Every file is written under
-/// another name and then moved, the lists last: a run that breaks off leaves a readable series.
+/// Both carry the cell array "body", the number "body: <name>" of each body and the time, "TimeValue"; boundary faces
+/// an array "group: <name>" for each group of the mesh, 1 on its faces and 0 elsewhere. The displacement is written on
+/// cells and on points, where the filter Warp By Vector takes it: that of the vertices if the frame has it, else the
+/// mean over the cells around each. 2D vectors get a third component 0, tensors six components (xx, yy, zz, xy, yz,
+/// xz). Data are binary and compressed. Every file is written under another name and then moved, the lists last: a run
+/// that breaks off leaves a readable series.
 template <int Dim>
 class VtuSeries {
 public:
@@ -82,14 +84,15 @@ struct FieldTuples {
 template <int Dim>
 [[nodiscard]] FieldTuples field_tuples(const FieldValues<Dim>& values);
 
-/// The mean over the cells around each vertex, of which each needs one. Bodies share no vertex, so nothing mixes between them.
+/// The mean over the cells around each vertex, of which each needs one. Bodies share no vertex, so nothing mixes
+/// between them.
 template <int Dim>
 [[nodiscard]] std::vector<Vector<Dim>> vertex_means(std::span<const Vector<Dim>> of_cells, const Rows& cell_vertices,
                                                     std::size_t n_vertices);
 
-/// The mesh alone in one .vtu file: its cells with the array "body", behind them the boundary faces that are in groups, and an
-/// array "group: <name>" for each group, 1 on its faces and 0 elsewhere, so that read_mesh gives the groups back. Throws
-/// MeshError if it cannot be written.
+/// The mesh alone in one .vtu file: its cells with the array "body", behind them the boundary faces that are in groups,
+/// and an array "group: <name>" for each group, 1 on its faces and 0 elsewhere, so that read_mesh gives the groups
+/// back. Throws MeshError if it cannot be written.
 template <int Dim>
 void write_vtu(const Mesh<Dim>& mesh, const std::filesystem::path& path);
 

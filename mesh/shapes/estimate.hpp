@@ -6,8 +6,8 @@
 
 namespace abut::mesh {
 
-/// Throws MeshError if a shape would get more cells than it may: MeshOptions::most_cells, or `usual` where that is unset. To be
-/// called before anything is made. `cells` is the estimate, `remedy` what to change: "Raise size".
+/// Throws MeshError if a shape would get more cells than it may: MeshOptions::most_cells, or `usual` where that is
+/// unset. To be called before anything is made. `cells` is the estimate, `remedy` what to change: "Raise size".
 void check_estimate(const std::string& name, double cells, double usual, const MeshOptions& options,
                     const std::string& remedy);
 

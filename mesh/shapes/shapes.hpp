@@ -9,9 +9,9 @@
 /// program must not have Gmsh open itself (gmsh::initialize) during a call, which would end that session. The same options
 /// give the same bits up to about 400,000 tetrahedra per part. Larger parts are meshed by Gmsh's HXT, which is fast but
 /// gives another mesh of the same size every time: save such a mesh where results must be repeatable. All throw MeshError
-/// when a length or count is not positive, a coordinate not finite, or when Gmsh fails; and, before anything is made, when the
-/// number of cells by its estimate is beyond MeshOptions::most_cells. Unless that is set, what Gmsh meshes may have
-/// `most_meshed_cells`, which take minutes, and what is made without it `most_structured_cells`.
+/// when a length or count is not positive, a coordinate not finite, or when Gmsh fails; and, before anything is made,
+/// when the number of cells by its estimate is beyond MeshOptions::most_cells. Unless that is set, what Gmsh meshes may
+/// have `most_meshed_cells`, which take minutes, and what is made without it `most_structured_cells`.
 ///
 /// `variant` makes equal parts differ in their meshes, so that two of them in contact do not match node by node by accident:
 /// disc, cylinder and sphere are turned by `variant` golden angles (about z; the sphere about a skew axis); the wanted edge

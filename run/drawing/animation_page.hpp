@@ -4,9 +4,10 @@
 
 namespace abut::run {
 
-/// The page of an animation, which asks for nothing, and draws with WebGL 2: `animation_head`, `animation_script` and `animation_body`,
-/// from the style sheet to the first frame. Below them stand a script element of id "common" and one of class "frame" for each frame,
-/// as Animation writes them. A page without its end is drawn, too, as far as its frames are whole.
+/// The page of an animation, which asks for nothing, and draws with WebGL 2: `animation_head`, `animation_script` and
+/// `animation_body`, from the style sheet to the first frame. Below them stand a script element of id "common" and one
+/// of class "frame" for each frame, as Animation writes them. A page without its end is drawn, too, as far as its
+/// frames are whole.
 inline constexpr std::string_view animation_head = R"html(
 <meta charset="utf-8">
 <meta name="viewport" content="width=device-width">

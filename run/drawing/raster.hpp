@@ -22,8 +22,9 @@ public:
     Raster(int width, int height);
 
     /// A convex polygon, or one that its first corner sees all of. Points within `line[i]` of the edge from corner i to the
-    /// next have the colour `of_line[i]`, or where there is none are darker [points]; empty: no lines. Of polygons as near the one drawn first is seen.
-    /// One with a corner that is not finite is left out, and so is what lies outside the image.
+    /// next have the colour `of_line[i]`, or where there is none are darker [points]; empty: no lines. Of polygons as
+    /// near the one drawn first is seen. One with a corner that is not finite is left out, and so is what lies outside
+    /// the image.
     void fill(std::span<const Corner> corners, const Colour& colour, std::span<const double> line = {},
               std::span<const Colour> of_line = {});
 

@@ -5,7 +5,8 @@
 namespace abut::run {
 namespace {
 
-// The light colours of the report, which not every reader of SVG would take from variables. No character of it is escaped in XML.
+// The light colours of the report, which not every reader of SVG would take from variables. No character of it is
+// escaped in XML.
 constexpr const char* file_style =
     "text { font-family: sans-serif; font-size: 12px; fill: #1b1b1a; } .heading { font-size: 14px; } "
     ".grid { stroke: #dcdbd6; stroke-width: 1; } .axis { stroke: #1b1b1a; stroke-width: 1; } "

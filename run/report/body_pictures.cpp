@@ -262,8 +262,8 @@ Projection projection_of(const BodySheet& sheet) {
             sheet.scale()};
 }
 
-/// From the middle of some corners towards the lowest one in the picture, where it is less often hidden by bodies: as far as a
-/// name has room.
+/// From the middle of some corners towards the lowest one in the picture, where it is less often hidden by bodies: as
+/// far as a name has room.
 Position before_bodies(const BodySheet& sheet, const std::vector<Position>& corners, const Position& middle) {
     const auto height = [&](const Position& x) { return on_page(sheet, x).y; };
     const Position& lowest = *std::ranges::max_element(corners, {}, height);

@@ -31,8 +31,8 @@ struct BodyBox {
 
 [[nodiscard]] BodyBox box_of(const std::vector<Snapshot::Position>& positions);
 
-/// Properties that all pictures of a run share: where a position lies on the sheet, and where the colours end. All constants are
-/// in units of the drawing.
+/// Properties that all pictures of a run share: where a position lies on the sheet, and where the colours end. All
+/// constants are in units of the drawing.
 class BodySheet {
 public:
     static constexpr double width = 480.0, image_left = 8.0, image_right = 384.0, image_top = 26.0;

@@ -17,8 +17,8 @@ struct Projection {
     double per_metre;  ///< units of the drawing
 };
 
-/// Arrows that press on their faces or pull at them, as long as they are large beside `largest` [Pa]. Those on faces that are not
-/// seen, and such as are near 0, are left out.
+/// Arrows that press on their faces or pull at them, as long as they are large beside `largest` [Pa]. Those on faces
+/// that are not seen, and such as are near 0, are left out.
 [[nodiscard]] Markup drawn_loads(std::span<const PictureMarks::Load> loads, double largest, const Projection& projection);
 /// A spring as a zigzag, a hinge as a ring.
 [[nodiscard]] Markup drawn_spring(const std::array<std::array<double, 3>, 2>& ends, const Projection& projection);

@@ -21,10 +21,10 @@
 namespace abut::run {
 
 /// All files of a run in one folder, RunOptions::out: energy.csv, the VTU series, animation.html, probes.csv and forces.csv
-/// (where options and Scene::outputs ask for them) as it goes, then energy.svg, the script for ParaView, report.html and summary.json;
-/// in `checkpoints`, what a run that is stopped goes on from; of a run that fails its last sound state, where it failed
-/// (write_failure), and pictures of the bodies until then. The folder is its own (FolderLock) until `finish`, or until it
-/// goes.
+/// (where options and Scene::outputs ask for them) as it goes, then energy.svg, the script for ParaView, report.html
+/// and summary.json; in `checkpoints`, what a run that is stopped goes on from; of a run that fails its last sound
+/// state, where it failed (write_failure), and pictures of the bodies until then. The folder is its own (FolderLock)
+/// until `finish`, or until it goes.
 ///
 ///     run::RunOptions options{.out = "out/mine"};
 ///     run::ResultFiles<2> files(options, "mine", "bodies");

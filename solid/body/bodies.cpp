@@ -37,8 +37,9 @@ public:
         if (is_new) sides_.push_back({normal, 0.0});
         sides_[place->second].area += area;
     }
-    /// The largest area that the body shows to a plane on which one of its faces lies [m^(Dim-1)]: a body that is turned shows what
-    /// it did. Of bodies that are rounder than the number of directions tells the largest faces stand for the others.
+    /// The largest area that the body shows to a plane on which one of its faces lies [m^(Dim-1)]: a body that is
+    /// turned shows what it did. Of bodies that are rounder than the number of directions tells the largest faces stand
+    /// for the others.
     [[nodiscard]] double largest_silhouette() const {
         constexpr std::size_t most_directions = 2000;
         double least_area = 0.0;
@@ -288,8 +289,8 @@ std::vector<Vector<Dim>> Bodies<Dim>::rigid_forces() const {
     return forces;
 }
 
-/// The skin of one side as a spring: k of its stiffest face over the largest area that lies on a plane; a corner has at most 4 times the
-/// inverse mass of the whole.
+/// The skin of one side as a spring: k of its stiffest face over the largest area that lies on a plane; a corner has at
+/// most 4 times the inverse mass of the whole.
 template <int Dim>
 std::vector<double> Bodies<Dim>::rigid_stiffness() const {
     std::vector<double> stiffness(rest_.size(), 0.0);

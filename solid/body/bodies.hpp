@@ -30,13 +30,13 @@ public:
     Bodies(const mesh::Mesh<Dim>& mesh, const SolidOptions<Dim>& options, std::vector<TractionHold> holds);
 
     /// From now on the masses of cells of floating bodies are where these have their moments of inertia (CellPoints), which
-    /// `deformable` takes as their centroids; to be called before anything is made of it. `part`: of these bodies; a call of all
-    /// ranks.
+    /// `deformable` takes as their centroids; to be called before anything is made of it. `part`: of these bodies; a
+    /// call of all ranks.
     void place_cell_points(const RankPart<Dim>& part);
     /// Who brings ranks together from then on, in what is said to be a call of all; to be called before any of that.
     void take_part(const RankPart<Dim>& part) { rank_part_ = &part; }
-    /// Takes the places of bonds and the boundary faces of `deformable` that they join; to be called before anything is made of
-    /// `deformable`.
+    /// Takes the places of bonds and the boundary faces of `deformable` that they join; to be called before anything is
+    /// made of `deformable`.
     void take_bonds(std::vector<BondPlace<Dim>> places, std::vector<BondCoverage> coverage,
                     std::span<const BoundaryFace> joined);
     /// BoundaryConditions::thick_cells of `deformable`, increasing; the same.
@@ -78,7 +78,8 @@ public:
     [[nodiscard]] std::span<const double> inverse_masses() const { return inverse_masses_; }  ///< of degrees of freedom
     [[nodiscard]] std::span<const std::int32_t> body_of_points() const { return body_; }      ///< in the mesh
 
-    /// Frames of the bodies that deform; `part` as BodyFrames takes it. Throws BadInput for one that has no width to turn about.
+    /// Frames of the bodies that deform; `part` as BodyFrames takes it. Throws BadInput for one that has no width to
+    /// turn about.
     [[nodiscard]] BodyFrames<Dim> frames(const RankPart<Dim>& part) const;
 
     // At the centroids of the cells of the whole mesh, whose points may be beside them: floating bodies are taken as moving

@@ -57,7 +57,8 @@ public:
     [[nodiscard]] const Matrix<Dim>& mean_turn() const { return mean_turn_; }
     /// Q_p: forces on points of the body, in space, act in the frame by Q_p^T.
     [[nodiscard]] const Matrix<Dim>& force_turn() const { return force_turn_; }
-    /// omega: Delta Q = hat(omega) Q_b, the rotation vector of the step [rad], of large ones the tangent of half the angle twice.
+    /// omega: Delta Q = hat(omega) Q_b, the rotation vector of the step [rad], of large ones the tangent of half the
+    /// angle twice.
     [[nodiscard]] const AxialVector<Dim>& turned() const { return turned_; }
     /// lambda: a moment T that is missing in space is made up by the gradient m Q_b (lambda × X') of each point [1/s^2].
     [[nodiscard]] AxialVector<Dim> carry(const AxialVector<Dim>& missing_moment) const { return to_carry_ * missing_moment; }

@@ -25,9 +25,9 @@ struct BodyPush {
     }
 };
 
-/// The frames of all bodies of a system of points along a step or in one state, and the way of displacements into them and of
-/// gradients out of them. Bodies whose frame does not move keep the displacements and gradients that they have. Every sum
-/// runs in a fixed order.
+/// The frames of all bodies of a system of points along a step or in one state, and the way of displacements into them
+/// and of gradients out of them. Bodies whose frame does not move keep the displacements and gradients that they have.
+/// Every sum runs in a fixed order.
 ///
 ///     x' = x - centre,  X' = X - mean of X,  u = Q^T x' - X'
 template <int Dim>
@@ -65,8 +65,8 @@ public:
     /// u in some frames, as `start` or `end`, of some points; `u` has place for all (n_points) [m].
     void displacement(std::span<const std::int32_t> points, std::span<const Vector<Dim>> q,
                       std::span<const BodyFrame<Dim>> frames, std::span<Vector<Dim>> u) const;
-    /// The mean of u at both ends, packed: lane_width numbers per point [m]. No point moves farther in its frame than what is
-    /// returned [m]; NaN if one does not move by a number.
+    /// The mean of u at both ends, packed: lane_width numbers per point [m]. No point moves farther in its frame than
+    /// what is returned [m]; NaN if one does not move by a number.
     double take_midpoints(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1,
                           LargeArray<double>& packed) const;
     /// `force` less dV/dx, from dV/du (all n_points) and the pushes on each body [N]; without pushes or force: none. The

@@ -14,8 +14,8 @@ namespace abut::solid {
 template <int Dim>
 class BodyRotation {
 public:
-    /// Cells of body b are [begin[b], begin[b + 1]) of those of all ranks; `rest` and `masses` are those of the cells here. All
-    /// must outlive it. A call of all ranks.
+    /// Cells of body b are [begin[b], begin[b + 1]) of those of all ranks; `rest` and `masses` are those of the cells
+    /// here. All must outlive it. A call of all ranks.
     BodyRotation(std::span<const Vector<Dim>> rest, std::span<const double> masses, std::span<const std::int32_t> begin,
                  const dynamics::Ranks& ranks);
 

@@ -16,8 +16,9 @@ class RankPart;
 template <int Dim>
 [[nodiscard]] Matrix<Dim> own_second_moment(const mesh::Mesh<Dim>& mesh, std::int32_t cell);
 
-/// Where the mass of each cell of a body has to be for the body to have its moments of inertia: about the centroids of the cells
-/// these lack those of the cells themselves. With K_c the second moments of cell c over its mass and X' from the centre of mass,
+/// Where the mass of each cell of a body has to be for the body to have its moments of inertia: about the centroids of
+/// the cells these lack those of the cells themselves. With K_c the second moments of cell c over its mass and X' from
+/// the centre of mass,
 ///
 ///     Y'_c = X'_c + K_c (S X'_c + b),     sum m Y' = 0,     sum m Y' Y'^T = sum m (X' X'^T + K_c)
 ///
@@ -34,8 +35,8 @@ struct CellPoints {
     [[nodiscard]] Vector<Dim> place(const mesh::Mesh<Dim>& mesh, std::int32_t cell) const;
 };
 
-/// Points of the cells [first, second) of a body that deforms, all of this density; nothing where they span no space, or a point would
-/// leave its cell. `part` and `body` as BodyFrames takes and numbers them; a call of all ranks.
+/// Points of the cells [first, second) of a body that deforms, all of this density; nothing where they span no space,
+/// or a point would leave its cell. `part` and `body` as BodyFrames takes and numbers them; a call of all ranks.
 template <int Dim>
 [[nodiscard]] std::optional<CellPoints<Dim>> find_cell_points(const mesh::Mesh<Dim>& mesh, std::int32_t body,
                                                               std::pair<std::int32_t, std::int32_t> cells, double density,

@@ -184,9 +184,9 @@ void RigidBodies<Dim>::constrain_at(std::span<const Vector<Dim>> q, double dt, s
     }
 }
 
-/// The lines are those of Fm X'; impulses along them are Fm S J^-1 m X', S symmetric, and R J, R being where the body goes to,
-/// is B + dt (P - Fm S) with B = sum m x' X'^T and P = sum p X'^T: R is the rotation for which Fm^-1 (B + dt P - R J) is
-/// symmetric.
+/// The lines are those of Fm X'; impulses along them are Fm S J^-1 m X', S symmetric, and R J, R being where the body
+/// goes to, is B + dt (P - Fm S) with B = sum m x' X'^T and P = sum p X'^T: R is the rotation for which Fm^-1 (B + dt
+/// P - R J) is symmetric.
 template <int Dim>
 Matrix<Dim> RigidBodies<Dim>::constrain(Body& body, const Matrix<Dim>& lines, const Matrix<Dim>& guess,
                                         std::span<const Vector<Dim>> q, double dt, std::span<Vector<Dim>> p) const {

@@ -15,8 +15,8 @@ namespace abut::solid {
 template <int Dim>
 class RankPart;
 
-/// Position of a rigid body: a point that is at X' from its centre at rest is at centre + map X'. The map is a rotation, up to
-/// rounding.
+/// Position of a rigid body: a point that is at X' from its centre at rest is at centre + map X'. The map is a
+/// rotation, up to rounding.
 template <int Dim>
 struct RigidPlace {
     Vector<Dim> centre = Vector<Dim>::Zero();
@@ -54,7 +54,8 @@ public:
     }
     /// For those of its points alone (points_per_body) [m].
     [[nodiscard]] RigidPlace<Dim> place_by(std::size_t body, std::span<const Vector<Dim>> q_of_points) const;
-    /// A point at X' from the centre moves with centre + map X' [m/s], for velocities of all points of the system (n_points).
+    /// A point at X' from the centre moves with centre + map X' [m/s], for velocities of all points of the system
+    /// (n_points).
     [[nodiscard]] RigidPlace<Dim> velocity(std::size_t body, std::span<const Vector<Dim>> v) const;
     /// dV/dx of its points [N], from gradients p at X' from the centre: their sum, and that of p X'^T.
     void set_gradient(std::size_t body, const Vector<Dim>& sum, const Matrix<Dim>& moment,

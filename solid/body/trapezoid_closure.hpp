@@ -15,9 +15,9 @@ class Ccg;
 template <int Dim>
 class RankPart;
 
-/// The correction of MeanForce::closed_trapezoid: per body a smooth force M (omega x r + a v') that does the work which the mean of
-/// the forces at both ends lacks, and takes away its moment. v' is the motion of a step less the rigid part of it; of a body
-/// that is held somewhere it is the whole motion, and omega is 0. docs/method.md, Bodies that bend.
+/// The correction of MeanForce::closed_trapezoid: per body a smooth force M (omega x r + a v') that does the work which
+/// the mean of the forces at both ends lacks, and takes away its moment. v' is the motion of a step less the rigid part
+/// of it; of a body that is held somewhere it is the whole motion, and omega is 0. docs/method.md, Bodies that bend.
 template <int Dim>
 class TrapezoidClosure {
 public:

@@ -15,8 +15,8 @@ enum class TractionHold {
     points,  ///< at places that move with points of bodies that may turn; the faces take it as free
 };
 
-/// Hold of each traction of the options (n_tractions). A call of all ranks, of which one may have no face of its group. Throws
-/// BadInput for a group on bodies of Kinematics::small and on others, and for one that the mesh does not have.
+/// Hold of each traction of the options (n_tractions). A call of all ranks, of which one may have no face of its group.
+/// Throws BadInput for a group on bodies of Kinematics::small and on others, and for one that the mesh does not have.
 template <int Dim>
 [[nodiscard]] std::vector<TractionHold> traction_holds(const mesh::Mesh<Dim>& mesh, const SolidOptions<Dim>& options,
                                                        const dynamics::Ranks& ranks);

@@ -65,8 +65,8 @@ double Bonds<Dim>::energy_at_end(std::span<const Vector<Dim>> q_1, const Boundar
     return energy_then;
 }
 
-/// A bond that opens must take more than half cells give back as it does, straight at least: at the rim of a bond they may give way along the
-/// face without bearing anything.
+/// A bond that opens must take more than half cells give back as it does, straight at least: at the rim of a bond they
+/// may give way along the face without bearing anything.
 template <int Dim>
 void Bonds<Dim>::check_fracture_energy() const {
     const auto check = [&](std::size_t p, double stiffness) {

@@ -11,8 +11,8 @@
 
 namespace abut::solid {
 
-/// The faces of some places of bonds, increasing by their numbers. All ranks know all of them; each evaluates those of its own cells,
-/// and brings that to all.
+/// The faces of some places of bonds, increasing by their numbers. All ranks know all of them; each evaluates those of
+/// its own cells, and brings that to all.
 template <int Dim>
 class BondFaces {
 public:

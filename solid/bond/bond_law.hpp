@@ -18,9 +18,10 @@ struct BondChange {
     return 0.5 * bond.strength * bond.strength / stiffness;
 }
 
-/// The share s of a place that is opened as far as never before: whole it would bear `traction` [Pa], half cells of `stiffness` [Pa/m]
-/// being in series with it. The opening w takes what these leave, (1 - s) traction = stiffness w, and the traction falls with it,
-/// s traction = strength (1 - w/w_f), from the strength to 0 at w_f = 2 G/strength: G is what that takes.
+/// The share s of a place that is opened as far as never before: whole it would bear `traction` [Pa], half cells of
+/// `stiffness` [Pa/m] being in series with it. The opening w takes what these leave, (1 - s) traction = stiffness w,
+/// and the traction falls with it, s traction = strength (1 - w/w_f), from the strength to 0 at w_f = 2 G/strength: G
+/// is what that takes.
 [[nodiscard]] inline double share_of_bond(const Bond& bond, double traction, double stiffness) {
     if (traction <= bond.strength) return 1.0;
     const double compliance = 1.0 / stiffness, full = 2.0 * bond.fracture_energy / bond.strength;  // w_f

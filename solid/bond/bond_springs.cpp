@@ -8,8 +8,8 @@ namespace abut::solid {
 namespace {
 
 constexpr std::size_t nowhere = std::numeric_limits<std::size_t>::max();
-// Of the spring over that of a half cell, where faces are affine and do not give way to what pulls at them: as stiff as it may be without
-// a shorter step.
+// Of the spring over that of a half cell, where faces are affine and do not give way to what pulls at them: as stiff as
+// it may be without a shorter step.
 constexpr double affine_stiffness = 2.0;
 
 }  // namespace

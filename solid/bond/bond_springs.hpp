@@ -24,8 +24,8 @@ namespace abut::solid {
 template <int Dim>
 class BondSprings {
 public:
-    /// All but `of_springs` must outlive it; `frames` are led along each step before it. Of all places (n_places) those that are
-    /// springs, whose faces nothing holds, and the share of the pull that a place has. A call of all ranks.
+    /// All but `of_springs` must outlive it; `frames` are led along each step before it. Of all places (n_places) those
+    /// that are springs, whose faces nothing holds, and the share of the pull that a place has. A call of all ranks.
     BondSprings(const Bodies<Dim>& bodies, Ccg<Dim>& ccg, const BodyFrames<Dim>& frames, const RankPart<Dim>& part,
                 std::span<const BondPlace<Dim>> places, std::span<const std::size_t> of_springs,
                 const std::vector<double>& share);
@@ -40,7 +40,8 @@ public:
     /// Along the step that the frames follow.
     void follow(std::span<const Vector<Dim>> q_0, const BoundaryLoad<Dim>& load_0, std::span<const Vector<Dim>> q_1,
                 const BoundaryLoad<Dim>& load_1);
-    /// Stiffness for tiny displacements u of the cells [m], no body being turned: for the stable step. Valid until the next call of any.
+    /// Stiffness for tiny displacements u of the cells [m], no body being turned: for the stable step. Valid until the
+    /// next call of any.
     [[nodiscard]] FaceCorrections<Dim> stiffness_of(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load);
     /// The corrections of contact and these. Valid until the next call and as long as those are.
     [[nodiscard]] FaceCorrections<Dim> corrections(const FaceCorrections<Dim>& of_contact);
@@ -49,8 +50,8 @@ public:
     [[nodiscard]] double energy() const;  ///< at the end of the step [J]
     /// The end alone: `energy` is that of it. What springs pull with stays.
     void see_end(std::span<const Vector<Dim>> q_1, const BoundaryLoad<Dim>& load_1, StepState state);
-    /// Calls visit(place, traction, stiffness, normal): in space at the end of the step dV/dx_2 per area of a whole place [Pa] and the normal
-    /// out of the first face; k_12 [Pa/m].
+    /// Calls visit(place, traction, stiffness, normal): in space at the end of the step dV/dx_2 per area of a whole
+    /// place [Pa] and the normal out of the first face; k_12 [Pa/m].
     template <class Visit>
     void for_each_traction(const Visit& visit) const {
         for (std::size_t i = 0; i < springs_.size(); ++i) {

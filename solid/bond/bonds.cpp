@@ -77,8 +77,8 @@ void Bonds<Dim>::check_bodies() const {
         }
 }
 
-/// The return of a cell takes the change of its gradient in a step from its displacements, without delta, and its bonded face as a free one:
-/// no balance of energy would show it.
+/// The return of a cell takes the change of its gradient in a step from its displacements, without delta, and its
+/// bonded face as a free one: no balance of energy would show it.
 template <int Dim>
 void Bonds<Dim>::check_metal(std::span<const std::size_t> of_joints) const {
     const mesh::Mesh<Dim>& mesh = bodies_.mesh();

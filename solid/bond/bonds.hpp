@@ -20,27 +20,31 @@
 
 namespace abut::solid {
 
-/// Faces that are glued. Between bodies of Kinematics::small the massless interface of both half cells, exactly: with the jump of
-/// the free faces at a place p of a bond, Delta = y_2(x_p) - y_1(x_p), both faces move to where their tractions balance,
+/// Faces that are glued. Between bodies of Kinematics::small the massless interface of both half cells, exactly: with
+/// the jump of the free faces at a place p of a bond, Delta = y_2(x_p) - y_1(x_p), both faces move to where their
+/// tractions balance,
 ///
-///     delta_f = 1/|f| sum_p A_p s_p,    s_1 = theta_1 Delta,  s_2 = -theta_2 Delta,   theta_1 = (K_1 + K_2)^-1 K_2 = 1 - theta_2
+///     delta_f = 1/|f| sum_p A_p s_p,    s_1 = theta_1 Delta,  s_2 = -theta_2 Delta,
+///     theta_1 = (K_1 + K_2)^-1 K_2 = 1 - theta_2
 ///
-/// K_f [Pa/m] being the stiffness of the half cell, what its free faces answer taken off. V is that of the cells with û + delta
-/// and what their faces, which move as a whole, do not have of it:
+/// K_f [Pa/m] being the stiffness of the half cell, what its free faces answer taken off. V is that of the cells with
+/// û + delta and what their faces, which move as a whole, do not have of it:
 ///
-///     1/2 sum_p A_p Delta . K_12 Delta - 1/2 sum_f |f| delta_f . K_f delta_f,      K_12 = theta_1^T K_1 theta_1 + theta_2^T K_2 theta_2
+///     1/2 sum_p A_p Delta . K_12 Delta - 1/2 sum_f |f| delta_f . K_f delta_f,
+///     K_12 = theta_1^T K_1 theta_1 + theta_2^T K_2 theta_2
 ///
 /// All of it is quadratic in the displacements of the cells. Where a body may turn: BondSprings. docs/method.md, Bonds.
 ///
-/// A place whose traction t = s K_12 Delta pulls the faces apart and would exceed the strength gives way: its share s falls, at once to 0 or
-/// so that t falls with the opening until all of the fracture energy is taken (BondLaw). In a step the share is the mean of both ends, and
-/// what V loses by its change is dissipated.
+/// A place whose traction t = s K_12 Delta pulls the faces apart and would exceed the strength gives way: its share s
+/// falls, at once to 0 or so that t falls with the opening until all of the fracture energy is taken (BondLaw). In a
+/// step the share is the mean of both ends, and what V loses by its change is dissipated.
 template <int Dim>
 class Bonds {
 public:
-    /// All must outlive it; `frames` are led along each step before it. Throws BadInput for bodies that are rigid, where a support
-    /// holds a bonded face, a traction is on one, or a load from outside on one that answers to it, and for a fracture energy that is
-    /// less than what the half cells beside the bond hold at its strength. A call of all ranks.
+    /// All must outlive it; `frames` are led along each step before it. Throws BadInput for bodies that are rigid,
+    /// where a support holds a bonded face, a traction is on one, or a load from outside on one that answers to it, and
+    /// for a fracture energy that is less than what the half cells beside the bond hold at its strength. A call of all
+    /// ranks.
     Bonds(const Bodies<Dim>& bodies, Ccg<Dim>& ccg, const BodyFrames<Dim>& frames, const RankPart<Dim>& part);
 
     [[nodiscard]] bool any() const { return !places_.empty(); }
@@ -50,15 +54,16 @@ public:
     /// Whether one has a strength.
     [[nodiscard]] bool any_breaks() const;
 
-    // In one state, or along a step. Each rank evaluates the faces of its own cells, and brings that to all: those that bring
-    // something are calls of all ranks.
+    // In one state, or along a step. Each rank evaluates the faces of its own cells, and brings that to all: those that
+    // bring something are calls of all ranks.
 
     /// Of points at q [m] under these loads, where the frames stand.
     void stand_at(std::span<const Vector<Dim>> q, const BoundaryLoad<Dim>& load);
     /// Along the step that the frames follow: in its middle.
     void follow(std::span<const Vector<Dim>> q_0, const BoundaryLoad<Dim>& load_0, std::span<const Vector<Dim>> q_1,
                 const BoundaryLoad<Dim>& load_1);
-    /// delta of `bonded_faces` in a state of small bodies, whatever else is followed (n_bonded_faces) [m]. Valid until the next call.
+    /// delta of `bonded_faces` in a state of small bodies, whatever else is followed (n_bonded_faces) [m]. Valid until
+    /// the next call.
     [[nodiscard]] std::span<const Vector<Dim>> displacement_at(std::span<const Vector<Dim>> u,
                                                                const BoundaryLoad<Dim>& load);
     /// Bonded faces of small bodies here, increasing.
@@ -75,8 +80,8 @@ public:
     void see_end(std::span<const Vector<Dim>> q_1, const BoundaryLoad<Dim>& load_1);
     /// That energy with what cells remember now. A call of all ranks.
     [[nodiscard]] double energy_at_end(std::span<const Vector<Dim>> q_1, const BoundaryLoad<Dim>& load_1);
-    /// The part of the work of prescribed displacements and tractions in a step from `start` to `end` that is done through the
-    /// corrections, with the gradient that was added last [J].
+    /// The part of the work of prescribed displacements and tractions in a step from `start` to `end` that is done
+    /// through the corrections, with the gradient that was added last [J].
     [[nodiscard]] double work_of_loads(const BoundaryLoad<Dim>& start, const BoundaryLoad<Dim>& end) const;
     /// Adds what bonds resist tiny displacements u of the cells with to K u (n_cells), `apply(corrections)` being K u of the
     /// cells with these corrections: for the stable step [N].
@@ -93,15 +98,16 @@ public:
 
     /// Places that the end of the step that was followed opens further than ever before, increasing.
     [[nodiscard]] std::vector<BondChange> changes() const;
-    /// From the next call of `stand_at` or `follow` on these places have the share of the start of the step, of its end, or the mean of both.
+    /// From the next call of `stand_at` or `follow` on these places have the share of the start of the step, of its
+    /// end, or the mean of both.
     enum class When { start, middle, end };
     void set_shares(std::span<const BondChange> changes, When when);
     [[nodiscard]] double share(std::size_t place) const { return share_[place]; }
 
     void save(StateWriter& state) const;
     void restore(StateReader& state);
-    /// `old_boundary`: of each boundary face of the mesh its index in that of `before`, -1: it was not there. Throws BadInput for a
-    /// bond that `before` does not have.
+    /// `old_boundary`: of each boundary face of the mesh its index in that of `before`, -1: it was not there. Throws
+    /// BadInput for a bond that `before` does not have.
     void take_over(const Bonds& before, std::span<const std::int32_t> old_boundary);
 
 private:

@@ -249,7 +249,8 @@ private:
         coverage.smaller_side = std::min(asked_of_side(sides, 0, before), asked_of_side(sides, 1, before));
     }
 
-    /// The area of a side that may be bonded: of a group all of it, of a body what looks along the bond as its faces that are bonded do.
+    /// The area of a side that may be bonded: of a group all of it, of a body what looks along the bond as its faces
+    /// that are bonded do.
     [[nodiscard]] double asked_of_side(const Sides<Dim>& sides, std::size_t side, std::size_t first_place) const {
         const std::size_t bond = found_.coverage.size() - 1;
         const bool is_body = options_.bonds[bond].sides[side] < mesh_.n_bodies();
@@ -271,8 +272,9 @@ private:
         return in_mesh_[static_cast<std::size_t>(here_[number])];
     }
 
-    /// Joins faces of small bodies that hold for ever and cover each other, and all of finite ones. Triangles and tetrahedra of small bodies
-    /// have the gradient of their faces, which would be loose where no face of the cell is balanced.
+    /// Joins faces of small bodies that hold for ever and cover each other, and all of finite ones. Triangles and
+    /// tetrahedra of small bodies have the gradient of their faces, which would be loose where no face of the cell is
+    /// balanced.
     void find_joined() {
         std::vector<int> n_places(part_.n_all_faces(), 0);
         for (const BondPlace<Dim>& place : found_.places)

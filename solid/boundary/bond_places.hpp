@@ -8,8 +8,8 @@
 
 namespace abut::solid {
 
-/// Position where two faces of a bond lie on each other at rest: the middle of their overlap, a point of both sides. On several ranks all
-/// know all places.
+/// Position where two faces of a bond lie on each other at rest: the middle of their overlap, a point of both sides. On
+/// several ranks all know all places.
 template <int Dim>
 struct BondPlace {
     std::size_t bond;

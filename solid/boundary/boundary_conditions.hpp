@@ -54,15 +54,16 @@ struct DirichletCondition {
     Field<Dim> history;                       ///< u_D(t, x) [m] if it varies; then `value` is not used
 };
 
-/// On a body that may turn its work is booked, and it is a force at the centroid of each face, which is extrapolated from the cells
-/// around; where it follows a floating body the cell behind the face balances it. docs/method.md, Bodies that turn.
+/// On a body that may turn its work is booked, and it is a force at the centroid of each face, which is extrapolated
+/// from the cells around; where it follows a floating body the cell behind the face balances it. docs/method.md, Bodies
+/// that turn.
 template <int Dim>
 struct TractionCondition {
     std::string group;
     Vector<Dim> value = Vector<Dim>::Zero();  ///< t [Pa]
     Field<Dim> history;                       ///< t(t, x) [Pa] if it varies; constant within a step, taken at its start
-    /// It turns with the body; on one of Kinematics::finite with its face, and is along its normal: a pressure, which acts on the
-    /// area that the face has then. On bodies of Kinematics::small no difference
+    /// It turns with the body; on one of Kinematics::finite with its face, and is along its normal: a pressure, which
+    /// acts on the area that the face has then. On bodies of Kinematics::small no difference
     bool follows = false;
     /// It is set by face between steps (Solid::set_traction): a fluid. Until then it is `value`; it has no `history`.
     bool from_outside = false;
@@ -74,12 +75,12 @@ struct BoundaryConditions {
     CornerRule corner_rule = CornerRule::relaxed;
     std::vector<DirichletCondition<Dim>> dirichlet;
     std::vector<TractionCondition<Dim>> traction;
-    /// Boundary faces of the mesh whose own cell does not balance what holds them, so that they are extrapolated from the cells
-    /// around: they are bonded face to face for ever, or a traction pulls at their extrapolated centroids (a dead one on a floating
-    /// body). Read by operators alone: a solid finds them by itself
+    /// Boundary faces of the mesh whose own cell does not balance what holds them, so that they are extrapolated from
+    /// the cells around: they are bonded face to face for ever, or a traction pulls at their extrapolated centroids (a
+    /// dead one on a floating body). Read by operators alone: a solid finds them by itself
     std::vector<std::int32_t> joined_faces = {};
-    /// Cells of thick parts, increasing, where contact pushes free faces by the pair potential: their traces do without the balance of these
-    /// (BoundaryReconstruction::affine). Read by operators alone: a solid finds them by itself
+    /// Cells of thick parts, increasing, where contact pushes free faces by the pair potential: their traces do without
+    /// the balance of these (BoundaryReconstruction::affine). Read by operators alone: a solid finds them by itself
     std::vector<std::int32_t> thick_cells = {};
 };
 

@@ -106,8 +106,9 @@ void CcgArrays<Dim>::set_cells(const mesh::Mesh<Dim>& mesh, std::span<const Mate
     });
 }
 
-/// The affine function with the mean of u_f at its faces is at x_c, off the centroid by o, the sum of (1/(d + 1) - o . n |f|/|c|) u_f. Sums by
-/// shares round otherwise than those of centroids, so that whether there are any does not depend on which cells a rank has.
+/// The affine function with the mean of u_f at its faces is at x_c, off the centroid by o, the sum of (1/(d + 1) - o .
+/// n |f|/|c|) u_f. Sums by shares round otherwise than those of centroids, so that whether there are any does not
+/// depend on which cells a rank has.
 template <int Dim>
 void CcgArrays<Dim>::set_shares(std::span<const Kinematics> kinematics) {
     constexpr double rounding = 1e-12;  // of the arms

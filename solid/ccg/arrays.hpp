@@ -20,7 +20,8 @@ struct HalfFace {
     std::int32_t twin;   // that of the cell on the other side of the face; itself on the boundary
 };
 
-/// For each index of a range: the rows in which it occurs, increasing. The transpose of a sparse matrix, without its weights.
+/// For each index of a range: the rows in which it occurs, increasing. The transpose of a sparse matrix, without its
+/// weights.
 template <class Row>
 struct Occurrences {
     LargeArray<std::int32_t> offsets;
@@ -34,8 +35,9 @@ struct AffineCell {
 };
 
 /// Contact on nodes is not in the stress of a cell: its free faces balance as if nothing touched them.
-/// Jumps that took these faces for granted would hold the cell back, and leave the layers behind a contact with 0.8 to 1.1 of the
-/// pressure. In the traces I_c(x_f) of such cells free faces are affine instead, whatever pushes them. docs/method.md, Contact.
+/// Jumps that took these faces for granted would hold the cell back, and leave the layers behind a contact with 0.8 to
+/// 1.1 of the pressure. In the traces I_c(x_f) of such cells free faces are affine instead, whatever pushes them.
+/// docs/method.md, Contact.
 struct AffineTraces {
     std::vector<AffineCell> cells;         // increasing
     std::vector<std::int32_t> cell_index;  // of a cell in `cells`; -1: it is none. Empty without any
@@ -93,8 +95,8 @@ struct CcgArrays : CcgCoefficients<Dim, double> {
         return {affine.of_cell.rows.data() + begin, static_cast<std::size_t>(affine.of_cell.offsets[position + 1] - begin)};
     }
 
-    // Faces. A boundary face has its one cell on both sides, no stiffness and, but for those of `affine`, an empty stencil: the sweeps
-    // need no branch.
+    // Faces. A boundary face has its one cell on both sides, no stiffness and, but for those of `affine`, an empty
+    // stencil: the sweeps need no branch.
     LargeArray<std::array<std::int32_t, 2>> face_cells;
     StencilReport report;
     // Cells and their half-faces, cell by cell.

@@ -94,8 +94,8 @@ private:
     /// The part of a unit displacement along the normal that is not prescribed, in the direction of the normal.
     double free_along_normal(BoundaryFace b) const { return normal_of(b).dot(free_part(b) * normal_of(b)); }
 
-    /// k of a face that `among` resists [Pa/m]: where directions are prescribed that with which it gives way along its normal
-    /// in the others.
+    /// k of a face that `among` resists [Pa/m]: where directions are prescribed that with which it gives way along its
+    /// normal in the others.
     double normal_stiffness(BoundaryFace b, const Matrix<Dim>& among) const {
         const Vector<Dim>& normal = normal_of(b);
         const double measure = mesh_.face_measure[mesh_face(mesh_, b)];
@@ -115,8 +115,9 @@ private:
         return finite ? FreeFaceRule::extrapolate : rule_;
     }
 
-    /// Whether the traces of a cell do without the balance of its free faces: one of them has no support. Jumps of metal stay as they are, and
-    /// those of simplices, which are off by 5 % at most: a point on affine ones leaves twice the H - H~ (scenes/falling_needle).
+    /// Whether the traces of a cell do without the balance of its free faces: one of them has no support. Jumps of
+    /// metal stay as they are, and those of simplices, which are off by 5 % at most: a point on affine ones leaves
+    /// twice the H - H~ (scenes/falling_needle).
     bool has_affine_traces(std::int32_t cell) const {
         if (conditions_.is_thick.empty() || conditions_.is_thick[static_cast<std::size_t>(cell)] == 0) return false;
         if (rule_of(cell) != FreeFaceRule::local_equilibrium || materials_[mesh_.cell_body[cell]].law == MaterialLaw::j2)
@@ -128,7 +129,8 @@ private:
         });
     }
 
-    /// An affine extrapolation is wanted where the equilibrium of the cell alone may not fix the faces, and where traces ask for it.
+    /// An affine extrapolation is wanted where the equilibrium of the cell alone may not fix the faces, and where
+    /// traces ask for it.
     void select_affine_stencils() {
         std::vector<BoundaryFace> wanted;
         for (const BoundaryFace b : boundary_faces(mesh_)) {
@@ -229,8 +231,8 @@ private:
         return {std::move(among), std::move(with_b)};
     }
 
-    /// (n_faces Dim)^2, of balancing combinations of free faces alone: B (B^T A B)^-1 B^T, A the stiffness among what is free of them
-    /// [m/N]. Where these are all that strains the cell it is the pseudo-inverse of A.
+    /// (n_faces Dim)^2, of balancing combinations of free faces alone: B (B^T A B)^-1 B^T, A the stiffness among what
+    /// is free of them [m/N]. Where these are all that strains the cell it is the pseudo-inverse of A.
     Eigen::MatrixXd compliance_of(std::int32_t cell, const std::vector<BoundaryFace>& faces, const Eigen::MatrixXd& among) {
         std::vector<FreeFaceOfCell<Dim>> free;
         for (const BoundaryFace b : faces) free.push_back({normal_of(b), free_part(b)});
@@ -260,8 +262,8 @@ private:
         rows_[b].normal_stiffness = left;
     }
 
-    /// Minimum of the cell's energy over the balancing combinations of these boundary faces, joined ones standing where they are
-    /// extrapolated, as what is free of these faces does in all other combinations:
+    /// Minimum of the cell's energy over the balancing combinations of these boundary faces, joined ones standing where
+    /// they are extrapolated, as what is free of these faces does in all other combinations:
     ///   û = K (|f| t - A_interior u_g - A P u_D) + (N - K A N) û_affine,  K the compliance of these combinations
     void balance(std::int32_t cell, const std::vector<BoundaryFace>& boundary) {
         const auto n = static_cast<Eigen::Index>(boundary.size()) * Dim;

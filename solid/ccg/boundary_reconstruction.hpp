@@ -32,7 +32,8 @@ struct BoundaryReconstruction {
     std::vector<Matrix<Dim>> from_displacement;   ///< B
     std::vector<Matrix<Dim>> from_traction;       ///< L [m/Pa]
     std::vector<std::int32_t> answer_offsets{0};  ///< (n_boundary + 1)
-    /// Free faces of the same cell that a correction of a face moves; itself where a direction is prescribed, which it undoes
+    /// Free faces of the same cell that a correction of a face moves; itself where a direction is prescribed, which it
+    /// undoes
     std::vector<BoundaryFace> answer_faces;
     std::vector<Matrix<Dim>> answers;  ///< C: by how much
     /// k_f = n . A_ff n / |f|, what the answers leave of it, stabilisation left out (n_boundary); infinity: the displacement

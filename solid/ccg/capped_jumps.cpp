@@ -148,9 +148,11 @@ auto CappedJumps<Dim>::start(std::ptrdiff_t half_face, const Vector<Dim>& jump, 
     return start_[static_cast<std::size_t>(half_face)] = at(half_face, jump, gradient);
 }
 
-/// With s = [x] - F J, F the mean of both cells, the energy is k s^2/2 and its gradient k s . (d[x] - dF J). The mean of both ends does
+/// With s = [x] - F J, F the mean of both cells, the energy is k s^2/2 and its gradient k s . (d[x] - dF J). The mean
+/// of both ends does
 ///
-///     k s_b . (Delta [x] - Delta F J_b) - k/4 Delta s . Delta F Delta J = Delta V + k s_b . F_b Delta J - k/4 Delta s . Delta F Delta J
+///     k s_b . (Delta [x] - Delta F J_b) - k/4 Delta s . Delta F Delta J
+///         = Delta V + k s_b . F_b Delta J - k/4 Delta s . Delta F Delta J
 template <int Dim>
 auto CappedJumps<Dim>::advance(std::ptrdiff_t cell, std::ptrdiff_t half_face, const Vector<Dim>& jump,
                                const Matrix<Dim>& gradient, double& defect) -> Elastic {

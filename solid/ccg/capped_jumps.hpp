@@ -15,13 +15,14 @@
 
 namespace abut::solid {
 
-/// Faces between cells of MaterialLaw::j2, whose stabilisation yields: its traction k ([u] - J)/|f| stays below Material::jump_cap
-/// times the yield stress, and J, the part of the jump that lasts, follows where it would not. Where nothing else holds a cell it
-/// stays elastic: at edges, and under contact, of finite bodies along the normals of faces alone. docs/method.md, Metal that yields.
+/// Faces between cells of MaterialLaw::j2, whose stabilisation yields: its traction k ([u] - J)/|f| stays below
+/// Material::jump_cap times the yield stress, and J, the part of the jump that lasts, follows where it would not. Where
+/// nothing else holds a cell it stays elastic: at edges, and under contact, of finite bodies along the normals of faces
+/// alone. docs/method.md, Metal that yields.
 ///
-/// Each half-face remembers J as its cell sees it: of a finite body as a vector of the material, which F turns. That of the twin
-/// is its negative, bit by bit, since both come from the same sums. Only a step that has ended is remembered. Functions of different
-/// cells may be called from several threads at once.
+/// Each half-face remembers J as its cell sees it: of a finite body as a vector of the material, which F turns. That of
+/// the twin is its negative, bit by bit, since both come from the same sums. Only a step that has ended is remembered.
+/// Functions of different cells may be called from several threads at once.
 template <int Dim>
 class CappedJumps {
 public:
@@ -48,8 +49,9 @@ public:
     [[nodiscard]] bool has_cap(std::ptrdiff_t half_face) const {
         return largest_[static_cast<std::size_t>(half_face)] < std::numeric_limits<double>::infinity();
     }
-    /// Whether a half-face that has a cap, of a body whose strains are linear, surely stays below it in a step that begins where the last one
-    /// ended, and in whose middle its jump is `mean`: then the step is made. Else `advance` must say.
+    /// Whether a half-face that has a cap, of a body whose strains are linear, surely stays below it in a step that
+    /// begins where the last one ended, and in whose middle its jump is `mean`: then the step is made. Else `advance`
+    /// must say.
     [[nodiscard]] bool stays_elastic(std::ptrdiff_t half_face, const Vector<Dim>& mean) {
         const auto i = static_cast<std::size_t>(half_face);
         next_elastic_[i] =
@@ -59,8 +61,8 @@ public:
         next_[i] = memory_[i];
         return true;
     }
-    /// Lets a half-face of a body whose strains are linear yield in a step in which [u] changes by `change` about `mean`. Returns the
-    /// mean of J [m].
+    /// Lets a half-face of a body whose strains are linear yield in a step in which [u] changes by `change` about
+    /// `mean`. Returns the mean of J [m].
     [[nodiscard]] Vector<Dim> advance(std::ptrdiff_t cell, std::ptrdiff_t half_face, const Vector<Dim>& mean,
                                       const Vector<Dim>& change);
 
@@ -74,8 +76,9 @@ public:
     [[nodiscard]] Elastic at(std::ptrdiff_t half_face, const Vector<Dim>& jump, const Matrix<Dim>& gradient) const;
     /// The same, kept as the start of the next step.
     [[nodiscard]] Elastic start(std::ptrdiff_t half_face, const Vector<Dim>& jump, const Matrix<Dim>& gradient);
-    /// Lets a half-face yield in the step from the start to a state with this [x]. What the mean force of both ends does beyond the
-    /// change of energy is booked as lost, or where it is negative, as it may be by what the step is too long, added to `defect` [J].
+    /// Lets a half-face yield in the step from the start to a state with this [x]. What the mean force of both ends
+    /// does beyond the change of energy is booked as lost, or where it is negative, as it may be by what the step is
+    /// too long, added to `defect` [J].
     [[nodiscard]] Elastic advance(std::ptrdiff_t cell, std::ptrdiff_t half_face, const Vector<Dim>& jump,
                                   const Matrix<Dim>& gradient, double& defect);
 
@@ -97,8 +100,8 @@ public:
 private:
     static constexpr double rounding = 1e-9;  // more than what sums of very many steps make of a jump, over the cap
     [[nodiscard]] static Elastic of(const Vector<Dim>& lasting, const Vector<Dim>& jump, const Matrix<Dim>& gradient);
-    /// The part of a jump in space whose traction the cap limits: all of it, or that along the face, whose normal is `normal`, of any
-    /// length.
+    /// The part of a jump in space whose traction the cap limits: all of it, or that along the face, whose normal is
+    /// `normal`, of any length.
     [[nodiscard]] Vector<Dim> limited(std::ptrdiff_t half_face, const Vector<Dim>& jump, const Vector<Dim>& normal) const;
     /// What J changes by, in space, so that `trial` comes back to the cap [m].
     [[nodiscard]] Vector<Dim> excess(std::ptrdiff_t half_face, const Vector<Dim>& trial) const;

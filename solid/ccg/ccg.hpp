@@ -38,8 +38,8 @@ struct FaceCorrections {
     std::span<const Matrix<Dim>> moment = {};      ///< dV/dG_c of the pairs, c behind the face (n) [N m]; may be empty
 };
 
-/// Both ends of a step whose mean displacement is asked for: bodies of Kinematics::finite need more than the mean. Empty: one
-/// state.
+/// Both ends of a step whose mean displacement is asked for: bodies of Kinematics::finite need more than the mean.
+/// Empty: one state.
 template <int Dim>
 struct StepEnds {
     std::span<const Vector<Dim>> start;             ///< displacements (n_cells) [m]
@@ -105,10 +105,11 @@ template <int Dim>
 class Ccg {
 public:
     /// One material per body. Throws BadInput for another number of them, and as `check(Material)`,
-    /// `sort_to_faces` and `select_stencils` do. `kinematics`: one per body; all that are not `finite` are linear, as all are
-    /// where none are given. `precision` and `device`: of `step_gradient`, `mean_gradient` and `gradient_of_packed`; all else is
-    /// in double on the host. Throws BadInput for single precision or a device where a body is finite, for both at once, and
-    /// where there is no such device; LimitExceeded where the device has too little memory.
+    /// `sort_to_faces` and `select_stencils` do. `kinematics`: one per body; all that are not `finite` are linear, as
+    /// all are where none are given. `precision` and `device`: of `step_gradient`, `mean_gradient` and
+    /// `gradient_of_packed`; all else is in double on the host. Throws BadInput for single precision or a device where
+    /// a body is finite, for both at once, and where there is no such device; LimitExceeded where the device has too
+    /// little memory.
     Ccg(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials, const BoundaryConditions<Dim>& conditions,
         std::span<const Kinematics> kinematics = {}, CellForm form = CellForm::automatic,
         Precision precision = Precision::double_precision, StepDevice device = StepDevice::host,
@@ -121,17 +122,19 @@ public:
     [[nodiscard]] std::int32_t n_boundary() const;
     [[nodiscard]] auto boundary_faces() const { return all_ids<BoundaryFace>(n_boundary()); }
 
-    /// From now on cells are warm: one field per body. Throws BadInput where steps are made in single precision or on a device.
+    /// From now on cells are warm: one field per body. Throws BadInput where steps are made in single precision or on a
+    /// device.
     void set_temperature(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials,
                          std::span<const TemperatureRise<Dim>> temperature);
     [[nodiscard]] bool is_warm() const;
-    /// u_D and t at their times, brought to the boundary faces, and temperatures at the second; empty where no condition is given.
+    /// u_D and t at their times, brought to the boundary faces, and temperatures at the second; empty where no
+    /// condition is given.
     [[nodiscard]] BoundaryLoad<Dim> load_at(double displacement_time, double traction_time) const;
     /// Load with u_D = 0, t = 0 and without heat.
     [[nodiscard]] BoundaryLoad<Dim> load_free() const;
     [[nodiscard]] bool load_varies() const;
-    /// From now on `load_at` gives these tractions on the faces of the conditions of this group that are from outside, in the
-    /// order of the group (n) [Pa]; the number and the values are not looked at.
+    /// From now on `load_at` gives these tractions on the faces of the conditions of this group that are from outside,
+    /// in the order of the group (n) [Pa]; the number and the values are not looked at.
     void set_traction(const std::string& group, std::span<const Vector<Dim>> traction);
     /// û of one boundary face [m], as `boundary_displacement` gives it for all.
     [[nodiscard]] Vector<Dim> face_displacement(BoundaryFace face, std::span<const Vector<Dim>> u,
@@ -153,19 +156,22 @@ public:
     /// As `gradient`, in the precision and on the device of steps.
     void step_gradient(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load,
                        const FaceCorrections<Dim>& corrections, std::span<Vector<Dim>> result);
-    /// As `step_gradient`, of the mean of both ends: the mean of the gradient along the step; of bodies of Kinematics::finite as MeanForce says.
+    /// As `step_gradient`, of the mean of both ends: the mean of the gradient along the step; of bodies of
+    /// Kinematics::finite as MeanForce says.
     void mean_gradient(const StepEnds<Dim>& ends, const BoundaryLoad<Dim>& load, const FaceCorrections<Dim>& corrections,
                        std::span<Vector<Dim>> result);
-    /// As `mean_gradient`, for u as the sweeps read it: packed, lane_width numbers per cell. They keep the array and give back another one
-    /// of its size.
+    /// As `mean_gradient`, for u as the sweeps read it: packed, lane_width numbers per cell. They keep the array and
+    /// give back another one of its size.
     void gradient_of_packed(LargeArray<double>& u, const BoundaryLoad<Dim>& load, const FaceCorrections<Dim>& corrections,
                             std::span<Vector<Dim>> result, const StepEnds<Dim>& ends = {});
-    /// Defect of a cell of Kinematics::finite in the last step of `mean_gradient` or `gradient_of_packed`, where MeanForce is of both
-    /// ends; `arm` is its mean position, from any point [m]. The sum over the cells of a body is what counts.
+    /// Defect of a cell of Kinematics::finite in the last step of `mean_gradient` or `gradient_of_packed`, where
+    /// MeanForce is of both ends; `arm` is its mean position, from any point [m]. The sum over the cells of a body is
+    /// what counts.
     [[nodiscard]] StepDefect<Dim> step_defect(std::int32_t cell, const Vector<Dim>& arm) const;
 
-    // Cells that remember: those of inelastic materials (FiniteOptions::inelastic), and of damped ones. A step is `begin_step`, any
-    // calls, `mean_gradient` or `gradient_of_packed` of both ends, `drag`, and `end_step`; one that is not ended leaves no trace.
+    // Cells that remember: those of inelastic materials (FiniteOptions::inelastic), and of damped ones. A step is
+    // `begin_step`, any calls, `mean_gradient` or `gradient_of_packed` of both ends, `drag`, and `end_step`; one that
+    // is not ended leaves no trace.
 
     [[nodiscard]] bool any_inelastic() const;
     /// Whether a body of small or floating strains is, on any rank.
@@ -187,7 +193,8 @@ public:
     [[nodiscard]] dynamics::Losses step_loss(std::int32_t cell) const;
     /// Equivalent plastic strain of a cell [-]; 0 where its material has none.
     [[nodiscard]] double plastic_strain(std::int32_t cell) const;
-    /// In the plane, of a cell of an inelastic or orthotropic material, or a warm one, as of the last call: its stress out of the plane [Pa].
+    /// In the plane, of a cell of an inelastic or orthotropic material, or a warm one, as of the last call: its stress
+    /// out of the plane [Pa].
     [[nodiscard]] std::optional<double> out_of_plane_stress(std::int32_t cell) const;
     /// How many numbers a cell remembers, 0 where its material is elastic and not damped (n_cells).
     [[nodiscard]] std::vector<std::int32_t> memory_sizes() const;
@@ -195,8 +202,8 @@ public:
     [[nodiscard]] std::vector<double> memory() const;
     /// The other way round; states are looked at anew.
     void set_memory(std::span<const double> values);
-    /// Takes over what the cells of `before` remember, by their old numbers and those of their faces (n_cells, n_faces). Throws BadInput where the
-    /// materials remember other things.
+    /// Takes over what the cells of `before` remember, by their old numbers and those of their faces (n_cells,
+    /// n_faces). Throws BadInput where the materials remember other things.
     void take_memory(const Ccg& before, std::span<const std::int32_t> old_cells, std::span<const std::int32_t> old_faces);
 
     /// dV/dû_f of a boundary face [N], tractions and pairs included, after the last call of `gradient` or its like;
@@ -234,8 +241,8 @@ public:
     [[nodiscard]] contact::FaceCoupling<Dim> coupling(std::span<const BoundaryFace> faces) const;
 
     /// From now on `gradient` and its like give dV/du_c and energies of these cells alone, increasing, and boundary
-    /// gradients of their faces: what no such value depends on is left out, and holds what it held. Returns the cells whose displacements these
-    /// values depend on, increasing; those of others are not read.
+    /// gradients of their faces: what no such value depends on is left out, and holds what it held. Returns the cells
+    /// whose displacements these values depend on, increasing; those of others are not read.
     std::vector<std::int32_t> compute_only(std::span<const std::int32_t> cells);
     /// From now on the two below look at these boundary faces alone, not at all.
     void watch_only(std::span<const BoundaryFace> faces);
@@ -244,7 +251,8 @@ public:
                                       std::span<const Vector<Dim>> u_to, const BoundaryLoad<Dim>& load_to);
     /// Under constant loads `motion_bound` grows by at most this times the motion of the cell that moves farthest [-].
     [[nodiscard]] double motion_amplification() const;
-    /// Bound as `motion_amplification`, of |dû_f + dG_c arm|, a point of a boundary face at `arm` from its centroid that tilts with the cell behind.
+    /// Bound as `motion_amplification`, of |dû_f + dG_c arm|, a point of a boundary face at `arm` from its centroid
+    /// that tilts with the cell behind.
     [[nodiscard]] double corner_amplification(BoundaryFace face, const Vector<Dim>& arm) const;
 
     /// G_c and sigma_c [-], [Pa], as of the last call of `gradient`, its like or `potential`. Where `evaluate_faces`,
@@ -252,8 +260,8 @@ public:
     /// cells beside it they are not to be used unless it was the same.
     [[nodiscard]] Matrix<Dim> displacement_gradient(std::int32_t cell) const;
     [[nodiscard]] Matrix<Dim> stress(std::int32_t cell) const;
-    /// Stress of a cell with the forces of contact on its free faces, those of the last call that had corrections. sigma_c alone balances
-    /// the faces as if nothing pushed them. Bodies of Kinematics::finite have sigma_c [Pa].
+    /// Stress of a cell with the forces of contact on its free faces, those of the last call that had corrections.
+    /// sigma_c alone balances the faces as if nothing pushed them. Bodies of Kinematics::finite have sigma_c [Pa].
     [[nodiscard]] Matrix<Dim> stress_under_pushes(std::int32_t cell) const;
 
     /// Extremes of these cells, increasing, at the end of the step or in the state that `gradient` was called for last.

@@ -48,8 +48,8 @@ public:
         normal_pushes_.clear();
     }
 
-    /// visit(c, moment over |c|, normal push) for the cells from `begin` to before `end`. Normal push: the sum of p (x) n d/|c|
-    /// where free faces move by their normal columns of F, d being |c| over their area; else 0.
+    /// visit(c, moment over |c|, normal push) for the cells from `begin` to before `end`. Normal push: the sum of p (x)
+    /// n d/|c| where free faces move by their normal columns of F, d being |c| over their area; else 0.
     template <class Visit>
     void for_each(std::int32_t begin, std::int32_t end, const Visit& visit) const {
         for (auto i = static_cast<std::size_t>(std::ranges::lower_bound(cells_, begin) - cells_.begin());

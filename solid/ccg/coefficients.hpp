@@ -78,8 +78,8 @@ struct SweepUnits<Dim, float> {
     [[nodiscard]] Matrix<Dim> in_pascals(const Matrix<Dim>& stress) const { return modulus * stress; }
 
 private:
-    /// Rounds values below 2^-60 to 0: they are far below the rounding of anything that a body does, and the products of what is left
-    /// are numbers that processors multiply at full speed.
+    /// Rounds values below 2^-60 to 0: they are far below the rounding of anything that a body does, and the products
+    /// of what is left are numbers that processors multiply at full speed.
     [[nodiscard, gnu::always_inline]] static Lanes<Dim, float> rounded(Lanes<Dim> a) {
         constexpr double least = 0x1p-60;
         const typename Lanes<Dim>::Register zero{};
@@ -106,8 +106,8 @@ struct CcgCoefficients {
 template <int Dim>
 struct CcgArrays;
 
-/// The same in single precision: areas, moduli and stiffness rounded one by one; the weights of a stencil to multiples of one
-/// power of two, so that they still sum to exactly 1.
+/// The same in single precision: areas, moduli and stiffness rounded one by one; the weights of a stencil to multiples
+/// of one power of two, so that they still sum to exactly 1.
 template <int Dim>
 [[nodiscard]] CcgCoefficients<Dim, float> in_single_precision(const CcgArrays<Dim>& arrays);
 

@@ -93,8 +93,8 @@ struct Staged {
     [[nodiscard]] Table<double> host_table() const { return {on_host.data(), static_cast<std::ptrdiff_t>(on_host.size())}; }
 };
 
-/// body(i) for i from 0 to before n. Bodies are handed over as arguments of the kernel: "light weight" tells Kokkos so, which
-/// would go by way of memory for constants, and wait for it.
+/// body(i) for i from 0 to before n. Bodies are handed over as arguments of the kernel: "light weight" tells Kokkos so,
+/// which would go by way of memory for constants, and wait for it.
 template <class Body>
 void for_each(const Execution& execution, std::ptrdiff_t n, const char* name, const Body& body) {
     using Kokkos::Experimental::WorkItemProperty;

@@ -14,8 +14,8 @@ namespace abut::solid {
 template <int Dim>
 class DeviceKernels {
 public:
-    /// Copies what tables of the host hold of the mesh to the device. Throws BadInput where Abut was built without Kokkos or the
-    /// machine has no such device, MemoryError where the device has too little memory.
+    /// Copies what tables of the host hold of the mesh to the device. Throws BadInput where Abut was built without
+    /// Kokkos or the machine has no such device, MemoryError where the device has too little memory.
     explicit DeviceKernels(const SweepTables<Dim, double>& host);
     ~DeviceKernels();
     DeviceKernels(const DeviceKernels&) = delete;

@@ -9,8 +9,8 @@
 
 namespace abut::solid {
 
-/// Steps on the device of Kokkos: the sweeps of CcgSweeps<Dim>, with its bits. Displacements, corrections and loads go there and
-/// gradients come back in each step; what else is asked for comes when it is.
+/// Steps on the device of Kokkos: the sweeps of CcgSweeps<Dim>, with its bits. Displacements, corrections and loads go
+/// there and gradients come back in each step; what else is asked for comes when it is.
 template <int Dim>
 class DeviceSweeps final : public StepSweeps<Dim> {
 public:

@@ -43,13 +43,14 @@ template <int Dim>
     return stress;
 }
 
-/// A cell of a body of Kinematics::finite that has free faces. These are where the energy of the cell is least: they change F
-/// along their normals only, and the minimum is a function of F on the directions tangent to all of them. docs/method.md,
-/// Bodies that bend.
+/// A cell of a body of Kinematics::finite that has free faces. These are where the energy of the cell is least: they
+/// change F along their normals only, and the minimum is a function of F on the directions tangent to all of them.
+/// docs/method.md, Bodies that bend.
 template <int Dim>
 struct FreeCell {
     std::int32_t cell;
-    /// Dim - 1 where all free faces have one normal, fewer at edges and corners. Normals less than 28 degrees apart are one: their mean
+    /// Dim - 1 where all free faces have one normal, fewer at edges and corners. Normals less than 28 degrees apart are
+    /// one: their mean
     int n_tangents;
     Matrix<Dim> axes;     ///< orthonormal and right-handed, tangents first
     double measure_over;  ///< |c| over the area of the free faces, seen along their normal [m]
@@ -75,8 +76,8 @@ struct CellStretch {
 template <int Dim>
 [[nodiscard]] CellStretch cell_stretch(const Matrix<Dim>& displacement_gradient);
 
-/// r^2, the squared stretch along the normal that the free face of a cell with one normal takes [-]. Not positive: there is no
-/// minimum, the tangents are stretched too far.
+/// r^2, the squared stretch along the normal that the free face of a cell with one normal takes [-]. Not positive:
+/// there is no minimum, the tangents are stretched too far.
 template <int Dim>
 [[nodiscard]] double normal_stretch_squared(const FreeCell<Dim>& free, double contraction,
                                             const Matrix<Dim>& displacement_gradient);

@@ -8,8 +8,8 @@
 namespace abut::solid {
 namespace {
 
-// An eigenvalue of the sum of n n^T over the largest that counts as none: two normals count as one up to 28 degrees between them. Chords
-// of a curve differ by less, and a cell that is condensed along both of them would bear nothing.
+// An eigenvalue of the sum of n n^T over the largest that counts as none: two normals count as one up to 28 degrees
+// between them. Chords of a curve differ by less, and a cell that is condensed along both of them would bear nothing.
 constexpr double one_direction = 0.25 * 0.25;
 constexpr double rounding = 1e-10;  // the same of normals that are one
 

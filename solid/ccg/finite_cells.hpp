@@ -84,8 +84,8 @@ public:
     /// Position of a cell of such a body in `free`; -1 where it has no free face.
     [[nodiscard]] std::int32_t free_position(std::ptrdiff_t cell) const { return position_[static_cast<std::size_t>(cell)]; }
     [[nodiscard]] std::span<const FreeCell<Dim>> free() const { return free_; }
-    /// The cell with free faces of one normal, whose gradient is F_cond: in its traces, and at the corners that contact sees.
-    /// Null for others: at edges and corners, too, that of the affine faces is taken.
+    /// The cell with free faces of one normal, whose gradient is F_cond: in its traces, and at the corners that contact
+    /// sees. Null for others: at edges and corners, too, that of the affine faces is taken.
     [[nodiscard]] const FreeCell<Dim>* condensed(std::ptrdiff_t cell) const {
         const std::int32_t position = any() ? position_[static_cast<std::size_t>(cell)] : linear;
         return position >= 0 && free_[position].has_one_normal() ? &free_[position] : nullptr;

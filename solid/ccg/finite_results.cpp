@@ -8,8 +8,8 @@
 
 namespace abut::solid {
 
-/// What contact adds: of a cell whose gradient is F_cond a moment on that, less what moves the free face from where the affine
-/// one is.
+/// What contact adds: of a cell whose gradient is F_cond a moment on that, less what moves the free face from where the
+/// affine one is.
 template <int Dim, class Real>
 void CcgSweeps<Dim, Real>::add_moments(std::int32_t begin, std::int32_t end) {
     moments_.for_each(begin, end, [&](std::int32_t c, const LaneTensor<Dim>& moment, const Matrix<Dim>& normal_push) {

@@ -10,7 +10,8 @@
 namespace abut::solid {
 namespace {
 
-/// What a step does to a cell that remembers. `as_it_was`: it remembers the same as before, and what it answers is evaluated.
+/// What a step does to a cell that remembers. `as_it_was`: it remembers the same as before, and what it answers is
+/// evaluated.
 constexpr char flow = 1, as_it_was = 2;
 
 }  // namespace
@@ -72,8 +73,8 @@ Matrix<Dim> CcgSweeps<Dim, Real>::linear_change(std::int32_t c) const {
     return unload(element_.gradient_of(u_change_.data(), c, relative));
 }
 
-/// Whether the change of a cell is made before stresses ask for it: where it surely is, and where it was asked for in the last step, as what
-/// flows mostly goes on. Elsewhere whoever asks makes it, with the same bits.
+/// Whether the change of a cell is made before stresses ask for it: where it surely is, and where it was asked for in
+/// the last step, as what flows mostly goes on. Elsewhere whoever asks makes it, with the same bits.
 template <int Dim, class Real>
 bool CcgSweeps<Dim, Real>::makes_change(std::int32_t c) {
     const auto i = static_cast<std::size_t>(c);
@@ -96,8 +97,8 @@ void CcgSweeps<Dim, Real>::add_stress(std::int32_t c, const Matrix<Dim>& added) 
     store_tensor(sum, s_, c);
 }
 
-/// C : eps of a cell whose strains are linear, before its stress has anything beside. As below, while `stresses` of its chunk run: what its
-/// faces had is not overwritten yet.
+/// C : eps of a cell whose strains are linear, before its stress has anything beside. As below, while `stresses` of its
+/// chunk run: what its faces had is not overwritten yet.
 template <int Dim, class Real>
 Matrix<Dim> CcgSweeps<Dim, Real>::elastic_stress_of_stage(std::int32_t c) const {
     if (arrays_.simplices.contains(c)) return unload(load_tensor<Dim>(s_, c));
@@ -179,9 +180,9 @@ void CcgSweeps<Dim, Real>::set_finite_displacement_gradient(std::int32_t c) {
     element_.set_traces(c, free.has_one_normal() ? load_packed<Dim>(state.gradient()) : g);
 }
 
-/// Sets what an inelastic cell remembers at the end of the step, `g` of affine faces. Its free faces are where the step costs least: where
-/// they would be if the cell remembered what it did before, unless that makes it remember something else. Where it does not, what has been
-/// evaluated on the way is also the state at the end.
+/// Sets what an inelastic cell remembers at the end of the step, `g` of affine faces. Its free faces are where the step
+/// costs least: where they would be if the cell remembered what it did before, unless that makes it remember something
+/// else. Where it does not, what has been evaluated on the way is also the state at the end.
 template <int Dim, class Real>
 void CcgSweeps<Dim, Real>::advance(std::int32_t c, std::int32_t inelastic, const Matrix<Dim>& g) {
     const InelasticLaw<Dim>& law = *finite_.inelastic_cell(inelastic).law;
@@ -277,7 +278,8 @@ void CcgSweeps<Dim, Real>::take_ends(const StepEnds<Dim>& ends) {
     keeps_ = &kept_.end;
 }
 
-/// Takes the start from where the last step ended, if that is here; what materials remember goes on wherever the step begins.
+/// Takes the start from where the last step ended, if that is here; what materials remember goes on wherever the step
+/// begins.
 template <int Dim, class Real>
 void CcgSweeps<Dim, Real>::begin_step(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load, double dt) {
     dt_ = dt;  // contact asks where faces end before the step is made
@@ -353,7 +355,8 @@ void CcgSweeps<Dim, Real>::load_end(std::int32_t chunk) {
     });
 }
 
-/// `sum`: S_c in this state, `of_jumps`: what capped jumps add to the defect of the step [J]. In a step the mean with that at its start takes its place.
+/// `sum`: S_c in this state, `of_jumps`: what capped jumps add to the defect of the step [J]. In a step the mean with
+/// that at its start takes its place.
 template <int Dim, class Real>
 void CcgSweeps<Dim, Real>::keep_end(std::int32_t c, const Response<Dim>& of_law, double of_jumps,
                                     LaneTensor<Dim, Real>& sum) {

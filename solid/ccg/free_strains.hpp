@@ -13,14 +13,14 @@ struct FreeFaceOfCell {
     Matrix<Dim> free_part;  ///< projector onto the directions that are not prescribed
 };
 
-/// Orthonormal combinations of z = |f|/|c| û_f of a cell's free faces that balance the stress of the cell, one per column (n_faces
-/// Dim, n_kept). docs/method.md, Space.
+/// Orthonormal combinations of z = |f|/|c| û_f of a cell's free faces that balance the stress of the cell, one per
+/// column (n_faces Dim, n_kept). docs/method.md, Space.
 ///
-/// The strain of a combination is the sum of sym(z (x) n_f). Those are kept whose strain is more than `least_strain` of the largest
-/// one; every other is left to the affine extrapolation: rotations, which strain nothing, and what strains only because two normals
-/// differ by the chord of a curve, or a normal and a support by little from a right angle. To balance such a pair takes
-/// displacements that are as large as the angle is small, and leaves the cell without stress. No material and no size enters. At the tip of
-/// a wedge of less than 60 degrees all that strains is kept.
+/// The strain of a combination is the sum of sym(z (x) n_f). Those are kept whose strain is more than `least_strain` of
+/// the largest one; every other is left to the affine extrapolation: rotations, which strain nothing, and what strains
+/// only because two normals differ by the chord of a curve, or a normal and a support by little from a right angle. To
+/// balance such a pair takes displacements that are as large as the angle is small, and leaves the cell without stress.
+/// No material and no size enters. At the tip of a wedge of less than 60 degrees all that strains is kept.
 struct BalancingCombinations {
     Eigen::MatrixXd of_faces;
     bool leaves_strains = false;  ///< whether another combination strains the cell, too

@@ -67,8 +67,8 @@ CondensedStep<Dim> KeptEnds<Dim>::step_of(std::int32_t c, const Matrix<Dim>& g_0
     return {*finite_.condensed(c), contraction(cell.lambda, cell.mu), 0.5 * (g_0 + g_1), g_1 - g_0};
 }
 
-/// (P_0 + P_1)/2 : Delta F - Delta W. Where W is quadratic in E this is Delta S : (Delta F^T Delta F)/4, without a difference of large
-/// numbers: what a body at rest lacks is 0, and not rounding over a motion that is nearly none.
+/// (P_0 + P_1)/2 : Delta F - Delta W. Where W is quadratic in E this is Delta S : (Delta F^T Delta F)/4, without a
+/// difference of large numbers: what a body at rest lacks is 0, and not rounding over a motion that is nearly none.
 template <int Dim>
 double KeptEnds<Dim>::elastic_defect(std::int32_t c, const Matrix<Dim>& g_0, const Matrix<Dim>& g_1) const {
     const Matrix<Dim> change = g_1 - g_0;
@@ -91,8 +91,8 @@ double KeptEnds<Dim>::elastic_defect(std::int32_t c, const Matrix<Dim>& g_0, con
 /// reconstructed is linear, and exact for affine motions. Jumps are quadratic in u and what the traces take for F, and lack
 /// nothing where that is F itself.
 ///
-/// Where a material dissipates, the first part is what it takes, except where it is negative by what the step is too long. The part
-/// of the jumps is then that of faces which flow along with their cell, and has no sign.
+/// Where a material dissipates, the first part is what it takes, except where it is negative by what the step is too
+/// long. The part of the jumps is then that of faces which flow along with their cell, and has no sign.
 template <int Dim>
 void KeptEnds<Dim>::set_defect(std::int32_t c, bool flows, double of_capped_jumps) {
     const auto [g_0, g_1] = gradients(c);
@@ -166,8 +166,8 @@ void KeptEnds<Dim>::clear_contact() {
     for (StepDefect<Dim>& defect : of_contact_) defect = {0.0, 0.0, AxialVector<Dim>::Zero()};
 }
 
-/// CondensedStep is exact along the step; with a StoredEnergy the mean of what holds at both ends is taken, and what it lacks
-/// is one more part of the defect.
+/// CondensedStep is exact along the step; with a StoredEnergy the mean of what holds at both ends is taken, and what it
+/// lacks is one more part of the defect.
 template <int Dim>
 Matrix<Dim> KeptEnds<Dim>::pull_back_contact(std::int32_t c, const Matrix<Dim>& gradient) {
     const auto [g_0, g_1] = gradients(c);

@@ -13,7 +13,8 @@
 
 namespace abut::solid {
 
-/// A cell with one free normal in one state: F as its traces and contact take it, with the free face where the energy is least.
+/// A cell with one free normal in one state: F as its traces and contact take it, with the free face where the energy
+/// is least.
 template <int Dim>
 struct FreeEnd {
     CondensedStep<Dim> condensed;  // where the material is St. Venant and Kirchhoff's
@@ -81,8 +82,8 @@ public:
 
     KeptEnd<Dim> start, end;
 
-    /// Both ends of this cell are set. `flows`: its material may have dissipated energy in the step. `of_capped_jumps`: what these
-    /// add [J].
+    /// Both ends of this cell are set. `flows`: its material may have dissipated energy in the step. `of_capped_jumps`:
+    /// what these add [J].
     void set_defect(std::int32_t c, bool flows, double of_capped_jumps);
     /// Energy that this cell has dissipated in the step from `start` to `end` [J].
     [[nodiscard]] dynamics::Losses loss(std::int32_t c) const;

@@ -44,8 +44,8 @@ private:
 
 }  // namespace detail
 
-/// No cell moves farther from a to b than this: of some neighbours in the order of cells, the norm of the largest motion along
-/// each axis; NaN if a number is.
+/// No cell moves farther from a to b than this: of some neighbours in the order of cells, the norm of the largest
+/// motion along each axis; NaN if a number is.
 template <int Dim>
 [[nodiscard]] double largest_motion(std::span<const Vector<Dim>> a, std::span<const Vector<Dim>> b) {
     const auto n = static_cast<std::ptrdiff_t>(a.size());

@@ -14,8 +14,8 @@ constexpr int most_steps = 40, most_halvings = 30;
 constexpr double last_step = 1e-8;     // of F: Newton's next one is below rounding
 constexpr double first_square = 0.05;  // of the stretch across that the search begins with
 
-/// Right-handed: along what the first tangent has become, and normal to what all have. Beside a single tangent in space the second
-/// axis is in the plane of it and of the first normal as affine faces carry it.
+/// Right-handed: along what the first tangent has become, and normal to what all have. Beside a single tangent in space
+/// the second axis is in the plane of it and of the first normal as affine faces carry it.
 template <int Dim>
 Matrix<Dim> principal_frame_of(const Matrix<Dim>& y, bool has_one_normal) {
     Matrix<Dim> frame;
@@ -116,8 +116,8 @@ void LeastEnergy<Dim>::set_one_normal(const Matrix<Dim>& g, const Matrix<Dim>& s
     inverse_ = tangent.inverse();
 }
 
-/// Two normals in space: what is left is a bar along the edge. A turn about it costs nothing and is left out: n_1 stays in the
-/// plane of the bar and of where it was.
+/// Two normals in space: what is left is a bar along the edge. A turn about it costs nothing and is left out: n_1 stays
+/// in the plane of the bar and of where it was.
 template <int Dim>
 void LeastEnergy<Dim>::set_edge(const Matrix<Dim>& shape) {
     if constexpr (Dim == 3) {

@@ -8,8 +8,9 @@
 
 namespace abut::solid {
 
-/// A cell of any stored energy with free faces: F with these faces where the energy is least, in one state, by Newton's method. They
-/// change F along their normals alone. The counterpart of CondensedStep, which knows this in closed form for one material.
+/// A cell of any stored energy with free faces: F with these faces where the energy is least, in one state, by Newton's
+/// method. They change F along their normals alone. The counterpart of CondensedStep, which knows this in closed form
+/// for one material.
 template <int Dim>
 class LeastEnergy {
 public:
@@ -24,8 +25,8 @@ public:
 
     /// F - I at the minimum.
     [[nodiscard]] const Matrix<Dim>& gradient() const { return gradient_; }
-    /// F at the minimum from the axes of the cell to axes that go with the tangents of F: how the free faces stand, however the cell
-    /// is turned.
+    /// F at the minimum from the axes of the cell to axes that go with the tangents of F: how the free faces stand,
+    /// however the cell is turned.
     [[nodiscard]] Matrix<Dim> shape() const { return frame_.transpose() * (axes_ + gradient_ * axes_); }
     /// W and dW/dF of the minimum as a function of F: the stress on free faces is 0. Not numbers where there is no minimum.
     [[nodiscard]] const Response<Dim>& response() const { return response_; }

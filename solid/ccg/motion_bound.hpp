@@ -30,8 +30,8 @@ public:
     /// |1 - D| + 2 sum_j |W_j|, j other cells than c [-]. The bound is a seminorm of du.
     [[nodiscard]] double amplification() const { return amplification_; }
 
-    /// The same of the point of a face at `arm` from its centroid that tilts with the cell: |dû_f + dG_c arm| over the motion
-    /// of the cell that moves farthest [-].
+    /// The same of the point of a face at `arm` from its centroid that tilts with the cell: |dû_f + dG_c arm| over the
+    /// motion of the cell that moves farthest [-].
     [[nodiscard]] double corner_amplification(BoundaryFace face, const Vector<Dim>& arm) const;
 
 private:

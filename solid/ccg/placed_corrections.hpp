@@ -8,8 +8,8 @@
 
 namespace abut::solid {
 
-/// Puts corrections where the sweeps see them, face by face and cell by cell, until the end of its life: SweepTables::correction
-/// and pair_gradient of boundary faces, zero everywhere else, and the moments of cells.
+/// Puts corrections where the sweeps see them, face by face and cell by cell, until the end of its life:
+/// SweepTables::correction and pair_gradient of boundary faces, zero everywhere else, and the moments of cells.
 template <int Dim, class Real>
 class PlacedCorrections {
 public:

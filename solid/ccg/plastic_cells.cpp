@@ -259,16 +259,17 @@ double PlasticCells<Dim>::flow_inside(const Cell& cell, const FlowStress& stress
     return rising_root(excess, 0.0, trial / answer);
 }
 
-/// How far a cell flows (|change of p|) from the trial state xi = dev C_e : (eps - p) - 2/3 H p, and `normal`, its direction at the end:
-/// the root of sum of y^2/(rho + g b)^2 = 1 over the axes, with y = xi along one, b its answer and rho the radius at the end.
+/// How far a cell flows (|change of p|) from the trial state xi = dev C_e : (eps - p) - 2/3 H p, and `normal`, its
+/// direction at the end: the root of sum of y^2/(rho + g b)^2 = 1 over the axes, with y = xi along one, b its answer
+/// and rho the radius at the end.
 template <int Dim>
 double PlasticCells<Dim>::flow(std::size_t number, const FlowStress& stress, const Strain& trial, Strain& normal) const {
     const Cell& cell = cells_[number];
     const double size = trial.norm();
     if (size <= surfaces_[number].radius) return 0.0;
     const Response& of = response(cell);
-    // Contact gives way as the face flows, and knows by how much: what it pushes with is no dead load. Flow that goes as far as where
-    // faces are held never goes too far; what is left beyond the surface flows in the next steps.
+    // Contact gives way as the face flows, and knows by how much: what it pushes with is no dead load. Flow that goes
+    // as far as where faces are held never goes too far; what is left beyond the surface flows in the next steps.
     if (is_inside(cell) || !push_on(number).isZero(0.0)) {
         normal = trial / size;
         return flow_inside(cell, stress, size);

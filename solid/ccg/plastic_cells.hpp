@@ -18,19 +18,22 @@
 
 namespace abut::solid {
 
-/// Cells of MaterialLaw::j2 whose strains are linear: they flow by von Mises's rule, with isotropic and kinematic hardening. Per
-/// volume a cell stores, eps being the strain of its displacement gradient and p its plastic strain, both in space,
+/// Cells of MaterialLaw::j2 whose strains are linear: they flow by von Mises's rule, with isotropic and kinematic
+/// hardening. Per volume a cell stores, eps being the strain of its displacement gradient and p its plastic strain,
+/// both in space,
 ///
 ///     1/2 eps : C : eps - eps : C : p + 1/2 p : C_e : p + H/3 p : p
 ///
-/// with C_e, what faces that are free or bear a traction t leave of C. These stand where they would without p: C : eps is C_e : eps' and a
-/// part of t, eps' being of the other faces, and the second term is also what t does as p moves them. docs/method.md, Metal that yields.
+/// with C_e, what faces that are free or bear a traction t leave of C. These stand where they would without p: C : eps
+/// is C_e : eps' and a part of t, eps' being of the other faces, and the second term is also what t does as p moves
+/// them. docs/method.md, Metal that yields.
 ///
 /// Only a step that has ended is remembered. Functions of different cells may be called from several threads at once.
 template <int Dim>
 class PlasticCells {
 public:
-    /// One material and kinematics per body, the latter empty where all are small. Bodies of Kinematics::finite have none of them.
+    /// One material and kinematics per body, the latter empty where all are small. Bodies of Kinematics::finite have
+    /// none of them.
     PlasticCells(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials, std::span<const Kinematics> kinematics,
                  const FaceConditions<Dim>& conditions, FreeFaceRule rule, FreeFaces free_faces,
                  const CcgArrays<Dim>& arrays);
@@ -43,13 +46,14 @@ public:
     /// C_e : p, which stress is less by [Pa]; 0 before it has flowed.
     [[nodiscard]] const Matrix<Dim>& stress(std::ptrdiff_t cell) const { return at(cell).memory.stress; }
     [[nodiscard]] bool has_flowed(std::ptrdiff_t cell) const { return surfaces_[number(cell)].has_flowed; }
-    /// Whether its flow moves boundary faces that contact may push. For itself, and for jumps, the cell has them where they would be
-    /// without flow.
+    /// Whether its flow moves boundary faces that contact may push. For itself, and for jumps, the cell has them where
+    /// they would be without flow.
     [[nodiscard]] bool moves_faces(std::ptrdiff_t cell) const { return contains(cell) && surfaces_[number(cell)].push >= 0; }
     /// How far p moves such a face [m], and by how much it changes what tilts all of them [-].
     [[nodiscard]] Vector<Dim> moved(std::ptrdiff_t cell, BoundaryFace face) const;
     [[nodiscard]] Matrix<Dim> tilted(std::ptrdiff_t cell) const;
-    /// What contact does in the step to a cell that moves faces: dV/dû of a face of it by gradient(face) [N], and dV/dG over the measure [Pa].
+    /// What contact does in the step to a cell that moves faces: dV/dû of a face of it by gradient(face) [N], and dV/dG
+    /// over the measure [Pa].
     template <class Gradient>
     void set_push(std::ptrdiff_t cell, const Gradient& gradient, const Matrix<Dim>& moment) {
         Push& push = pushes_[static_cast<std::size_t>(surfaces_[number(cell)].push)];
@@ -68,11 +72,12 @@ public:
     [[nodiscard]] bool any_face_moves() const {
         return std::ranges::any_of(pushes_, [&](const Push& push) { return flows_[push.number] != 0; });
     }
-    /// Whether the cell surely does not flow in a step that begins where the last one ended, and in whose middle C : eps is `mean` [Pa]:
-    /// then the step is made. Else, by rounding or since nobody knows where the last one ended, `advance` must say.
+    /// Whether the cell surely does not flow in a step that begins where the last one ended, and in whose middle C :
+    /// eps is `mean` [Pa]: then the step is made. Else, by rounding or since nobody knows where the last one ended,
+    /// `advance` must say.
     [[nodiscard]] bool stays_elastic(std::ptrdiff_t cell, const Matrix<Dim>& mean);
-    /// Flows in a step of length `dt` in whose middle C : eps is `mean` [Pa], and in which the displacement gradient changes by `change`;
-    /// returns the mean of `stress` at both ends [Pa].
+    /// Flows in a step of length `dt` in whose middle C : eps is `mean` [Pa], and in which the displacement gradient
+    /// changes by `change`; returns the mean of `stress` at both ends [Pa].
     [[nodiscard]] Matrix<Dim> advance(std::ptrdiff_t cell, const Matrix<Dim>& mean, const Matrix<Dim>& change, double dt);
     /// The terms of the energy that p is in [J/m^3].
     [[nodiscard]] double energy(std::ptrdiff_t cell, const Matrix<Dim>& g) const;
@@ -100,7 +105,8 @@ public:
     void set_memory(std::ptrdiff_t cell, std::span<const double> values);
 
 private:
-    /// Components of a symmetric tensor in space; in the plane, of one without shear out of it. Products of vectors are those of tensors.
+    /// Components of a symmetric tensor in space; in the plane, of one without shear out of it. Products of vectors are
+    /// those of tensors.
     static constexpr int n_strains = Dim == 2 ? 4 : 6;
     using Strain = Eigen::Matrix<double, n_strains, 1, Eigen::DontAlign>;
     using Stiffness = Eigen::Matrix<double, n_strains, n_strains, Eigen::DontAlign>;
@@ -114,7 +120,8 @@ private:
         Strain values;   // the eigenvalues
     };
     [[nodiscard]] static Response response_of(const Material& material, std::span<const FreeFaceOfCell<Dim>> free);
-    /// Yield surface of a cell, which follows from what it remembers: all that a step which stays elastic looks at beside xi.
+    /// Yield surface of a cell, which follows from what it remembers: all that a step which stays elastic looks at
+    /// beside xi.
     struct Surface {
         Strain shift = Strain::Zero();  // dev C_e : p + 2/3 H p
         double radius = 0.0;            // sqrt(2/3) sigma(alpha)

@@ -4,8 +4,8 @@
 
 #include "abut/solid/ccg/sweep_elements.hpp"
 
-// What the sweeps do with one element of a body of simplices, and with one whatever its body is, for the sources that need it
-// inlined.
+// What the sweeps do with one element of a body of simplices, and with one whatever its body is, for the sources that
+// need it inlined.
 
 namespace abut::solid {
 

@@ -27,8 +27,8 @@ struct CondensedCell {
     BoundaryFace face;
 };
 
-/// The bodies of linear, isotropic elasticity that are made of simplices throughout. Their face displacements are affine in each cell,
-/// which saves most of what other shapes need. docs/method.md, Space.
+/// The bodies of linear, isotropic elasticity that are made of simplices throughout. Their face displacements are
+/// affine in each cell, which saves most of what other shapes need. docs/method.md, Space.
 template <int Dim>
 class Simplices {
 public:

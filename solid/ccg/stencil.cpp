@@ -228,8 +228,9 @@ private:
     std::array<std::size_t, Dim + 1> chosen_{};
 };
 
-/// Whether a boundary face is around a hollow: one of the cells near it is nearer to its plane than to a boundary face of its
-/// own that looks the same way. There the simplex that extrapolates least may span the hollow, however far its cells are.
+/// Whether a boundary face is around a hollow: one of the cells near it is nearer to its plane than to a boundary face
+/// of its own that looks the same way. There the simplex that extrapolates least may span the hollow, however far its
+/// cells are.
 template <int Dim>
 bool is_hollow(const mesh::Mesh<Dim>& mesh, std::int32_t face, std::span<const typename NearestCells<Dim>::Near> near) {
     return std::ranges::any_of(near, [&](const auto& of_cell) {
@@ -244,8 +245,8 @@ bool is_hollow(const mesh::Mesh<Dim>& mesh, std::int32_t face, std::span<const t
     });
 }
 
-/// Adds the cells that share a face with a cell, where they are not among those near the point: of long cells around a hollow
-/// the nearest may all be of one layer.
+/// Adds the cells that share a face with a cell, where they are not among those near the point: of long cells around a
+/// hollow the nearest may all be of one layer.
 template <int Dim>
 void add_neighbours(const mesh::Mesh<Dim>& mesh, std::int32_t cell, const Vector<Dim>& point,
                     std::vector<typename NearestCells<Dim>::Near>& near) {

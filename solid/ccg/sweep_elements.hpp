@@ -5,8 +5,8 @@
 #include "abut/solid/ccg/sweep_tables.hpp"
 #include "abut/solid/ccg/tensor_of.hpp"
 
-// What the sweeps do with one element, for the sources that need it inlined: with registers (Lanes) on the host, by components
-// on devices (Components). Sums are the same, so that the bits are.
+// What the sweeps do with one element, for the sources that need it inlined: with registers (Lanes) on the host, by
+// components on devices (Components). Sums are the same, so that the bits are.
 
 namespace abut::solid {
 
@@ -95,8 +95,8 @@ private:
     }
 };
 
-// Displacements enter by their differences to that of a cell nearby, which are taken in double whatever Real is: a translation
-// of the body costs no accuracy.
+// Displacements enter by their differences to that of a cell nearby, which are taken in double whatever Real is: a
+// translation of the body costs no accuracy.
 
 /// Share of a face in the mean over all faces of a simplex whose point is its centroid.
 template <int Dim, class Real>
@@ -192,8 +192,8 @@ inline V SweepElements<V>::reconstructed_row(const double* u, BoundaryFace face)
     return sum + units.displacement(gathered(tables.load_displacement, b) - missing);
 }
 
-/// The traces of the cell with its free faces where the cells around point; these faces have been reconstructed. No such cell is a
-/// simplex.
+/// The traces of the cell with its free faces where the cells around point; these faces have been reconstructed. No
+/// such cell is a simplex.
 template <class V>
 inline void SweepElements<V>::set_affine_traces(const AffineCell& cell) const {
     const std::int32_t c = cell.cell;
@@ -207,8 +207,8 @@ inline void SweepElements<V>::set_affine_traces(const AffineCell& cell) const {
     set_traces(c, g);
 }
 
-/// Adds the gradients of jumps at affine faces in place of those at reconstructed ones; to be called before other terms of the
-/// stress.
+/// Adds the gradients of jumps at affine faces in place of those at reconstructed ones; to be called before other terms
+/// of the stress.
 template <class V>
 inline void SweepElements<V>::set_affine_gradients(const AffineCell& cell) const {
     const std::int32_t c = cell.cell;

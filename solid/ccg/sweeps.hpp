@@ -38,8 +38,8 @@ namespace abut::solid {
 ///     cells   D_c = sum of k (d_c - d of the neighbour) = sum of k [u]
 ///     faces   y_f = (sigma_1 - sigma_2) |f| n_f - (D_1 + D_2)/(Dim + 1)
 ///
-/// and in a condensed cell the free face follows from the others: û_b - u_c = -A_bb^-1 sigma' |b| n_b, sigma' without it; with
-/// z = A_bb^-1 y_b, R^T y_b is what the stress -C:(z (x) |b| n_b)/|c| does on the faces of the cell.
+/// and in a condensed cell the free face follows from the others: û_b - u_c = -A_bb^-1 sigma' |b| n_b, sigma' without
+/// it; with z = A_bb^-1 y_b, R^T y_b is what the stress -C:(z (x) |b| n_b)/|c| does on the faces of the cell.
 ///
 /// Real is what the numbers of the operators and the work arrays are, all but displacements: these are double, and so are
 /// their differences, before they are rounded, and the sums that cells receive. In float there are no bodies of

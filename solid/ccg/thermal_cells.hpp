@@ -29,7 +29,8 @@ public:
 
     [[nodiscard]] bool any() const { return !of_body_.empty(); }
     [[nodiscard]] bool varies() const;
-    /// T of all cells at a time [K]. Throws BadInput where it is not finite, or strains by more than 0.1, of finite bodies 0.5.
+    /// T of all cells at a time [K]. Throws BadInput where it is not finite, or strains by more than 0.1, of finite
+    /// bodies 0.5.
     [[nodiscard]] std::vector<double> rise_at(double time) const;
     /// C : a of a cell, which stress is less by per kelvin [Pa/K].
     [[nodiscard]] const Matrix<Dim>& stress(std::ptrdiff_t cell) const { return of_cell(cell).stress; }

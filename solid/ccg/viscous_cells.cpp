@@ -17,8 +17,8 @@ Matrix<Dim> stress_of_rate(const Material& material, const FreeCell<Dim>* free, 
     return 2.0 * material.mu() * strain + material.lambda() * strain.trace() * Matrix<Dim>::Identity();
 }
 
-/// A, by which the rate of volume over the volume is A : dE/dt. Where faces are free it is that of the directions along them, with what
-/// these make of the others.
+/// A, by which the rate of volume over the volume is A : dE/dt. Where faces are free it is that of the directions along
+/// them, with what these make of the others.
 template <int Dim>
 Matrix<Dim> volume_of_strain(const Material& material, const FreeCell<Dim>* free, const Matrix<Dim>& f) {
     const Matrix<Dim> metric = f.transpose() * f;
@@ -35,8 +35,8 @@ Matrix<Dim> volume_of_strain(const Material& material, const FreeCell<Dim>* free
     return 2.0 * material.mu() / material.wave_modulus() * tangents * in_plane.inverse() * tangents.transpose();
 }
 
-/// Adds what a force c (now + before)/2 does in a step whose rate is `now`: `work`. Of it dt/4 c (now + before)^2 is dissipated, and
-/// the rest is lagged: it is the change of dt/4 c rate^2.
+/// Adds what a force c (now + before)/2 does in a step whose rate is `now`: `work`. Of it dt/4 c (now + before)^2 is
+/// dissipated, and the rest is lagged: it is the change of dt/4 c rate^2.
 void add_lagged(dynamics::Losses& loss, double work, double dissipated) {
     loss.by_damping += dissipated;
     loss.lagged += work - dissipated;

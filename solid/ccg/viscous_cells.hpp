@@ -12,8 +12,9 @@
 
 namespace abut::solid {
 
-/// Forces of cells that depend on rates: Rayleigh's damping and the viscosity of shocks (Material). They act on the mean of the rate
-/// of a step and of that of the step before, which cells remember: docs/method.md, Damping and viscosity.
+/// Forces of cells that depend on rates: Rayleigh's damping and the viscosity of shocks (Material). They act on the
+/// mean of the rate of a step and of that of the step before, which cells remember: docs/method.md, Damping and
+/// viscosity.
 ///
 /// A step that has not ended leaves no trace. Functions of different cells may be called from several threads at once.
 template <int Dim>
@@ -27,12 +28,13 @@ public:
     /// Whether a body is damped, on any rank.
     [[nodiscard]] bool any() const { return any_; }
     [[nodiscard]] bool contains(std::ptrdiff_t cell) const { return any() && index_[static_cast<std::size_t>(cell)] >= 0; }
-    /// Viscous stress (P) of a step in which F - I of a cell changes by `change` about the mean `g`, for small strains 0 [Pa].
-    /// `free`: the free faces of the cell, where `g` is of affine ones; null: it has none, or `g` knows where they are.
+    /// Viscous stress (P) of a step in which F - I of a cell changes by `change` about the mean `g`, for small strains
+    /// 0 [Pa]. `free`: the free faces of the cell, where `g` is of affine ones; null: it has none, or `g` knows where
+    /// they are.
     [[nodiscard]] Matrix<Dim> stress(std::ptrdiff_t cell, const Matrix<Dim>& g, const Matrix<Dim>& change, double dt,
                                      const FreeCell<Dim>* free = nullptr);
-    /// Force of Material::mass_damping on a cell of this mass that moves by `motion` in a step [N]. A cell that flies freely is
-    /// slowed by exp(-alpha dt) in each step, to round-off.
+    /// Force of Material::mass_damping on a cell of this mass that moves by `motion` in a step [N]. A cell that flies
+    /// freely is slowed by exp(-alpha dt) in each step, to round-off.
     [[nodiscard]] Vector<Dim> drag(std::ptrdiff_t cell, double mass, const Vector<Dim>& motion, double dt);
     /// Energy that both have dissipated in the step.
     [[nodiscard]] dynamics::Losses loss(std::ptrdiff_t cell) const;

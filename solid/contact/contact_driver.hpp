@@ -39,8 +39,9 @@ public:
     [[nodiscard]] virtual std::span<const std::int32_t> surface_cells() const = 0;
 };
 
-/// Leads contact along the steps of a solid, by one of its laws: it gives the surface, searches where the candidate list is no
-/// longer valid, and takes what comes back to the boundary faces. All that asks contact for something is here.
+/// Leads contact along the steps of a solid, by one of its laws: it gives the surface, searches where the candidate
+/// list is no longer valid, and takes what comes back to the boundary faces. All that asks contact for something is
+/// here.
 ///
 /// Displacements q are those of all points (n_points) [m]. A step is `follow`; then `integrate`, or `take_start` and
 /// `take_end`; then `end_step`. A step of a driver with `makes_parts` may also be `begin_parts`, then of each part
@@ -61,7 +62,8 @@ public:
     /// Tractions jump in q at `time`, from the loads at the start of the step to those at its end; called before `follow`.
     virtual void follow_jump(std::span<const Vector<Dim>> q, double time) = 0;
     virtual void jumped(std::span<const Vector<Dim>> q, double time) = 0;  ///< the loads at both ends are those after it
-    /// Energy where the step that is being made ends, in q, with faces as they are now [J]. The results below are of that state.
+    /// Energy where the step that is being made ends, in q, with faces as they are now [J]. The results below are of
+    /// that state.
     [[nodiscard]] virtual double energy_at_end(std::span<const Vector<Dim>> q) = 0;
     /// The next step begins where this one ends.
     virtual void end_step() = 0;
@@ -71,8 +73,8 @@ public:
     /// Goes on from there, in q, where the last step ended at `time`; frames and loads are those of q.
     virtual void restore(std::span<const std::byte> state, std::span<const Vector<Dim>> q, double time) = 0;
 
-    /// Goes on where `before`, of the same law, has stopped; to be followed by `state` and `restore`. `old_boundary`: of each boundary
-    /// face of the mesh its index in that of `before`, -1: it was not there.
+    /// Goes on where `before`, of the same law, has stopped; to be followed by `state` and `restore`. `old_boundary`:
+    /// of each boundary face of the mesh its index in that of `before`, -1: it was not there.
     virtual void take_over(const ContactDriver& before, std::span<const std::int32_t> old_boundary) = 0;
 
     // Contact on that path, which takes `dt` [s]. Each replaces the results below.
@@ -94,8 +96,8 @@ public:
     [[nodiscard]] virtual bool makes_parts() const { return false; }
     /// A step of this length begins [s].
     virtual void begin_parts(double) {}
-    /// Contact in a part of it, from `time` on and `dt` long [s], looking at no more cells than it needs; its impulses and the
-    /// work of obstacles are booked. Whether some pair is active.
+    /// Contact in a part of it, from `time` on and `dt` long [s], looking at no more cells than it needs; its impulses
+    /// and the work of obstacles are booked. Whether some pair is active.
     virtual bool integrate_part(PartOfStep<Dim>&, double, double, double&) { return false; }
     /// Cells that the faces of the list depend on, increasing.
     [[nodiscard]] virtual std::span<const std::int32_t> input_cells() const { return {}; }
@@ -131,7 +133,8 @@ public:
     /// Patches of the last step.
     [[nodiscard]] virtual std::vector<dynamics::ContactPatch<Dim>> patches() const = 0;
 
-    /// Boundary face for a face as errors of contact number it; `no_face` of an obstacle, and where there is none of that number.
+    /// Boundary face for a face as errors of contact number it; `no_face` of an obstacle, and where there is none of
+    /// that number.
     [[nodiscard]] virtual BoundaryFace mesh_boundary(contact::Face face) const = 0;
 
     /// Contact itself, as its law has it: on faces or on nodes.

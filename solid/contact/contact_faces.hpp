@@ -7,8 +7,9 @@
 
 namespace abut::solid {
 
-/// Whether contact cannot displace a boundary face along its normal, since a support prescribes that: to its partners it is a
-/// rigid face on the path of the support. One that is prescribed along itself alone gives way as a free one does.
+/// Whether contact cannot displace a boundary face along its normal, since a support prescribes that: to its partners
+/// it is a rigid face on the path of the support. One that is prescribed along itself alone gives way as a free one
+/// does.
 template <int Dim>
 [[nodiscard]] bool is_held(const Ccg<Dim>& ccg, BoundaryFace face) {
     return ccg.normal_stiffness(face) == std::numeric_limits<double>::infinity();

@@ -11,8 +11,8 @@
 
 namespace abut::solid {
 
-/// Two faces in contact, by the points that move them: cells, or the points of a rigid body; none move an obstacle. On several
-/// ranks, by their numbers among the points of all.
+/// Two faces in contact, by the points that move them: cells, or the points of a rigid body; none move an obstacle. On
+/// several ranks, by their numbers among the points of all.
 template <int Dim>
 struct TouchingPoints {
     std::span<const std::int32_t> points_1;
@@ -25,8 +25,8 @@ struct TouchingPoints {
 template <int Dim>
 [[nodiscard]] std::vector<dynamics::Hold<Dim>> holds_of_cell(const Ccg<Dim>& ccg, std::int32_t cell);
 
-/// These points, sorted into patches: those of one face are in one patch, and so are the two faces of a pair. In the order of
-/// their first points. Obstacles hold a patch where they touch it, and what holds its points.
+/// These points, sorted into patches: those of one face are in one patch, and so are the two faces of a pair. In the
+/// order of their first points. Obstacles hold a patch where they touch it, and what holds its points.
 template <int Dim>
 [[nodiscard]] std::vector<dynamics::ContactPatch<Dim>> contact_patches(
     std::span<const TouchingPoints<Dim>> touching,

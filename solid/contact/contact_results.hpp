@@ -40,8 +40,8 @@ struct BodyImpulse {
     double normal_impulse;                       ///< of all pairs of faces along their normals [N s], > 0 in compression
     Vector<Dim> friction = Vector<Dim>::Zero();  ///< part of `impulse` that is friction [N s]
     double rubbing_impulse = 0.0;                ///< part of `normal_impulse` where there is friction [N s]
-    /// Sum of normal force times slip of these pairs, over all steps [N m]: over `rubbing_impulse` it is a velocity, that of body 2
-    /// past body 1 where they press.
+    /// Sum of normal force times slip of these pairs, over all steps [N m]: over `rubbing_impulse` it is a velocity,
+    /// that of body 2 past body 1 where they press.
     Vector<Dim> slip = Vector<Dim>::Zero();
 };
 
@@ -50,8 +50,8 @@ struct BodyImpulse {
 struct ContactField {
     std::vector<double> pressure;
     std::vector<double> gap;
-    /// Fields of friction, empty without any: the size of its traction [Pa]; the slip of each face in the last step [m]; and whether
-    /// it stuck (1) or slid (2) then, 0 without friction.
+    /// Fields of friction, empty without any: the size of its traction [Pa]; the slip of each face in the last step
+    /// [m]; and whether it stuck (1) or slid (2) then, 0 without friction.
     std::vector<double> friction = {};
     std::vector<double> slip = {};
     std::vector<double> sliding = {};

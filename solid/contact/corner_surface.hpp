@@ -14,8 +14,8 @@
 
 namespace abut::solid {
 
-/// The corners of all faces that may touch, each belonging to its face alone: nodes for contact. A corner at X of face f moves
-/// with the face and tilts with its cell c, in the frame of its body:
+/// The corners of all faces that may touch, each belonging to its face alone: nodes for contact. A corner at X of face
+/// f moves with the face and tilts with its cell c, in the frame of its body:
 ///
 ///     x = centre + Q (X - mean of X + û_f + (I - P_f) G_c (X - x_f))
 ///
@@ -74,7 +74,8 @@ public:
     [[nodiscard]] BoundaryFace mesh_boundary(contact::Face face) const {
         return is_obstacle(static_cast<std::size_t>(face)) ? no_face : mesh_boundary_[static_cast<std::size_t>(face)];
     }
-    /// Points of the system that move a face; none of an obstacle or of a face that a support holds. On several ranks, by their numbers among those of all.
+    /// Points of the system that move a face; none of an obstacle or of a face that a support holds. On several ranks,
+    /// by their numbers among those of all.
     [[nodiscard]] std::span<const std::int32_t> points_of(contact::Face face) const;
     /// The part of a displacement or a force of a corner, in the frame, that its cell has a say in.
     [[nodiscard]] Vector<Dim> free_part(BoundaryFace face, const Vector<Dim>& of_corner) const {

@@ -16,8 +16,9 @@
 
 namespace abut::solid {
 
-/// Whether each of `n_faces` faces of contact is in a group of the mesh: those of `shared`, rigid ones behind them, and then those
-/// of obstacles. `boundary`: the boundary face of all but the last, `no_face` if there is none here. A call of all ranks.
+/// Whether each of `n_faces` faces of contact is in a group of the mesh: those of `shared`, rigid ones behind them, and
+/// then those of obstacles. `boundary`: the boundary face of all but the last, `no_face` if there is none here. A call
+/// of all ranks.
 template <int Dim>
 [[nodiscard]] std::vector<bool> faces_in_group(const mesh::Mesh<Dim>& mesh, std::size_t group,
                                                const SharedFaces<Dim>& shared, std::span<const BoundaryFace> boundary,
@@ -44,7 +45,8 @@ public:
     FaceSides(std::vector<std::int32_t> body_of, std::int32_t n_bodies_and_obstacles)
         : body_of_(std::move(body_of)), n_bodies_(n_bodies_and_obstacles) {}
 
-    /// A side as in BodyFriction::bodies and BodyInterference::bodies. `faces_of(g)`: whether each face is in group g of the mesh.
+    /// A side as in BodyFriction::bodies and BodyInterference::bodies. `faces_of(g)`: whether each face is in group g
+    /// of the mesh.
     template <class FacesOf>
     void add(std::int32_t side, const FacesOf& faces_of) {
         if (is_group(side)) in_group_.try_emplace(side, faces_of(static_cast<std::size_t>(side - n_bodies_)));

@@ -38,8 +38,8 @@ std::vector<std::array<std::int32_t, 2>> ignored_pairs(const Bodies<Dim>& bodies
     return pairs;
 }
 
-/// All pairs of faces but those of which one is bonded to the body of the other, as the bonds are when it is asked. The faces of bodies
-/// that deform come first in contact, in the order of the whole mesh.
+/// All pairs of faces but those of which one is bonded to the body of the other, as the bonds are when it is asked. The
+/// faces of bodies that deform come first in contact, in the order of the whole mesh.
 template <int Dim>
 std::function<bool(contact::Face, contact::Face)> wanted_beside(const CornerSurface<Dim>& corners, const Bonds<Dim>& bonds) {
     if (!bonds.any()) return {};
@@ -136,8 +136,8 @@ void PairPotentialDriver<Dim>::search(std::span<const Vector<Dim>> q_0, std::spa
     if (touches_itself_) far_watch_.moved_in_frame = moved_in_frame();
 }
 
-/// Of faces that reach into the box of another body or obstacle when that grows by twice `far_reach_`, and by all that contact
-/// itself looks ahead and reaches beyond faces.
+/// Of faces that reach into the box of another body or obstacle when that grows by twice `far_reach_`, and by all that
+/// contact itself looks ahead and reaches beyond faces.
 template <int Dim>
 std::vector<std::int32_t> PairPotentialDriver<Dim>::near_nodes() const {
     const contact::SurfaceView<Dim> facets = contact_.surface().facets().view();

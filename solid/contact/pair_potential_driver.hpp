@@ -21,7 +21,9 @@ template <int Dim>
 class PairPotentialDriver final : public ContactDriver<Dim> {
 public:
     /// All arguments must outlive the driver; `frames` are led along each step before it. Where the time goes is added to
-    /// `times`. On several ranks each does its share of the pairs, and all that places nodes is a call of all. Faces that are bonded do not touch the bodies that they are bonded to, until all of it is broken. Throws as contact::NodalContact, and BadInput for a choice of ContactOptions that is of another law.
+    /// `times`. On several ranks each does its share of the pairs, and all that places nodes is a call of all. Faces
+    /// that are bonded do not touch the bodies that they are bonded to, until all of it is broken. Throws as
+    /// contact::NodalContact, and BadInput for a choice of ContactOptions that is of another law.
     PairPotentialDriver(const Bodies<Dim>& bodies, Ccg<Dim>& ccg, const Loads<Dim>& loads, const BodyFrames<Dim>& frames,
                         SolidTimes& times, const RankPart<Dim>& part, const Bonds<Dim>& bonds);
 
@@ -83,7 +85,8 @@ private:
             0.0;  // as `moved`, seen from the frames: a body that flies and turns does not come to itself
     };
 
-    /// Whether faces may move farther than the motion of cells bounds: by loads that vary, by the stretch of free faces, and as cells flow.
+    /// Whether faces may move farther than the motion of cells bounds: by loads that vary, by the stretch of free
+    /// faces, and as cells flow.
     [[nodiscard]] bool faces_leave_cells() const { return loads_.vary() || bodies_.any_finite() || ccg_.flows_linearly(); }
     [[nodiscard]] double motion_since(const Watch& watch, double in_frame, double time) const;
     [[nodiscard]] bool is_valid(double near_in_frame, double far_in_frame, double time) const;

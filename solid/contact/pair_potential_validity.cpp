@@ -45,7 +45,8 @@ bool PairPotentialDriver<Dim>::is_valid_within(double far_in_frame) const {
     return !touches_itself_ || contact_.is_valid_for(far_watch_.moved_in_frame + far_watch_.amplification * far_in_frame);
 }
 
-/// In the step from x_0 to x_1, of the node of a body that deforms which moves farthest, seen from the frame of its body [m].
+/// In the step from x_0 to x_1, of the node of a body that deforms which moves farthest, seen from the frame of its
+/// body [m].
 template <int Dim>
 double PairPotentialDriver<Dim>::moved_in_frame() const {
     return std::sqrt(largest(std::ssize(all_.nodes), [&](std::ptrdiff_t i) {

@@ -15,9 +15,9 @@
 
 namespace abut::solid {
 
-/// The faces of bodies that deform, as contact has them: each rank has all of them in the order of the whole mesh, and evaluates
-/// those of its own cells. What it evaluates is brought to all, so that contact is the same everywhere. On one rank all are its
-/// own, and there is nothing to bring. What says that it brings something is a call of all ranks.
+/// The faces of bodies that deform, as contact has them: each rank has all of them in the order of the whole mesh, and
+/// evaluates those of its own cells. What it evaluates is brought to all, so that contact is the same everywhere. On
+/// one rank all are its own, and there is nothing to bring. What says that it brings something is a call of all ranks.
 template <int Dim>
 class SharedFaces {
 public:
@@ -48,8 +48,8 @@ public:
 
     /// Brings a number of each face, from those of the own faces in their order.
     [[nodiscard]] virtual std::vector<double> numbers_of_all(std::span<const double> of_own) const = 0;
-    /// Places in a list of faces, in the order in which owners bring what they have, each in the order of the list; empty where
-    /// nobody brings anything.
+    /// Places in a list of faces, in the order in which owners bring what they have, each in the order of the list;
+    /// empty where nobody brings anything.
     [[nodiscard]] virtual std::vector<std::size_t> as_brought(std::span<const std::size_t> faces) const = 0;
     /// Brings û of all faces of the surface [m], from that of the boundary faces here.
     virtual void bring_displacement(std::span<const Vector<Dim>> of_boundary, std::span<Vector<Dim>> of_surface) const = 0;

@@ -26,8 +26,8 @@ template <int Dim>
 class ReconstructionDriver final : public ContactDriver<Dim> {
 public:
     /// All arguments must outlive the driver; where the time goes is added to `times`. On several ranks
-    /// faces are evaluated where their cells are, and each does its share of the pairs. Bodies that are bonded to each other do not touch
-    /// each other. Throws as contact::Contact.
+    /// faces are evaluated where their cells are, and each does its share of the pairs. Bodies that are bonded to each
+    /// other do not touch each other. Throws as contact::Contact.
     ReconstructionDriver(const mesh::Mesh<Dim>& mesh, const SolidOptions<Dim>& options, Ccg<Dim>& ccg,
                          const Loads<Dim>& loads, SolidTimes& times, const RankPart<Dim>& part, Bonds<Dim>& bonds);
 

@@ -10,9 +10,9 @@
 
 namespace abut::solid {
 
-/// Tractions that turn with floating bodies (TractionHold::frames). In the frame of its body such a load is that of a body that
-/// does not turn: it is part of V, where force and moment on the whole body have no place. These are here: at the arms at rest, so
-/// that what is in balance on the body at rest stays so when it deforms. Their work is booked.
+/// Tractions that turn with floating bodies (TractionHold::frames). In the frame of its body such a load is that of a
+/// body that does not turn: it is part of V, where force and moment on the whole body have no place. These are here: at
+/// the arms at rest, so that what is in balance on the body at rest stays so when it deforms. Their work is booked.
 template <int Dim>
 class FrameLoads {
 public:

@@ -70,8 +70,8 @@ HeldPlace<Dim> HeldPlaces<Dim>::held_by(const Points& points, std::span<const st
     return place;
 }
 
-/// The cells that are near enough, and as many of the next ones as it takes to span all directions. Of cells that are as far as each
-/// other all are taken or none: rounding must not choose between them.
+/// The cells that are near enough, and as many of the next ones as it takes to span all directions. Of cells that are
+/// as far as each other all are taken or none: rounding must not choose between them.
 template <int Dim>
 std::vector<std::size_t> HeldPlaces<Dim>::cells_around(const Points& points, const Anchor<Dim>& anchor) const {
     std::vector<double> distance;

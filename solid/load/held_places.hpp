@@ -61,8 +61,9 @@ public:
 
     /// Throws BadInput for a body that does not exist, and for one whose cells span nothing to hold a place beside.
     [[nodiscard]] HeldPlace<Dim> of(const Anchor<Dim>& anchor);
-    /// Faces of a group on all ranks, by body and key. Centroids of bodies that deform are held as the operators hold them, by rows of
-    /// R, which are affine where a traction pulls at places: no other weights give forces that a uniform stress of the cells balances.
+    /// Faces of a group on all ranks, by body and key. Centroids of bodies that deform are held as the operators hold
+    /// them, by rows of R, which are affine where a traction pulls at places: no other weights give forces that a
+    /// uniform stress of the cells balances.
     [[nodiscard]] std::vector<Face> faces_of(const std::string& group);
 
 private:

@@ -35,17 +35,17 @@ public:
 
     /// Quantity that jumps where a step begins.
     enum class Jump { temperatures, tractions };
-    /// For loads that vary: a step begins, and both ends are set. Where temperatures or tractions jump at its start, `follow_jump` is called with
-    /// the loads from before the jump in `start()` and those after it in `end()`, and then `book` with the jump of `potential`, which is
-    /// evaluated with the loads `end()` [J]. Where both jump it is one jump, of tractions; `apart`: two, first of temperatures.
-    /// Returns whether they jumped.
+    /// For loads that vary: a step begins, and both ends are set. Where temperatures or tractions jump at its start,
+    /// `follow_jump` is called with the loads from before the jump in `start()` and those after it in `end()`, and then
+    /// `book` with the jump of `potential`, which is evaluated with the loads `end()` [J]. Where both jump it is one
+    /// jump, of tractions; `apart`: two, first of temperatures. Returns whether they jumped.
     bool begin_step(double time, double dt, bool apart, const std::function<double()>& potential,
                     const std::function<void(Jump)>& follow_jump, const std::function<void(Jump, double)>& book);
     void end_step() { is_half_done_ = false; }
     /// Whether a step with loads that vary has begun and not ended.
     [[nodiscard]] bool is_half_done() const { return is_half_done_; }
-    /// Adds the work of prescribed displacements and tractions over the step, were the gradients of the boundary faces as they
-    /// are now: `share` of it [J].
+    /// Adds the work of prescribed displacements and tractions over the step, were the gradients of the boundary faces
+    /// as they are now: `share` of it [J].
     void add_work(double share, double& work) const;
 
     /// By cell [N]; empty: none.
@@ -64,8 +64,8 @@ public:
 
     void save(StateWriter& state) const;  ///< between two steps
     void restore(StateReader& state);
-    /// As `before` ended at `time`: of each boundary face its old index is given, -1 for one that was not there, which has what its
-    /// conditions give then.
+    /// As `before` ended at `time`: of each boundary face its old index is given, -1 for one that was not there, which
+    /// has what its conditions give then.
     void take_over(const Loads& before, std::span<const std::int32_t> old_boundary, double time);
 
 private:

@@ -32,8 +32,8 @@ struct PointStep {
     const TurnOf<Dim>& turn_of;
 };
 
-/// Loads of one kind that act on places which move with points. In a step every force is the one whose work is exactly the change of
-/// V, or that which is booked, and has no other moment about the mean positions than it should.
+/// Loads of one kind that act on places which move with points. In a step every force is the one whose work is exactly
+/// the change of V, or that which is booked, and has no other moment about the mean positions than it should.
 template <int Dim>
 class PointLoad {
 public:
@@ -50,7 +50,8 @@ public:
     [[nodiscard]] virtual std::vector<HeldPlace<Dim>*> places() { return {}; }
 
     [[nodiscard]] virtual double energy(const ByPoint<Dim>&) const { return 0.0; }  ///< in V [J]
-    /// Adds the forces of a step [N], and the work of what is booked to `work` [J]: means, or of what is in V those at its end.
+    /// Adds the forces of a step [N], and the work of what is booked to `work` [J]: means, or of what is in V those at
+    /// its end.
     virtual void add(const PointStep<Dim>& step, std::span<Vector<Dim>> force, double& work) = 0;
     /// The last rates are those of velocities v in q [m/s].
     virtual void set_rates(const ByPoint<Dim>&, const ByPoint<Dim>&) {}
@@ -66,9 +67,10 @@ public:
     virtual void take_over(const PointLoad&) {}
 };
 
-/// Rate on which dashpots and brakes act in a step whose rate is `now`: with the mean force, the mean of the rates of this step and of the
-/// one before. On those of this step alone a two-step scheme answers with an alternating mode that grows; on those of the one before
-/// alone with vibrations that grow where omega dt is above sqrt 2. docs/method.md, Bodies that turn.
+/// Rate on which dashpots and brakes act in a step whose rate is `now`: with the mean force, the mean of the rates of
+/// this step and of the one before. On those of this step alone a two-step scheme answers with an alternating mode that
+/// grows; on those of the one before alone with vibrations that grow where omega dt is above sqrt 2. docs/method.md,
+/// Bodies that turn.
 template <class Rate>
 [[nodiscard]] Rate acting_rate(contact::TakenForce take, const std::optional<Rate>& before, const Rate& now) {
     return take == contact::TakenForce::mean && before ? Rate(0.5 * (*before + now)) : now;

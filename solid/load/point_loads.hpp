@@ -13,8 +13,8 @@ namespace abut::solid {
 template <int Dim>
 class PointLoads {
 public:
-    /// All must outlive it. Each rank has all loads and looks at all points that they act on; every function that takes values by
-    /// point is a call of all ranks. Throws BadInput for a body that does not exist, or a value out of range.
+    /// All must outlive it. Each rank has all loads and looks at all points that they act on; every function that takes
+    /// values by point is a call of all ranks. Throws BadInput for a body that does not exist, or a value out of range.
     PointLoads(const Bodies<Dim>& bodies, const Ccg<Dim>& ccg, const RankPart<Dim>& part);
     PointLoads(const PointLoads&) = delete;
     PointLoads& operator=(const PointLoads&) = delete;

@@ -14,8 +14,8 @@ namespace {
 constexpr double along_normal = 1e-12;    // what a pressure may have across, over all of it
 constexpr std::size_t most_corners = 12;  // of a face, without memory of its own
 
-/// d(v_f)/dx_i of a face whose normal sees its corners run to the left: half of its area vector, in space a third of that of each
-/// triangle with the middle of the face.
+/// d(v_f)/dx_i of a face whose normal sees its corners run to the left: half of its area vector, in space a third of
+/// that of each triangle with the middle of the face.
 template <int Dim>
 void set_volume_slopes(std::span<const Vector<Dim>> x, std::span<Vector<Dim>> slope) {
     if constexpr (Dim == 2) {
@@ -131,8 +131,8 @@ void PointTractions<Dim>::add_at(const ByPoint<Dim>& q, double time, const TurnO
     add_all(q.held, q.held, time, turn_of, force);
 }
 
-/// Of bodies that turn; those of the others are part of the loads of their cells. Constant within a step, as it begins. Their
-/// work [J].
+/// Of bodies that turn; those of the others are part of the loads of their cells. Constant within a step, as it begins.
+/// Their work [J].
 template <int Dim>
 double PointTractions<Dim>::add_all(Points q_0, Points q_1, double time, const TurnOf<Dim>& turn_of,
                                     std::span<Vector<Dim>> force) const {

@@ -10,14 +10,16 @@
 
 namespace abut::solid {
 
-/// Tractions and pressures on bodies that turn (TractionHold::points): forces at the centroids of faces, which move as the cells have them.
-/// Their work is booked. Forces of a pressure p on faces f of a body of Kinematics::finite are the slopes of -p times the volume
+/// Tractions and pressures on bodies that turn (TractionHold::points): forces at the centroids of faces, which move as
+/// the cells have them. Their work is booked. Forces of a pressure p on faces f of a body of Kinematics::finite are the
+/// slopes of -p times the volume
 ///
 ///     sum of v_f + (x_f - c_f) . a_f
 ///
-/// with the place x_f of the face, the volume v_f below its corners, their area vector a_f, and their mean c_f with the weights with which
-/// they share the force of a pressure at rest. Affine motions leave x_f = c_f, and the force -p a_f at x_f alone, which a uniform stress
-/// balances. Faces share corners, so that an equal pressure all round has no force and no moment in any state.
+/// with the place x_f of the face, the volume v_f below its corners, their area vector a_f, and their mean c_f with the
+/// weights with which they share the force of a pressure at rest. Affine motions leave x_f = c_f, and the force -p a_f
+/// at x_f alone, which a uniform stress balances. Faces share corners, so that an equal pressure all round has no force
+/// and no moment in any state.
 template <int Dim>
 class PointTractions final : public PointLoad<Dim> {
 public:
@@ -30,8 +32,8 @@ public:
     void add(const PointStep<Dim>& step, std::span<Vector<Dim>> force, double& work) override;
     void add_at(const ByPoint<Dim>& q, double time, const TurnOf<Dim>& turn_of, std::span<Vector<Dim>> force) const override;
 
-    /// Places where tractions of a condition act, one per face of its group, with numbers of points of the system; empty where the bodies
-    /// do not turn.
+    /// Places where tractions of a condition act, one per face of its group, with numbers of points of the system;
+    /// empty where the bodies do not turn.
     [[nodiscard]] std::vector<HeldPlace<Dim>> places_of(std::size_t condition) const;
     /// Sets tractions of a condition that is from outside, by face of its group (n) [Pa]; they are not checked.
     void set(std::size_t condition, std::span<const Vector<Dim>> traction) {

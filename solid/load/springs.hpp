@@ -9,12 +9,13 @@
 
 namespace abut::solid {
 
-/// Springs, hinges and dashpots between places of bodies or on the ground. Springs are part of V; the work of dashpots is booked.
+/// Springs, hinges and dashpots between places of bodies or on the ground. Springs are part of V; the work of dashpots
+/// is booked.
 template <int Dim>
 class Springs final : public PointLoad<Dim> {
 public:
-    /// All must outlive it; `held` has their places when a step comes. Throws BadInput for a body that does not exist, or a value out
-    /// of range. A call of all ranks.
+    /// All must outlive it; `held` has their places when a step comes. Throws BadInput for a body that does not exist,
+    /// or a value out of range. A call of all ranks.
     Springs(const Bodies<Dim>& bodies, HeldPlaces<Dim>& places, const HeldPoints<Dim>& held);
 
     [[nodiscard]] bool any() const override { return !springs_.empty(); }
@@ -32,8 +33,8 @@ public:
     void take_over(const PointLoad<Dim>& before) override;
 
 private:
-    /// Rate on which a dashpot acts: of a hinge all of it, else the first component alone, which is that of the length [m/s]. Like
-    /// this a rate does not turn with the spring from one step to the next.
+    /// Rate on which a dashpot acts: of a hinge all of it, else the first component alone, which is that of the length
+    /// [m/s]. Like this a rate does not turn with the spring from one step to the next.
     using Rate = Vector<Dim>;
     struct Held {
         HeldPlace<Dim> first, second;

@@ -42,8 +42,8 @@ Segment segment_at(const std::vector<HardeningPoint>& table, double alpha) {
     return segment;
 }
 
-// Ways to harden: what they add to the yield stress as a function of the equivalent plastic strain alpha. `rise` [Pa] is 0 at alpha = 0,
-// `slope` [Pa] its derivative, `work` [J/m^3] its integral from 0.
+// Ways to harden: what they add to the yield stress as a function of the equivalent plastic strain alpha. `rise` [Pa]
+// is 0 at alpha = 0, `slope` [Pa] its derivative, `work` [J/m^3] its integral from 0.
 
 struct LinearHardening {
     static bool is_given(const Material& of) { return of.hardening > 0.0; }
@@ -91,8 +91,8 @@ struct TableHardening {
     }
 };
 
-/// All of them; they add up. A list of types, which the compiler sees through: each cell that flows asks several times in a step.
-/// docs/method.md, Metal that yields.
+/// All of them; they add up. A list of types, which the compiler sees through: each cell that flows asks several times
+/// in a step. docs/method.md, Metal that yields.
 using HardeningLaws = std::tuple<LinearHardening, VoceHardening, PowerHardening, TableHardening>;
 
 /// part(law) of each that is given.

@@ -6,12 +6,14 @@ namespace abut::solid {
 
 struct RateLaw;
 
-/// The stress at which a material of MaterialLaw::j2 flows in one step, as a function of the plastic strain d that the step adds:
+/// The stress at which a material of MaterialLaw::j2 flows in one step, as a function of the plastic strain d that the
+/// step adds:
 ///
 ///     sigma(d) = sigma(alpha + d) + sigma(alpha) (factor(d/dt) - 1)
 ///
-/// alpha being the equivalent plastic strain at its start, sigma(alpha) Material::flow_stress, and `factor` that of the rate. It does not
-/// fall as d grows, and is the slope of `work`: rates that multiply the stress at the start, and not that at the end, make it so.
+/// alpha being the equivalent plastic strain at its start, sigma(alpha) Material::flow_stress, and `factor` that of the
+/// rate. It does not fall as d grows, and is the slope of `work`: rates that multiply the stress at the start, and not
+/// that at the end, make it so.
 class FlowStress {
 public:
     /// `dt` > 0 [s]: of the step. The material must outlive it.

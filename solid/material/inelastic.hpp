@@ -16,11 +16,12 @@ struct Advance {
     bool dissipates = false;  ///< whether the step may have taken energy out of the cell
 };
 
-/// A material that remembers: its stored energy W(F, z) depends on numbers z, of each cell, that steps change. What a step takes out
-/// of W is booked as dissipated (docs/method.md, Bodies that bend).
+/// A material that remembers: its stored energy W(F, z) depends on numbers z, of each cell, that steps change. What a
+/// step takes out of W is booked as dissipated (docs/method.md, Bodies that bend).
 ///
-/// Only `advance` changes z, and only a step that has ended keeps what it has changed: an energy, a force or a picture of a state
-/// never does. W and P of a state follow from G and z alone, so that a run that goes on from saved numbers has the same bits.
+/// Only `advance` changes z, and only a step that has ended keeps what it has changed: an energy, a force or a picture
+/// of a state never does. W and P of a state follow from G and z alone, so that a run that goes on from saved numbers
+/// has the same bits.
 ///
 /// One object serves all cells of a body, from several threads at once.
 template <int Dim>
@@ -35,10 +36,11 @@ public:
     [[nodiscard]] virtual std::vector<double> initial_memory() const = 0;
     /// W and dW/dF while z stays as it is, by the rules of StoredEnergy::at.
     [[nodiscard]] virtual Response<Dim> at(const Matrix<Dim>& g, std::span<const double> memory) const = 0;
-    /// Changes z by a step of length `dt` [s] that ends at G. Afterwards `at` has the stress that is returned, up to rounding.
+    /// Changes z by a step of length `dt` [s] that ends at G. Afterwards `at` has the stress that is returned, up to
+    /// rounding.
     [[nodiscard]] virtual Advance<Dim> advance(const Matrix<Dim>& g, double dt, std::span<double> memory) const = 0;
-    /// Sets `results` to the changes of the stress of `at` for changes of F at G. False: there is no closed form, and differences are
-    /// taken. Free faces of cells ask for it.
+    /// Sets `results` to the changes of the stress of `at` for changes of F at G. False: there is no closed form, and
+    /// differences are taken. Free faces of cells ask for it.
     [[nodiscard]] virtual bool stress_changes(const Matrix<Dim>& g, std::span<const double> memory,
                                               std::span<const Matrix<Dim>> changes, std::span<Matrix<Dim>> results) const {
         (void)g, (void)memory, (void)changes, (void)results;

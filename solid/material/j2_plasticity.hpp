@@ -6,12 +6,14 @@
 
 namespace abut::solid {
 
-/// J2 plasticity at large strains: F = F_e F_p, an energy that is quadratic in Hencky's elastic strain (ln b_e)/2, and the radial return
-/// of von Mises with isotropic hardening, exact in volume. With kinematic hardening a material is a LogarithmicPlasticity. Kirchhoff's
-/// stress flows at FlowStress. z is C_p^-1 - I and alpha; in 2D, of plane strain, with the part of C_p^-1 out of the plane. Written in differences to the undeformed state: small strains lose no digits.
+/// J2 plasticity at large strains: F = F_e F_p, an energy that is quadratic in Hencky's elastic strain (ln b_e)/2, and
+/// the radial return of von Mises with isotropic hardening, exact in volume. With kinematic hardening a material is a
+/// LogarithmicPlasticity. Kirchhoff's stress flows at FlowStress. z is C_p^-1 - I and alpha; in 2D, of plane strain,
+/// with the part of C_p^-1 out of the plane. Written in differences to the undeformed state: small strains lose no
+/// digits.
 ///
-/// J. C. Simo, T. J. R. Hughes, Computational Inelasticity, 1998, chapter 9; M. Ortiz, L. Stainier, Comput. Methods Appl. Mech. Eng.
-/// 171 (1999) for the energy of a step.
+/// J. C. Simo, T. J. R. Hughes, Computational Inelasticity, 1998, chapter 9; M. Ortiz, L. Stainier, Comput. Methods
+/// Appl. Mech. Eng. 171 (1999) for the energy of a step.
 template <int Dim>
 class J2Plasticity final : public InelasticLaw<Dim> {
 public:

@@ -16,7 +16,8 @@ struct KnownMaterial {
     double power_hardening = 0.0, power_exponent = 0.0, johnson_cook_rate = 0.0, johnson_cook_factor = 0.0;
 };
 
-/// Gives a material of MaterialLaw::j2 the yield stress of a known one, and its hardening and rates where it has none of its own.
+/// Gives a material of MaterialLaw::j2 the yield stress of a known one, and its hardening and rates where it has none
+/// of its own.
 void take_flow(Material& material, const KnownMaterial& known);
 
 [[nodiscard]] const std::vector<KnownMaterial>& known_materials();

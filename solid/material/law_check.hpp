@@ -12,8 +12,8 @@
 
 namespace abut::solid {
 
-/// Refuses laws that contradict themselves or their material, as H~ would not show it: the closed trapezoid keeps H~ exact for any
-/// stress. They are tried at one state and along one direction.
+/// Refuses laws that contradict themselves or their material, as H~ would not show it: the closed trapezoid keeps H~
+/// exact for any stress. They are tried at one state and along one direction.
 template <int Dim>
 class LawCheck {
 public:

@@ -8,13 +8,14 @@
 
 namespace abut::solid {
 
-/// J2 plasticity at large strains with kinematic hardening: the rule of small strains, with E = (ln F^T F)/2 in the place of the strain. Per
-/// volume a cell stores, p being the plastic part of E, without trace,
+/// J2 plasticity at large strains with kinematic hardening: the rule of small strains, with E = (ln F^T F)/2 in the
+/// place of the strain. Per volume a cell stores, p being the plastic part of E, without trace,
 ///
 ///     lambda/2 (tr E)^2 + mu |E - p|^2 + H/3 |p|^2
 ///
-/// and flows radially where |2 mu dev(E - p) - 2/3 H p| reaches sqrt(2/3) of FlowStress. z is p and alpha; in 2D, of plane strain, p out of
-/// the plane is what the others leave. All of it lies in the axes of the body at rest: how that is turned cannot matter.
+/// and flows radially where |2 mu dev(E - p) - 2/3 H p| reaches sqrt(2/3) of FlowStress. z is p and alpha; in 2D, of
+/// plane strain, p out of the plane is what the others leave. All of it lies in the axes of the body at rest: how that
+/// is turned cannot matter.
 ///
 /// C. Miehe, N. Apel, M. Lambrecht, Comput. Methods Appl. Mech. Eng. 191 (2002) 5383.
 template <int Dim>

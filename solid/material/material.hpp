@@ -8,8 +8,8 @@
 
 namespace abut::solid {
 
-/// How a body answers to strain. At small strains, and below the yield stress, all are linear, and all but one isotropic; large ones,
-/// and with them rubber, are for bodies of Kinematics::finite.
+/// How a body answers to strain. At small strains, and below the yield stress, all are linear, and all but one
+/// isotropic; large ones, and with them rubber, are for bodies of Kinematics::finite.
 enum class MaterialLaw {
     st_venant_kirchhoff,  ///< linear in Green's strain: up to strains of some 0.1
     neo_hookean,          ///< rubber: it stiffens without end where it is squeezed
@@ -34,8 +34,8 @@ struct Material {
     /// Ratio for MaterialLaw::mooney_rivlin: mu of the second invariant over mu [-], 0 to min(1, lambda/(2 mu)).
     double second_share = 0.0;
 
-    // Of MaterialLaw::orthotropic, along axes 1, 2 and 3 of the material. Under tension along i a stretch along i comes with a
-    // contraction nu_ij times as large along j; nu_ji = nu_ij E_j/E_i.
+    // Of MaterialLaw::orthotropic, along axes 1, 2 and 3 of the material. Under tension along i a stretch along i comes
+    // with a contraction nu_ij times as large along j; nu_ji = nu_ij E_j/E_i.
     double young_2 = 0.0;                         ///< E_2 [Pa], > 0
     double young_3 = 0.0;                         ///< E_3 [Pa], > 0
     double poisson_13 = 0.0;                      ///< nu_13 [-]
@@ -47,9 +47,10 @@ struct Material {
     std::array<double, 3> axis_1{1.0, 0.0, 0.0};  ///< in 3D: along axis 1, of any length, at rest
     std::array<double, 3> axis_2{0.0, 1.0, 0.0};  ///< the same for axis 2, at a right angle; axis 3 completes both
 
-    // Of MaterialLaw::j2: it yields at sigma(alpha) = yield_stress + hardening alpha + saturation (1 - exp(-saturation_rate alpha))
-    // + power_hardening alpha^power_exponent, or as hardening_table says, alpha being the equivalent plastic strain; and where the rate r of
-    // alpha counts at sigma(alpha) (1 + (r/cowper_symonds_rate)^(1/cowper_symonds_exponent)), or at
+    // Of MaterialLaw::j2: it yields at sigma(alpha) = yield_stress + hardening alpha
+    // + saturation (1 - exp(-saturation_rate alpha)) + power_hardening alpha^power_exponent, or as hardening_table says,
+    // alpha being the equivalent plastic strain; and where the rate r of alpha counts at
+    // sigma(alpha) (1 + (r/cowper_symonds_rate)^(1/cowper_symonds_exponent)), or at
     // sigma(alpha) (1 + johnson_cook_factor ln(r/johnson_cook_rate)), sigma(alpha) for smaller r.
     double yield_stress = 0.0;     ///< [Pa], > 0
     double hardening = 0.0;        ///< [Pa], >= 0: per plastic strain
@@ -57,8 +58,8 @@ struct Material {
     double saturation_rate = 0.0;  ///< per plastic strain [-]; > 0 with `saturation`
     double power_hardening = 0.0;  ///< Ludwik's, and Johnson and Cook's B [Pa], >= 0
     double power_exponent = 0.0;   ///< their n [-], in (0, 1] with `power_hardening`
-    /// In the place of all of these: from alpha = 0, where it is `yield_stress`, with growing alpha and stresses that do not fall. Straight
-    /// between two rows, constant behind the last.
+    /// In the place of all of these: from alpha = 0, where it is `yield_stress`, with growing alpha and stresses that
+    /// do not fall. Straight between two rows, constant behind the last.
     std::vector<HardeningPoint> hardening_table;
     double cowper_symonds_rate = 0.0;      ///< D [1/s], >= 0; 0: the rate does not count
     double cowper_symonds_exponent = 0.0;  ///< q [-], >= 1 with `cowper_symonds_rate`
@@ -66,8 +67,8 @@ struct Material {
     double johnson_cook_factor = 0.0;      ///< C [-], > 0 with `johnson_cook_rate`
     /// Prager's: by how much yielding shifts the stresses at which it does, per plastic strain [Pa], >= 0.
     double kinematic_hardening = 0.0;
-    /// Largest traction of the stabilisation of jumps between cells over `yield_stress` [-], >= 0; 0: 0.1 where both cells are
-    /// simplices and 0.3 elsewhere, none in finite bodies that contact may push.
+    /// Largest traction of the stabilisation of jumps between cells over `yield_stress` [-], >= 0; 0: 0.1 where both
+    /// cells are simplices and 0.3 elsewhere, none in finite bodies that contact may push.
     double jump_cap = 0.0;
 
     // Of bodies that deform whose temperature is given (SolidOptions::temperature_rise).
@@ -86,8 +87,8 @@ struct Material {
     }
     /// Whether its cells remember what happened to them: only schemes that take mean forces run it.
     [[nodiscard]] bool remembers() const { return law == MaterialLaw::j2 || is_damped(); }
-    /// Damping over what is critical of a mode with this frequency [rad/s] in cells of this size [m], at most [-]: by it the stable step
-    /// is shorter.
+    /// Damping over what is critical of a mode with this frequency [rad/s] in cells of this size [m], at most [-]: by
+    /// it the stable step is shorter.
     [[nodiscard]] double damping_ratio(double omega, double size) const;
     /// Lame's first parameter lambda [Pa]; of MaterialLaw::orthotropic its mean over all directions.
     [[nodiscard]] double lambda() const {
@@ -95,7 +96,8 @@ struct Material {
     }
     /// Shear modulus mu [Pa]; of MaterialLaw::orthotropic its mean over all directions.
     [[nodiscard]] double mu() const { return is_isotropic() ? 0.5 * young / (1.0 + poisson) : mean_mu(); }
-    /// lambda + 2 mu, the modulus of a wave of compression [Pa]; of MaterialLaw::orthotropic the largest of a wave along an axis.
+    /// lambda + 2 mu, the modulus of a wave of compression [Pa]; of MaterialLaw::orthotropic the largest of a wave
+    /// along an axis.
     [[nodiscard]] double wave_modulus() const { return is_isotropic() ? lambda() + 2.0 * mu() : largest_of_axes(); }
     /// E [Pa]; of MaterialLaw::orthotropic that of its mean lambda and mu.
     [[nodiscard]] double mean_young() const {
@@ -128,8 +130,8 @@ private:
 /// Throws BadInput naming the body, the value, the limit and the remedy.
 void check(const Material& material, int body);
 
-/// Makes the stored energy of a material at large strains; null for St. Venant and Kirchhoff's, which the operators know by themselves,
-/// and for inelastic ones.
+/// Makes the stored energy of a material at large strains; null for St. Venant and Kirchhoff's, which the operators
+/// know by themselves, and for inelastic ones.
 template <int Dim>
 [[nodiscard]] std::shared_ptr<const StoredEnergy<Dim>> stored_energy(const Material& material);
 /// Makes the law of an inelastic material; null for an elastic one.

@@ -4,8 +4,8 @@
 
 namespace abut::solid {
 
-/// The compressible material of Mooney and Rivlin, with Lame's constants lambda and mu at small strains. With I_1, I_2 of C = F^T F and
-/// J = det F, all of space, and s the share of the second invariant,
+/// The compressible material of Mooney and Rivlin, with Lame's constants lambda and mu at small strains. With I_1, I_2
+/// of C = F^T F and J = det F, all of space, and s the share of the second invariant,
 ///
 ///     W = mu (1 - s)/2 (I_1 - 3 - 2 ln J) + mu s/2 (I_2 - 3 - 4 ln J) + (lambda - 2 mu s)/2 (ln J)^2
 ///

@@ -4,9 +4,9 @@
 
 namespace abut::solid {
 
-/// The root between `low` and `high` of a function that rises, is not positive at `low` and not negative at `high`, to a rounding of
-/// `high`: by Newton's method from `low`, or by bisection where it leaves the bracket, does not halve its steps, or knows no slope.
-/// `function(x)` returns value and slope.
+/// The root between `low` and `high` of a function that rises, is not positive at `low` and not negative at `high`, to
+/// a rounding of `high`: by Newton's method from `low`, or by bisection where it leaves the bracket, does not halve its
+/// steps, or knows no slope. `function(x)` returns value and slope.
 template <class Function>
 [[nodiscard]] double rising_root(const Function& function, double low, double high) {
     constexpr int most_steps = 200;

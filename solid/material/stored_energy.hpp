@@ -13,9 +13,9 @@ struct Response {
     Matrix<Dim> stress;  ///< P = dW/dF, the first stress tensor of Piola and Kirchhoff [Pa]
 };
 
-/// An elastic material by its stored energy W(F) per volume at rest, F = I + G: what cells of Kinematics::finite are made of whose
-/// material is not St. Venant and Kirchhoff's. W does not know how the cell is turned: W(Q F) = W(F) for rotations Q, and
-/// vanishes at G = 0 together with its stress. In 2D it is that of plane strain.
+/// An elastic material by its stored energy W(F) per volume at rest, F = I + G: what cells of Kinematics::finite are
+/// made of whose material is not St. Venant and Kirchhoff's. W does not know how the cell is turned: W(Q F) = W(F) for
+/// rotations Q, and vanishes at G = 0 together with its stress. In 2D it is that of plane strain.
 ///
 /// One object serves all cells of a body, from several threads at once.
 template <int Dim>

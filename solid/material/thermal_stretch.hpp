@@ -5,15 +5,17 @@
 
 namespace abut::solid {
 
-/// Effect of heat at one position of a body of large strains: F = F_e A with the thermal stretch A = I + a T, T the rise of the temperature
-/// and a the tensor of Material::thermal_expansion. The law of the material answers to F_e = F A^-1, per volume of the warm body that
-/// nothing holds:
+/// Effect of heat at one position of a body of large strains: F = F_e A with the thermal stretch A = I + a T, T the
+/// rise of the temperature and a the tensor of Material::thermal_expansion. The law of the material answers to F_e = F
+/// A^-1, per volume of the warm body that nothing holds:
 ///
 ///     W(F, T) = det A W(F_e),    P = det A P(F_e) A^-T
 ///
-/// Cauchy's stress is the one that the law has for F_e. In 2D strain is plane, F is 1 out of the plane and A is not: the law is that of space.
+/// Cauchy's stress is the one that the law has for F_e. In 2D strain is plane, F is 1 out of the plane and A is not:
+/// the law is that of space.
 ///
-/// S. C. H. Lu, K. S. Pister, Int. J. Solids Struct. 11 (1975) 927; L. Vujošević, V. A. Lubarda, Theor. Appl. Mech. 28-29 (2002) 379.
+/// S. C. H. Lu, K. S. Pister, Int. J. Solids Struct. 11 (1975) 927; L. Vujošević, V. A. Lubarda, Theor. Appl. Mech.
+/// 28-29 (2002) 379.
 class ThermalStretch {
 public:
     /// At T = 0, with a in the axes of space [1/K].

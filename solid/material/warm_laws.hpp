@@ -9,8 +9,8 @@
 
 namespace abut::solid {
 
-/// An elastic material of large strains where it is warm: its law of space behind a ThermalStretch. Each cell has one of its own, a copy of
-/// that of its body.
+/// An elastic material of large strains where it is warm: its law of space behind a ThermalStretch. Each cell has one
+/// of its own, a copy of that of its body.
 template <int Dim>
 class WarmEnergy final : public StoredEnergy<Dim> {
 public:

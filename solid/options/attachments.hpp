@@ -17,13 +17,14 @@ template <int Dim>
 struct Anchor {
     std::int32_t body = ground;                  ///< number in the mesh
     Vector<Dim> position = Vector<Dim>::Zero();  ///< at rest [m]
-    /// Radius of support on a body that deforms [m]: held by cells with their centre that near, and by as many of the next ones as span space
+    /// Radius of support on a body that deforms [m]: held by cells with their centre that near, and by as many of the
+    /// next ones as span space
     double radius = 0.0;
 };
 
 /// A spring and a dashpot between two anchors: with r from the first to the second, V = k/2 (|r| - L)^2. With L = 0 it is a
-/// hinge, as stiff as k: it holds two places together, or one to the ground, and lets them turn. The dashpot acts along r, of
-/// a hinge in all directions; its work is booked.
+/// hinge, as stiff as k: it holds two places together, or one to the ground, and lets them turn. The dashpot acts along
+/// r, of a hinge in all directions; its work is booked.
 template <int Dim>
 struct Spring {
     Anchor<Dim> first;
@@ -33,13 +34,14 @@ struct Spring {
     double damping = 0.0;    ///< c [N s/m], >= 0
 };
 
-/// Faces that are glued where they lie on each other at rest, whether their meshes match or not: of two bodies or of two groups.
-/// They have no contact with each other. docs/method.md, Bonds.
+/// Faces that are glued where they lie on each other at rest, whether their meshes match or not: of two bodies or of
+/// two groups. They have no contact with each other. docs/method.md, Bonds.
 struct Bond {
     std::array<std::int32_t, 2> sides;  ///< numbered as BodyFriction::bodies, without obstacles
     /// Largest traction that it bears [Pa], of which pressure is no part; infinity: it holds for ever
     double strength = std::numeric_limits<double>::infinity();
-    /// G [J/m^2] >= 0 that it takes per area as it opens, with a traction that falls from the strength to 0; 0: it breaks at once
+    /// G [J/m^2] >= 0 that it takes per area as it opens, with a traction that falls from the strength to 0; 0: it
+    /// breaks at once
     double fracture_energy = 0.0;
 };
 

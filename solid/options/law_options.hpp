@@ -3,8 +3,8 @@
 
 namespace abut::solid {
 
-/// Throws BadInput naming each choice that has no effect under the law that acts, and what to do. Values that are the defaults
-/// may be given. Nothing is refused without contact.
+/// Throws BadInput naming each choice that has no effect under the law that acts, and what to do. Values that are the
+/// defaults may be given. Nothing is refused without contact.
 template <int Dim>
 void refuse_choices_of_other_law(ContactLaw acting, const SolidOptions<Dim>& options);
 

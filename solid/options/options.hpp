@@ -20,8 +20,8 @@
 
 namespace abut::solid {
 
-/// Steps between neutral restarts of runs with friction: without them the slip of faces that vibrate alternates from step to step, and
-/// friction vanishes (docs/filter.md).
+/// Steps between neutral restarts of runs with friction: without them the slip of faces that vibrate alternates from
+/// step to step, and friction vanishes (docs/filter.md).
 inline constexpr int restart_with_friction = 10;
 
 /// Friction between two bodies, obstacles or groups. Of several for two faces, that with more groups counts, then the first.
@@ -30,7 +30,8 @@ struct BodyFriction {
     contact::Friction law;
 };
 
-/// Two bodies, obstacles or groups that overlap at the start on purpose (contact::InterferenceOptions); under the pair potential.
+/// Two bodies, obstacles or groups that overlap at the start on purpose (contact::InterferenceOptions); under the pair
+/// potential.
 struct BodyInterference {
     std::array<std::int32_t, 2> bodies;  ///< as BodyFriction::bodies
     double time;                         ///< over which the overlap comes to act [s] > 0

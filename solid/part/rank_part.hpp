@@ -14,9 +14,10 @@
 
 namespace abut::solid {
 
-/// Part of a solid that a rank has. The points of its system are its own cells, then the points of rigid bodies that are its own.
-/// The part has copies beside these: points of the part are the cells that deform there, its own and copies, then the points of
-/// all rigid bodies. It turns arrays by own point into arrays by point of the part, and back; on one rank both are the same array.
+/// Part of a solid that a rank has. The points of its system are its own cells, then the points of rigid bodies that
+/// are its own. The part has copies beside these: points of the part are the cells that deform there, its own and
+/// copies, then the points of all rigid bodies. It turns arrays by own point into arrays by point of the part, and
+/// back; on one rank both are the same array.
 template <int Dim>
 class RankPart {
 public:
@@ -56,7 +57,8 @@ public:
     [[nodiscard]] std::vector<BoundaryFace> faces_by_number(const mesh::Mesh<Dim>& mesh) const;
     /// The numbers of the cells here that deform among all that do, increasing (n_cells).
     [[nodiscard]] std::span<const double> cell_numbers() const { return cell_numbers_; }
-    /// Values of all boundary faces of the whole mesh, in their order, from those of the boundary faces here. A call of all ranks.
+    /// Values of all boundary faces of the whole mesh, in their order, from those of the boundary faces here. A call of
+    /// all ranks.
     [[nodiscard]] std::vector<Vector<Dim>> gather_faces(std::span<const Vector<Dim>> of_faces) const;
     /// The other way round, which needs no other rank; 0 for a face that the whole mesh does not have.
     [[nodiscard]] std::vector<Vector<Dim>> faces_here(const mesh::Mesh<Dim>& mesh,
@@ -78,7 +80,8 @@ public:
 
     /// A state; valid until the next call.
     [[nodiscard]] std::span<const Vector<Dim>> state(std::span<const Vector<Dim>> q) { return filled(q, state_); }
-    /// Both ends of a step, valid until the next call; the start is exchanged only where it is not the end of the call before.
+    /// Both ends of a step, valid until the next call; the start is exchanged only where it is not the end of the call
+    /// before.
     [[nodiscard]] std::pair<std::span<const Vector<Dim>>, std::span<const Vector<Dim>>> step(
         std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1);
     /// Any values, in `kept` or, on one rank, in q itself.
@@ -90,8 +93,8 @@ public:
 
     // Of own rigid bodies; without other ranks
 
-    /// Calls constrain(q, p) with values by point of the part, of which those of own rigid bodies are set, and takes their p back.
-    /// A call of all ranks.
+    /// Calls constrain(q, p) with values by point of the part, of which those of own rigid bodies are set, and takes
+    /// their p back. A call of all ranks.
     template <class Constrain>
     void constrain_rigid(std::span<const Vector<Dim>> q, std::span<Vector<Dim>> p, const Constrain& constrain) {
         if (is_whole_) return constrain(q, p);
@@ -102,7 +105,8 @@ public:
         take_rigid(rigid_p_, p);
     }
 
-    /// To be written by point of the part; `take_result` then copies what belongs to own points. On one rank `of_own` itself.
+    /// To be written by point of the part; `take_result` then copies what belongs to own points. On one rank `of_own`
+    /// itself.
     [[nodiscard]] std::span<Vector<Dim>> result(std::span<Vector<Dim>> of_own) {
         return is_whole_ ? of_own : std::span<Vector<Dim>>(result_);
     }

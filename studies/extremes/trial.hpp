@@ -32,8 +32,8 @@ struct Number {
     double value;
 };
 
-/// A line of the table: figures of a run, `parasitic` over the speed of the trial, momentum over the sum of m |v| at the start.
-/// Numbers of a refused run are NaN or 0.
+/// A line of the table: figures of a run, `parasitic` over the speed of the trial, momentum over the sum of m |v| at
+/// the start. Numbers of a refused run are NaN or 0.
 struct Row : Figures {
     std::string family, value;
     Verdict verdict = Verdict::refused;

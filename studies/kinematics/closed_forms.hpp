@@ -15,8 +15,8 @@ namespace abut::studies::kinematics {
 /// and |L| (Landau and Lifshitz, Mechanics, paragraph 37) [s].
 [[nodiscard]] double flip_period(const Vector<3>& inertia, const Vector<3>& spin);
 
-/// w/L of the tip of a cantilever that neither shears nor stretches under a dead load across it, alpha = P L^2/(E I) (Bisshopp
-/// and Drucker, Quart. Appl. Math. 3 (1945) 272-275).
+/// w/L of the tip of a cantilever that neither shears nor stretches under a dead load across it, alpha = P L^2/(E I)
+/// (Bisshopp and Drucker, Quart. Appl. Math. 3 (1945) 272-275).
 [[nodiscard]] double elastica_tip(double alpha);
 
 /// The angle of the rotation from a to b [rad].

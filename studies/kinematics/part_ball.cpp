@@ -52,8 +52,8 @@ Case<3> ball_on_block(const Size& size, Kinematics kinematics) {
     return one;
 }
 
-/// The skin of the ball is that of E = 1e4, and the bound for its step knows nothing of what it meets: the stable step of the
-/// block alone is the one that counts.
+/// The skin of the ball is that of E = 1e4, and the bound for its step knows nothing of what it meets: the stable step
+/// of the block alone is the one that counts.
 double step_of(const Case<3>& one) {
     Case<3> soft = one;
     soft.scene.solid.materials[1].young = 1e-2;

@@ -44,8 +44,9 @@ struct Slide {
 };
 
 /// On one facet the disc is its own mirror image in the line through its centre and across the facet. Where it falls along
-/// that line no force has a moment. Where it slides, the mean force of a step has one of dt^2 times speed and change of force,
-/// of a sign that changes as the contact opens: a pair keeps J~ exactly, and the couple of its faces to second order.
+/// that line no force has a moment. Where it slides, the mean force of a step has one of dt^2 times speed and change of
+/// force, of a sign that changes as the contact opens: a pair keeps J~ exactly, and the couple of its faces to second
+/// order.
 void slide_straight(double degrees, bool on_side, double cfl, const Options& options, const Sink& sink) {
     const double slope = degrees * pi / 180.0;
     const std::vector<Vector<2>> wall{-3.0 * downhill(slope), (degrees == 0.0 ? 3.0 : 60.0) * downhill(slope)};

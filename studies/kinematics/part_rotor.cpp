@@ -52,7 +52,8 @@ public:
         if (run.steps == 0) {
             start_ = momentum;
         } else {
-            // As steps take them: springs at the mean of both ends, dashpots at that of the rates of this step and the one before.
+            // As steps take them: springs at the mean of both ends, dashpots at that of the rates of this step and the
+            // one before.
             const Vector<2> step = shift - shift_;
             springs_ -= 0.5 * (stiffness * dt * (shift_ + shift) + damping * (step_ + step));
             step_ = step;
@@ -71,7 +72,8 @@ public:
     [[nodiscard]] double lack_of_impulse() const { return lack_ / largest_; }
 
 private:
-    /// Its impulse on the plates in the last step: as an obstacle says, or as a body has lost to other things than its hinge.
+    /// Its impulse on the plates in the last step: as an obstacle says, or as a body has lost to other things than its
+    /// hinge.
     Vector<2> push_of_rotor(const dynamics::RunView<2>& run, const solid::Solid<2>& solid, double dt) {
         if (!solid.options().obstacles.empty()) return -dt * solid.contact().obstacle_force(0);
         const Centre centre = centre_of(run, solid, plates);
@@ -141,8 +143,8 @@ void report(Case<2>& one, const std::string& setting, const Options& options, co
     row.quantities.at_most("half periods seen", seen.half_periods());
     const bool is_body = one.motion.size() > plates;
     if (is_body) row.quantities.at_most("turns of the rotor", seen.turned() / (2.0 * pi));
-    // The filter keeps the momentum of what touches, but not where that is an obstacle. The impulse of the hinge on a body is
-    // known as well as its stiffness times the rounding of a position, which adds up.
+    // The filter keeps the momentum of what touches, but not where that is an obstacle. The impulse of the hinge on a
+    // body is known as well as its stiffness times the rounding of a position, which adds up.
     const double allowed = is_body ? 1e-9 : one.run.filter ? no_target : 1e-11;
     row.quantities.at_most("momentum of the plates less all impulses, over that of the rotor", seen.lack_of_impulse(),
                            allowed);

@@ -19,9 +19,10 @@ struct Polygon {
 };
 [[nodiscard]] mesh::Mesh<2> polygon(const Polygon& polygon);
 
-/// A polyhedron on a sphere: a core of tetrahedra from the centre and a skin of prisms. `circles` of latitude about the x axis
-/// carry `around` corners each; the caps beyond the first and the last are flat, at right angles to the axis, and the one in
-/// front is the wider one: caps as wide as each other would slide off, since pressing them in costs less the less they overlap.
+/// A polyhedron on a sphere: a core of tetrahedra from the centre and a skin of prisms. `circles` of latitude about the
+/// x axis carry `around` corners each; the caps beyond the first and the last are flat, at right angles to the axis,
+/// and the one in front is the wider one: caps as wide as each other would slide off, since pressing them in costs less
+/// the less they overlap.
 struct Ball {
     Vector<3> centre = Vector<3>::Zero();
     double radius = 1.0;

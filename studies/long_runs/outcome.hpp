@@ -14,8 +14,8 @@ struct Remedy {
     int restart = 0;  ///< steps from one neutral restart to the next; 0: none
 };
 
-/// Figures of a run under one remedy, largest values of every 101st step; `pseudo_angular` is that of J~, `seconds` are of all
-/// processors, with what is measured.
+/// Figures of a run under one remedy, largest values of every 101st step; `pseudo_angular` is that of J~, `seconds` are
+/// of all processors, with what is measured.
 struct Outcome : Figures {
     double excess_end = run::not_given;  ///< H - H~, mean of the last tenth of the run
     dynamics::RestartReport restarts;    ///< `paid` over the scale

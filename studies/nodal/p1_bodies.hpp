@@ -17,9 +17,9 @@ namespace abut::studies::nodal {
 /// Bodies of linear finite elements with contact on their nodes: a host as most solvers are one. q holds the displacements
 /// of all nodes. Its mean force is exact for energy, the bulk's and that of contact.
 ///
-/// Of the scene it takes mesh (triangles or tetrahedra), materials, acceleration, obstacles with their placement, and whether
-/// the first body is of Kinematics::finite: then all are, of St. Venant-Kirchhoff's material with F_mid S_mean, so that they
-/// may turn and energy is exact; else they are of linear elasticity, and bodies that turn grow.
+/// Of the scene it takes mesh (triangles or tetrahedra), materials, acceleration, obstacles with their placement, and
+/// whether the first body is of Kinematics::finite: then all are, of St. Venant-Kirchhoff's material with F_mid S_mean,
+/// so that they may turn and energy is exact; else they are of linear elasticity, and bodies that turn grow.
 template <int Dim>
 class P1Bodies {
 public:

@@ -10,11 +10,11 @@ namespace abut::studies::nodal {
 template <int Dim>
 using Watch = WatchOf<Dim, P1Bodies<Dim>>;
 
-/// Runs it on the host of linear finite elements, under MEMM or leapfrog: `Case::run` says by which, with which remedies, and
-/// for how many steps at most; `cfl` is the time step over the advised one. Energies are recorded about `records` times,
-/// equally far apart, and `watch` looks on there. An exception of the library ends the run, and its message says why; so does
-/// H - H~ beyond ten times the largest energy. Leaves energy.csv, its picture and the series for ParaView in `folder`; an
-/// empty one: none.
+/// Runs it on the host of linear finite elements, under MEMM or leapfrog: `Case::run` says by which, with which
+/// remedies, and for how many steps at most; `cfl` is the time step over the advised one. Energies are recorded about
+/// `records` times, equally far apart, and `watch` looks on there. An exception of the library ends the run, and its
+/// message says why; so does H - H~ beyond ten times the largest energy. Leaves energy.csv, its picture and the series
+/// for ParaView in `folder`; an empty one: none.
 template <int Dim>
 [[nodiscard]] CaseResult<Dim> run_case(const Case<Dim>& one, const std::filesystem::path& folder,
                                        const Watch<Dim>& watch = {}, int records = 1500);

@@ -24,8 +24,8 @@ struct BulkPatchErrors {
 template <int Dim>
 [[nodiscard]] BulkPatchErrors patch_test(const mesh::Mesh<Dim>& box, PatchBoundary boundary, solid::FreeFaceRule free_faces);
 
-/// Largest force on a cell [-], over |sigma| times the largest face, that a step in single precision finds in the exact field
-/// of `patch_test`, where there is none.
+/// Largest force on a cell [-], over |sigma| times the largest face, that a step in single precision finds in the exact
+/// field of `patch_test`, where there is none.
 template <int Dim>
 [[nodiscard]] double single_precision_force(const mesh::Mesh<Dim>& box, PatchBoundary boundary, solid::FreeFaceRule free_faces);
 

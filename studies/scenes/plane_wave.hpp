@@ -19,8 +19,8 @@ enum class PlaneWave { compression, shear };
 template <int Dim>
 [[nodiscard]] Vector<Dim> polarisation(PlaneWave wave);
 
-/// Conditions that hold the sides of a strip or bar along x so that the wave runs as in an unbounded medium: rollers, and of a
-/// wave of shear no displacement along the sides that it moves.
+/// Conditions that hold the sides of a strip or bar along x so that the wave runs as in an unbounded medium: rollers,
+/// and of a wave of shear no displacement along the sides that it moves.
 template <int Dim>
 [[nodiscard]] std::vector<solid::DirichletCondition<Dim>> plane_wave_sides(PlaneWave wave);
 

@@ -19,8 +19,8 @@ struct TwoCylinders {
 /// Centres at the start, of the left one first [m]; the middle between them is the origin.
 [[nodiscard]] std::array<Vector<2>, 2> centres(const TwoCylinders& options);
 
-/// Scene with the modified reconstruction; its finding "restitution" is the speed of separation over that of approach along the
-/// line of the two centres where they first touch [-].
+/// Scene with the modified reconstruction; its finding "restitution" is the speed of separation over that of approach
+/// along the line of the two centres where they first touch [-].
 template <int Dim>
 [[nodiscard]] run::Scene<Dim> two_cylinders(const TwoCylinders& options);
 

@@ -81,8 +81,8 @@ struct Laws {
     bool turns = true;       ///< bodies may turn, so that it is
     double angular = 1e-13;  ///< allowed drift of either
 };
-/// A row of a run with the quantities that every run has to meet: that it comes to its end, missed contacts, H~, corrections,
-/// and what nothing from outside changes.
+/// A row of a run with the quantities that every run has to meet: that it comes to its end, missed contacts, H~,
+/// corrections, and what nothing from outside changes.
 [[nodiscard]] Row row_of(const std::string& scene, const std::string& setting, const Figures& run, int dim,
                          const Laws& laws = {});
 

@@ -7,9 +7,9 @@
 
 namespace abut::studies::trade {
 
-/// Figures of a run and how far it is from what it should be, without units; NaN: the problem does not ask for it. `drift` and
-/// `energy_drift`, of the true energy, are errors, too; `parasitic` is over the speed of impact, momenta are of bodies that
-/// nothing holds.
+/// Figures of a run and how far it is from what it should be, without units; NaN: the problem does not ask for it.
+/// `drift` and `energy_drift`, of the true energy, are errors, too; `parasitic` is over the speed of impact, momenta
+/// are of bodies that nothing holds.
 struct Outcome : Figures {
     double restitution = run::not_given;  ///< of the speed of separation over that of approach
     double velocity = run::not_given;     ///< of the left body at the end, over the speed of impact
