@@ -58,7 +58,7 @@ constexpr std::array named_units = std::to_array<NamedUnit>({{"m", metre, 0, 1.0
                                                              {"psi", stress, -5, 44482216152605.0, 254.0 * 254.0, false},
                                                              {"B", byte, 0, 1.0, 1.0, true}});
 
-/// Those that are meant more often come first.
+/// Prefixes; those that are meant more often come first.
 constexpr std::array prefixes = std::to_array<std::pair<std::string_view, int>>({{"k", 3},
                                                                                  {"M", 6},
                                                                                  {"G", 9},
@@ -244,7 +244,7 @@ private:
         return is_negative ? -power : power;
     }
 
-    /// What stands between two factors; true: the next one is below a stroke.
+    /// Takes what stands between two factors; true: the next one is below a stroke.
     [[nodiscard]] bool take_joint() {
         skip_spaces();
         const bool is_stroke = left_.starts_with('/');

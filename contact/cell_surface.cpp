@@ -127,7 +127,7 @@ std::vector<SideOfFace> sides_of(const Cells<Dim>& cells) {
     return sides;
 }
 
-/// Of those that stand together in `sides`.
+/// Checks sides that stand together in `sides`.
 template <int Dim>
 void check_shared(std::span<const SideOfFace> shared, const Cells<Dim>& cells) {
     if (shared.size() > 2)

@@ -18,7 +18,7 @@ template <int Dim>
 class InsidePairs {
 public:
     InsidePairs() = default;
-    /// Of the bodies that touch themselves, `touches_itself` (n_bodies); facets as they are at rest.
+    /// Pairs of the bodies that touch themselves, `touches_itself` (n_bodies); facets as they are at rest.
     InsidePairs(const SurfaceView<Dim>& facets, const std::vector<char>& touches_itself);
 
     /// Whether the pair bears a mark.

@@ -132,9 +132,9 @@ public:
     /// face the run begins: what is pressed in by less than D is a contact, and W jumps by what `evaluate` tells before
     /// and after. Throws BadInput, and stays as it is, for numbers out of range or given twice.
     void surface_replaced(NodalSurface<Dim> surface, std::span<const std::int32_t> old_face_of);
-    /// The same for an object that was made for the new surface, which may have options of its own: it goes on where
-    /// `before` has stopped. Throws BadInput, too, where one of both has friction or interference and the other has
-    /// not.
+    /// As `surface_replaced`, for an object that was made for the new surface, which may have options of its own: it
+    /// goes on where `before` has stopped. Throws BadInput, too, where one of both has friction or interference and the
+    /// other has not.
     void take_over(const NodalContact& before, std::span<const std::int32_t> old_face_of);
 
     [[nodiscard]] const NodalSurface<Dim>& surface() const;

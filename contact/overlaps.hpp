@@ -49,7 +49,7 @@ template <int Dim>
                                           std::span<const geometry::IndexPair> pairs,
                                           geometry::AreaMethod method = geometry::AreaMethod::fast);
 
-/// The same into memory that is used again, for a host that asks at every step: what was in `overlaps` is lost.
+/// As above, into memory that is used again, for a host that asks at every step: what was in `overlaps` is lost.
 template <int Dim>
 void find_overlaps(const SurfaceView<Dim>& surface, std::span<const Vector<Dim>> displacement,
                    std::span<const geometry::IndexPair> pairs, geometry::AreaMethod method, Overlaps<Dim>& overlaps);
@@ -61,7 +61,7 @@ template <int Dim>
 [[nodiscard]] std::vector<Vector<Dim>> overlap_polygon(const SurfaceView<Dim>& surface,
                                                        std::span<const Vector<Dim>> displacement, geometry::IndexPair pair);
 
-/// The same of many pairs: pairs[i] gives patch i. Sizes are checked once, so that a pair costs the same on large surfaces.
+/// Polygons of many pairs: pairs[i] gives patch i. Sizes are checked once, so that a pair costs the same on large surfaces.
 template <int Dim>
 [[nodiscard]] std::vector<std::vector<Vector<Dim>>> overlap_polygons(const SurfaceView<Dim>& surface,
                                                                      std::span<const Vector<Dim>> displacement,
@@ -81,7 +81,7 @@ template <int Dim>
                                                 std::span<const geometry::IndexPair> pairs,
                                                 geometry::AreaMethod method = geometry::AreaMethod::fast);
 
-/// The same into memory that is used again.
+/// As above, into memory that is used again.
 template <int Dim>
 void find_overlaps_moved(const SurfaceView<Dim>& surface, PointsView<Dim> x, std::span<const geometry::IndexPair> pairs,
                          geometry::AreaMethod method, Overlaps<Dim>& overlaps);

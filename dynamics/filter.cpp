@@ -78,7 +78,7 @@ private:
         return motion.template head<Dim>() +
                turning_velocity<Dim>(AngularMomentum<Dim>(motion.template tail<n_rotations<Dim>>()), arm);
     }
-    /// What a hold takes from each motion: (direction, arm × direction).
+    /// Motions that the holds leave; a hold takes (direction, arm × direction) from each motion.
     static Basis null_space(std::span<const Hold<Dim>> holds, const Vector<Dim>& centre, double radius) {
         if (holds.empty()) return Square::Identity();
         Square held = Square::Zero();

@@ -48,7 +48,7 @@ void add_scaled_velocity(std::span<const double> a, double s, const InverseMass&
 [[nodiscard]] double mass_product(std::span<const double> a, std::span<const double> inverse_mass,
                                   std::span<const double> b);
 [[nodiscard]] double mass_product(std::span<const double> a, const InverseMass& inverse_mass, std::span<const double> b);
-/// The same over the values of all ranks, the arrays being those of this one (n_owned, dimension).
+/// a . M^-1 b over the values of all ranks, the arrays being those of this one (n_owned, dimension).
 [[nodiscard]] double mass_product_over(const Ranks& ranks, std::span<const double> a, std::span<const double> inverse_mass,
                                        std::span<const double> b);
 
@@ -60,7 +60,7 @@ void add_scaled_velocity(std::span<const double> a, double s, const InverseMass&
 void add_scaled(std::span<const double> a, double s, std::span<const double> v, std::span<double> result);
 /// a . b, summed in a fixed order for any number of threads.
 [[nodiscard]] double dot_product(std::span<const double> a, std::span<const double> b);
-/// The same over the values of all ranks, the arrays being those of this one (n_owned, dimension).
+/// a . b over the values of all ranks, the arrays being those of this one (n_owned, dimension).
 [[nodiscard]] double dot_product_over(const Ranks& ranks, std::span<const double> a, std::span<const double> b);
 
 }  // namespace abut::dynamics

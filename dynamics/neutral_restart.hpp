@@ -36,7 +36,7 @@ public:
     /// also where the points of a body do not follow each other.
     PointsOfBodies(std::span<const std::int32_t> body_of_points, std::size_t n, const Ranks& ranks);
 
-    /// Of all ranks.
+    /// Number of bodies of all ranks.
     [[nodiscard]] std::size_t n_bodies() const { return offset_.size() - 1; }
     [[nodiscard]] BodyPoints operator[](std::size_t body) const {
         const std::span<const std::int32_t> all(points_);

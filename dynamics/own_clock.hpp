@@ -35,7 +35,7 @@ public:
     void advance(double d, const Piece& piece, const Node& node) {
         advance(d, piece, node, [this] { memm_.step(); });
     }
-    /// The same where `step()` takes the step of the integrator.
+    /// As above, where `step()` takes the step of the integrator.
     template <class Piece, class Node, class Step>
     void advance(double d, const Piece& piece, const Node& node, const Step& step) {
         check(d);

@@ -48,7 +48,7 @@ void take_segments(NearestPoints& best, const Vector<3>& p1, const Vector<3>& q1
     take(best, p1 + s * d1, p2 + t * d2);
 }
 
-/// Where a segment goes through a triangle, if it does.
+/// Takes the point where a segment goes through a triangle, if it does.
 void take_crossing(NearestPoints& best, const Vector<3>& p, const Vector<3>& q, const ThreeCorners& triangle) {
     const auto& [a, b, c] = triangle;
     const Vector<3> normal = (b - a).cross(c - a);

@@ -31,7 +31,7 @@ constexpr std::array<CellWord, 6> cell_words{{{"triangle", mesh::CellShape::tria
                                               {"pyramid", mesh::CellShape::pyramid}}};
 constexpr std::array<Word<mesh::NonPlanarFaces>, 2> non_planar_words{
     {{"fail", mesh::NonPlanarFaces::fail}, {"split", mesh::NonPlanarFaces::split}}};
-/// Those of run::kinematics_words that a body may have by itself.
+/// Words of run::kinematics_words that a body may have by itself.
 std::vector<Word<solid::Kinematics>> body_kinematics() {
     std::vector<Word<solid::Kinematics>> words;
     for (const auto& [word, choice] : run::kinematics_words)
@@ -95,7 +95,7 @@ std::optional<std::array<double, 3>> read_axis(Reader& reader, const Node& node,
     return std::array<double, 3>{(*axis)[0], (*axis)[1], (*axis)[2]};
 }
 
-/// Of a material by itself, and of a body that has one of its own.
+/// Keys of a material by itself, and of a body that has one of its own.
 template <class Section>
 Keys<Section> material_values() {
     using From = Make<Section>;

@@ -161,8 +161,8 @@ private:
     bool has_begun_ = false;
 };
 
-/// What only a run knows, where nothing else is wrong: one that ends before its first step, under the kinematics of the
-/// scene where a pilot run would choose them.
+/// Checks what only a run knows, where nothing else is wrong: one that ends before its first step, under the kinematics
+/// of the scene where a pilot run would choose them.
 template <int Dim>
 void check_run(const Settings& settings, CheckedScene& checked) {
     const run::Scene<Dim> scene = make_scene<Dim>(settings, checked.faults);

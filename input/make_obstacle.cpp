@@ -124,7 +124,7 @@ Shell<3> shell_of_file(const ObstacleSettings& obstacle, const std::filesystem::
     return shell;
 }
 
-/// What has no end in the table, as far as the bodies can be expected to get; where it is already.
+/// Plane that has no end in the table, as far as the bodies can be expected to get; where it is already.
 template <int Dim>
 Shell<Dim> endless_plane(const ObstacleSettings& obstacle, const mesh::Mesh<Dim>& mesh) {
     geometry::Box<Dim> box;

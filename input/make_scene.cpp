@@ -68,7 +68,7 @@ void append_bodies(run::Scene<Dim>& scene, const BodySettings& body, const std::
     }
 }
 
-/// The same of a body that a pattern makes with others.
+/// Message about a body that a pattern makes with others.
 std::string of_pattern(const BodySettings& body, const std::string& message) {
     return fmt::format("{} ({} makes {:g} of it, which share the cells that may be made)", message, body.pattern,
                        body.n_copies);

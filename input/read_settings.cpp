@@ -320,7 +320,7 @@ void check_numbers_used(const std::vector<std::string>& set, Reader& reader) {
                                            used.empty() ? " Leave it out." : hint(number.name, used))});
 }
 
-/// Of a table that is read already, wherever it stands.
+/// Key of a table that is read already, wherever it stands.
 Key<Settings> read_before(const char* name) {
     return {.name = name, .take = [](Settings&, const Node&, const std::string&, Reader&) {}};
 }

@@ -184,7 +184,7 @@ struct IgnoredPair {
     std::string where;  ///< Fault::where
 };
 
-/// What overlaps at the start is an error, or is resolved over a time.
+/// Overlap at the start: an error, or resolved over a time.
 enum class Interference { refuse, resolve };
 
 /// Settings of what acts between two bodies, obstacles or groups of boundary faces: `bodies` and `groups` together name two.

@@ -131,7 +131,7 @@ public:
 private:
     static constexpr double no_step = 0.0;
 
-    /// What all ranks together see of a step before it.
+    /// View of all ranks together on a step before it.
     struct Look {
         double motion;  ///< the farthest from where the list was searched for [m]; NaN where a node is not finite
         bool goes_on;   ///< the listed nodes begin where they were brought to last
@@ -234,7 +234,7 @@ private:
         return checksum.value();
     }
 
-    /// Where the nodes of the present list are, and which of them this rank has.
+    /// Takes the present list: where its nodes are, and which of them this rank has.
     void follow_list() {
         const std::vector<std::int32_t>& nodes = contact_.last().nodes;
         list_.assign(communicator_, numbers_, nodes);

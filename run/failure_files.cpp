@@ -85,7 +85,7 @@ std::pair<double, double> speed_range(const std::vector<double>& speed) {
     return {std::max(slowest, 1e-6 * fastest), fastest};
 }
 
-/// Where `cells` are, in rings.
+/// Map of where `cells` are, in rings.
 template <int Dim>
 CellMap cell_map(const mesh::Mesh<Dim>& mesh, const std::vector<Vector<Dim>>& position, const std::vector<double>& speed,
                  const Failure& failure, const std::vector<std::int32_t>& cells) {

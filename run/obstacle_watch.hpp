@@ -28,7 +28,7 @@ class ObstacleWatch {
 public:
     explicit ObstacleWatch(const Scene<Dim>& scene);
 
-    /// Those of which nothing was found before are added to `found`. A call of all ranks, for the displacements of the
+    /// Adds bodies of which nothing was found before to `found`. A call of all ranks, for the displacements of the
     /// points of this one.
     void look(const solid::Solid<Dim>& solid, std::span<const double> q, double time, std::vector<PastRim>& found);
 

@@ -21,7 +21,7 @@ struct SolidLocalSteps {
     dynamics::LocalSteps steps;
     double dt;                        ///< of level 0, stable as `StableStep::dt` is [s]
     std::vector<std::int64_t> cells;  ///< of each level
-    /// Of each level [rad/s]: a bound of the frequencies of its cells, all coarser ones and two layers more, and, over
+    /// Per level [rad/s]: a bound of the frequencies of its cells, all coarser ones and two layers more, and, over
     /// sqrt(2), of those of five layers more; the same part of what the step of each level allows, for it is shown for all
     /// together. Of the finest that of the whole.
     std::vector<double> omega_max;

@@ -22,7 +22,7 @@ inline constexpr int n_motions = Dim == 2 ? 3 : 6;
 template <int Dim>
 using Motions = Eigen::Matrix<double, Dim, n_motions<Dim>>;
 
-/// Where a body turns about, and how large it is.
+/// Centre about which a body turns, and its size.
 template <int Dim>
 struct Frame {
     Vector<Dim> centre = Vector<Dim>::Zero();

@@ -29,7 +29,7 @@
 namespace abut::solid {
 namespace {
 
-/// What is not made for several ranks, and what a part lacks.
+/// Checks for what is not made for several ranks, and what a part lacks.
 template <int Dim>
 void check_for_ranks(const dynamics::Ranks& ranks, const mesh::Mesh<Dim>& mesh, const SolidOptions<Dim>& options) {
     if (ranks.is_one()) return;
@@ -156,7 +156,7 @@ auto Solid<Dim>::ends_here(std::span<const double> q_0, std::span<const double> 
     return {start, end};
 }
 
-/// Where to write what `take_result` makes by point.
+/// Array for what `take_result` makes by point.
 template <int Dim>
 std::span<Vector<Dim>> Solid<Dim>::result_here(std::span<double> of_points) {
     return part_->result(as_vectors<Dim>(of_points));
@@ -216,7 +216,7 @@ void Solid<Dim>::add_point_loads(std::span<const Vector<Dim>> q_0, std::span<con
         q_0, q_1, time, dt, take, [this](std::int32_t body) { return mean_turn(body); }, force, work_);
 }
 
-/// Of the frame of a body or of a rigid one, between both ends of the step or in the state that is evaluated.
+/// Mean turn of the frame of a body or of a rigid one, between both ends of the step or in the state that is evaluated.
 template <int Dim>
 Matrix<Dim> Solid<Dim>::mean_turn(std::int32_t body) const {
     return bodies_->mean_turn(body, *frames_);

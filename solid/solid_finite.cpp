@@ -20,14 +20,14 @@ constexpr double collapsed_determinant = 0.1;  // det F of a cell
 constexpr double flat_cells = 0.5;  // a plastic strain by which cells are as flat as their steps may have to be short
 constexpr double tiny_displacement = 1e-8;  // of the size of a cell
 
-/// Where bodies of Kinematics::finite are deformed most, and how to name the cell.
+/// Extremes of deformation of bodies of Kinematics::finite, and how to name the cell.
 struct Extremes {
     FiniteExtremes values{};  // the cell in the whole mesh
     std::int64_t label = 0;   // of that cell
     std::size_t body = 0;
 };
 
-/// Of all ranks, from those of each.
+/// Extremes of all ranks, from those of each.
 Extremes of_ranks(const dynamics::Ranks& ranks, const Extremes& here) {
     if (ranks.is_one()) return here;
     const std::vector<double> all = ranks.gather(

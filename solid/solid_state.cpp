@@ -24,7 +24,8 @@ std::string kind() {
     return "solid " + std::to_string(Dim) + "D";
 }
 
-/// Of places and masses of the points, whatever ranks they are on: the arrays inside are checked where they are read.
+/// Fingerprint of positions and masses of the points, whatever ranks they are on: the arrays inside are checked where
+/// they are read.
 template <int Dim>
 std::uint64_t fingerprint(std::span<const Vector<Dim>> rest, std::span<const double> masses, const dynamics::Ranks& ranks) {
     std::uint64_t sum = 0;

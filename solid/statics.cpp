@@ -22,7 +22,7 @@
 namespace abut::solid {
 namespace {
 
-/// What a step is judged by. Near the minimum values of V differ by less than their rounding.
+/// Measure by which a step is judged. Near the minimum values of V differ by less than their rounding.
 enum class Descent {
     potential,  ///< V itself
     /// V from the last state by the trapezoidal rule on its slope (the approximate Wolfe conditions of Hager and Zhang)
@@ -91,7 +91,7 @@ Eigen::VectorXd stiffness_between_faces(const Solid<Dim>& solid) {
     return result;
 }
 
-/// What L-BFGS minimises: V over scaled unknowns, in which the curvature is about the same in all directions.
+/// Objective that L-BFGS minimises: V over scaled unknowns, in which the curvature is about the same in all directions.
 template <int Dim>
 class Objective {
 public:
@@ -192,7 +192,7 @@ private:
         return 0.5 * (gradient + base_gradient_).dot(x - base_);
     }
 
-    /// Of all cells but some, which are given in increasing order.
+    /// Residual of all cells but some, which are given in increasing order.
     [[nodiscard]] double residual(std::span<const std::int32_t> left_out = {}) const {
         const mesh::Mesh<Dim>& mesh = solid_.mesh();
         const auto force = as_vectors<Dim>(std::span<const double>(force_));

@@ -36,7 +36,7 @@ struct StaticReport {
     int evaluations = 0;
     int restarts = 0;       ///< times the curvature was forgotten because no step went down any more
     double residual = 0.0;  ///< [-]
-    /// The same over the cells that feel no contact: at an edge of V those around it stay out of balance [-]
+    /// Residual over the cells that feel no contact: at an edge of V those around it stay out of balance [-]
     double residual_elsewhere = 0.0;
     double compression = 0.0;  ///< largest |g|/D of a pair in contact: above 0.3 the result is that of the skin's cells
     std::vector<StaticIteration> iterations;

@@ -116,7 +116,7 @@ std::string surface_info(const fs::path& path) {
     return text;
 }
 
-/// Of a file that may hold any of them: what it does hold. If that is nothing, all reasons.
+/// Content of a file that may hold any of them. If that is nothing, all reasons.
 std::string mesh_or_surface_info(const fs::path& path) {
     struct Kind {
         const char* name;

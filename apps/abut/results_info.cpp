@@ -36,7 +36,7 @@ std::string shown(const Json& value) {
     return fmt::format("({})", fmt::join(parts, ", "));
 }
 
-/// What a summary has under a name, if it has it.
+/// Line for what a summary has under a name, if it has it.
 std::string line_of(const Json& summary, const char* key, const char* what, const char* unit = "") {
     return summary.contains(key) ? info_line(what, shown(summary.at(key)) + unit) : "";
 }

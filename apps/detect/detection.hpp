@@ -33,7 +33,8 @@ struct StepResult {
     std::int64_t too_steep = 0;              ///< left out because n_1 . n_2 is not below --facing
     contact::OverlapReport narrow;
     std::vector<contact::Overlap<3>> overlaps;  ///< -depth < gap <= distance, n_1 . n_2 < --facing
-    /// Of the faces of each in space [m]: by `Detection::measure_distances` alone, empty before, as is what follows
+    /// Distances of the faces of each in space [m]: by `Detection::measure_distances` alone, empty before, as is what
+    /// follows
     std::vector<double> distances;
     Neighbours neighbours;
 };

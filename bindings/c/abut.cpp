@@ -161,7 +161,7 @@ void tell_after_step(abut_contact& handle, const contact::NodalContact<Dim>& con
     }
 }
 
-/// Where forces go, checked before anything happens; nothing if they are not asked for.
+/// Array into which forces go, checked before anything happens; nothing if they are not asked for.
 template <int Dim>
 std::optional<PointsSpan<Dim>> force_of(const abut_array& force, const contact::NodalContact<Dim>& contact) {
     if (force.data == nullptr) return std::nullopt;

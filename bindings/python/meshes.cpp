@@ -75,7 +75,7 @@ std::vector<std::pair<std::string, py::object>> blocks_of(const py::object& cell
     return blocks;
 }
 
-/// Of a group: one table, or a list of arrays, for faces with different numbers of corners.
+/// Tables of a group: one table, or a list of arrays, for faces with different numbers of corners.
 py::list tables_of_faces(const py::object& faces) {
     const bool are_many = py::isinstance<py::list>(faces) && py::len(faces) > 0 &&
                           py::isinstance<py::array>(faces[py::int_(0)]) &&

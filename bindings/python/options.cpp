@@ -26,7 +26,7 @@ std::string word_among(const std::vector<std::string>& words, const py::handle& 
     throw py::value_error("'" + given + "' is not known; there are " + quoted(words));
 }
 
-/// Of the kind of the option; py::cast_error where it cannot be that.
+/// Value of the kind of the option; py::cast_error where it cannot be that.
 OptionValue value_of(const OptionFacts& option, const py::handle& value) {
     switch (option.kind) {
         case OptionKind::truth:

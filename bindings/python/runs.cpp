@@ -36,7 +36,7 @@ namespace {
 
 using namespace py::literals;
 
-/// What is left of a run that fails is told at the end of the message.
+/// Runs a scene. The message of a run that fails ends with what is left of it.
 template <int Dim>
 run::RunResult<Dim> simulate_into(run::ResultFiles<Dim>& files, const run::Scene<Dim>& scene, const run::RunOptions& options,
                                   run::Observer<Dim>& observer) {
@@ -51,7 +51,7 @@ run::RunResult<Dim> simulate_into(run::ResultFiles<Dim>& files, const run::Scene
     }
 }
 
-/// What abut.Result is made of. `name`: what files and summary call the run.
+/// Data of which abut.Result is made. `name`: what files and summary call the run.
 template <int Dim>
 py::object run_scene(const run::Scene<Dim>& scene, const run::RunOptions& options, const std::string& name,
                      const py::object& look) {

@@ -149,7 +149,7 @@ run::Scene<Dim> scene_of(const SceneArguments<Dim>& given) {
 
 /// Options of a run by the names of the command line, - written as _. Throws for a name or a word that is not known.
 run::RunOptions options_of(const py::dict& given);
-/// The same above what `options` has; of two that exclude each other that one goes.
+/// Takes such options above what `options` has; of two that exclude each other that one goes.
 void take_options(const py::dict& given, run::RunOptions& options);
 /// All of them, one per line, with words or unit and default.
 std::string option_text();

@@ -79,7 +79,7 @@ template <int Dim, class TangentsOf>
     return force;
 }
 
-/// The same of the springs as they are [N].
+/// Force on facet 2 of the springs as they are [N].
 template <int Dim, class TangentsOf>
 [[nodiscard]] Vector<Dim> spring_force_on_second(const FacetStore& facets, const TangentsOf& tangents_of,
                                                  const FrictionPair& pair) {

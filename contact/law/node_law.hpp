@@ -80,7 +80,7 @@ public:
     [[nodiscard]] const BevelledSurface<Dim>& surface() const { return surface_; }
     /// Nodes of the pairs of the list, corners of bevels last.
     [[nodiscard]] const std::vector<std::int32_t>& listed_nodes() const { return pairs_.nodes(); }
-    /// The same law on another surface, without a list.
+    /// This law on another surface, without a list.
     [[nodiscard]] NodeLaw on(NodalSurface<Dim> surface) const {
         return {BevelledSurface<Dim>(std::move(surface)), options_, sharing_};
     }

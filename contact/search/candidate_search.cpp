@@ -254,7 +254,7 @@ private:
         return all;
     }
 
-    /// Of all parts together.
+    /// Checks the number of pairs of all parts together.
     void check_number(std::size_t n) const {
         if (static_cast<std::int64_t>(n) <= options_.limits.pairs) return;
         throw geometry::SearchLimitError(

@@ -53,13 +53,13 @@ public:
     /// lines from x_0 to x_1 [m], all of them from wherever they were at rest. It holds every pair that at any time on that
     /// path, or while no vertex is farther than half the skin from x_0, is seen to overlap along any direction with a gap
     /// |g| <= distance + 2 (d_1 + d_2), 2 (d_1 + d_2) being what contact allows; g is that over points that both faces
-    /// cover. With GapOf::centroids it is every pair that faces each other (facing_cosine) and whose centroids are so far apart
-    /// along its normal. With facing_cosine = 1 it is every pair that comes as near as `distance` in space. Boxes around the
-    /// vertices at x_0 and x_1 decide, normals play no part: of pairs whose boxes overlap all are listed, whichever way they
-    /// look, and `is_valid_for` allows for turns. Surfaces are as flat as the host keeps them: a polygon is all points
-    /// between its corners. Neighbours, rigid faces and errors as `search`, Diverged names the vertex too, and the extent
-    /// that limits its motion is that at rest. Vertices that no face names may hold anything. `within`: which pairs of
-    /// faces of one body are wanted; asked from several threads at once, empty: all.
+    /// cover. With GapOf::centroids it is every pair that faces each other (facing_cosine) and whose centroids are so far
+    /// apart along its normal. With facing_cosine = 1 it is every pair that comes as near as `distance` in space. Boxes
+    /// around the vertices at x_0 and x_1 decide, normals play no part: of pairs whose boxes overlap all are listed,
+    /// whichever way they look, and `is_valid_for` allows for turns. Surfaces are as flat as the host keeps them: a
+    /// polygon is all points between its corners. Neighbours, rigid faces and errors as `search`, Diverged names the
+    /// vertex too, and the extent that limits its motion is that at rest. Vertices that no face names may hold
+    /// anything. `within`: which pairs of faces of one body are wanted; asked from several threads at once, empty: all.
     void search_moved(PointsView<Dim> x_0, PointsView<Dim> x_1, GapOf gap = GapOf::overlap,
                       const geometry::PairFilter& within = {});
 

@@ -23,7 +23,7 @@ std::string name_in(std::string_view text) {
     return begin == std::string_view::npos ? std::string() : std::string(text.substr(begin, end - begin + 1));
 }
 
-/// Of a physical group, which stands with a minus sign where Gmsh turned its elements round. 0 is none.
+/// Tag of a physical group, which stands with a minus sign where Gmsh turned its elements round. 0 is none.
 std::int32_t group_tag(std::int32_t tag) { return tag == std::numeric_limits<std::int32_t>::min() ? 0 : std::abs(tag); }
 
 class MshReader {

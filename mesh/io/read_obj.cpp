@@ -94,7 +94,7 @@ private:
         const std::int64_t vertex = *index < 0 ? n_vertices() + *index : *index - 1;
         return static_cast<std::int32_t>(std::min<std::int64_t>(vertex, std::numeric_limits<std::int32_t>::max()));
     }
-    /// Of texture and normal: at most two, "/1/3", each may be missing.
+    /// Whether these are indices of texture and normal: at most two, "/1/3", each may be missing.
     static bool are_indices(std::string_view rest) {
         for (int i = 0; i < 2 && !rest.empty(); ++i) {
             const std::size_t end = std::min(rest.find('/', 1), rest.size());

@@ -22,7 +22,7 @@ template <int Dim>
 template <int Dim>
 [[nodiscard]] OutputGrid grid_of_cells(const Mesh<Dim>& mesh, std::span<const std::int32_t> cells,
                                        std::span<const std::int32_t> vertices);
-/// The same of boundary faces, with a cell array for each group of the mesh.
+/// Grid of boundary faces, with a cell array for each group of the mesh.
 template <int Dim>
 [[nodiscard]] OutputGrid grid_of_surface(const Mesh<Dim>& mesh, std::span<const std::int32_t> boundary,
                                          std::span<const std::int32_t> vertices);

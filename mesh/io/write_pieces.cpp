@@ -54,7 +54,7 @@ std::vector<std::string> piece_names(const std::string& basename, std::size_t fr
     return names;
 }
 
-/// Of the vertices of the boundary faces, from those of the cells of a piece.
+/// Values of the vertices of the boundary faces, from those of the cells of a piece.
 template <int Dim>
 std::vector<Vector<Dim>> on_surface(const PieceFrame<Dim>& frame, const std::vector<std::int32_t>& vertices) {
     std::vector<Vector<Dim>> values;

@@ -76,7 +76,7 @@ typename Moments<Dim>::Sums sum_moments(std::int32_t begin, std::int32_t end, co
     return total.all();
 }
 
-/// The same over the points of a body that ranks share out.
+/// Sums over the points of a body that ranks share out.
 template <int Dim, class Add>
 typename Moments<Dim>::Sums sum_moments(const RankPart<Dim>& part, std::size_t body, const Add& add) {
     using Sums = typename Moments<Dim>::Sums;
@@ -150,7 +150,7 @@ void BodyFrames<Dim>::set_rest(std::span<const Vector<Dim>> rest, std::span<cons
 
 // Sums and loops over the points of a body ---------------------------------------------------------------------------
 
-/// Of term(point) in blocks of fixed size, whatever ranks they are on.
+/// Sum of term(point) in blocks of fixed size, whatever ranks they are on.
 template <int Dim>
 template <class Value, class Term>
 Value BodyFrames<Dim>::sum_of(std::size_t body, const Value& zero, const Term& term) const {

@@ -216,7 +216,7 @@ double Bodies<Dim>::cell_mass(std::int32_t cell) const {
     return options_.materials[static_cast<std::size_t>(mesh_.cell_body[cell])].density * mesh_.cell_measure[cell];
 }
 
-/// Of the cells of the whole mesh; those of rigid bodies are left open.
+/// Values of the cells of the whole mesh; those of rigid bodies are left open.
 template <int Dim>
 std::vector<Vector<Dim>> Bodies<Dim>::of_deformable_cells(std::span<const Vector<Dim>> of_points) const {
     std::vector<Vector<Dim>> result(static_cast<std::size_t>(mesh_.n_cells()));

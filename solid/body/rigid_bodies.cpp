@@ -32,7 +32,7 @@ Eigen::Matrix<double, Dim, Dim + 1> simplex() {
     return corners;
 }
 
-/// Of a body with density 1 about a point: sum over simplices from there to its faces, cut into simplices.
+/// Second moment of a body with density 1 about a point: sum over simplices from there to its faces, cut into simplices.
 template <int Dim>
 Matrix<Dim> second_moment_of(const mesh::Mesh<Dim>& mesh, std::int32_t body, const Vector<Dim>& centre) {
     Matrix<Dim> moment = Matrix<Dim>::Zero();

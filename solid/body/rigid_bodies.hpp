@@ -77,7 +77,7 @@ public:
     /// Adds to p (n_points) the impulses that keep all distances from q over dt (< 0: back), along the lines of the last
     /// step. Throws Diverged where there are none.
     void constrain_along(std::span<const Vector<Dim>> q, double dt, std::span<Vector<Dim>> p);
-    /// The same, along the lines in q. Where it goes back, the step that lies there is the last one from now on.
+    /// As `constrain_along`, along the lines in q. Where it goes back, the step that lies there is the last one from now on.
     void constrain_at(std::span<const Vector<Dim>> q, double dt, std::span<Vector<Dim>> p);
     /// Adds to the forces on the points what holds the distances in q, at the mean of the velocities before and after.
     void add_constraint_forces(std::span<const Vector<Dim>> q, std::span<Vector<Dim>> force) const;

@@ -30,7 +30,7 @@ struct Sums {
     [[nodiscard]] std::size_t size() const { return n; }
 };
 
-/// Of arms x in the middle of a step, motions w in it, and StepDefect.
+/// Sums of arms x in the middle of a step, motions w in it, and StepDefect.
 template <int Dim>
 class StepSums {
 public:

@@ -8,7 +8,7 @@
 namespace abut::solid {
 namespace {
 
-/// Of which bodies faces of a group are; 1: there are such.
+/// Kinds of bodies of which faces of a group are; 1: there are such.
 struct BodiesOfGroup {
     double stay = 0.0, turn = 0.0, have_frames = 0.0, have_finite_strains = 0.0;
 };

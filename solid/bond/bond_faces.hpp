@@ -21,7 +21,7 @@ public:
               std::span<const std::size_t> of_places);
 
     [[nodiscard]] std::size_t size() const { return numbers_.size(); }
-    /// Of one side of a place.
+    /// Position of the face on one side of a place.
     [[nodiscard]] std::size_t position_of(const BondPlace<Dim>& place, std::size_t side) const;
     /// In the bodies that deform; `no_face`: it is on other ranks alone.
     [[nodiscard]] BoundaryFace operator[](std::size_t face) const { return faces_[face]; }

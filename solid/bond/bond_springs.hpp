@@ -35,7 +35,7 @@ public:
 
     // Each rank evaluates the faces of its own cells; what brings them to all is a call of all ranks.
 
-    /// Of points at q [m], where the frames stand.
+    /// Evaluates the springs for points at q [m], where the frames stand.
     void stand_at(std::span<const Vector<Dim>> q, const BoundaryLoad<Dim>& load);
     /// Along the step that the frames follow.
     void follow(std::span<const Vector<Dim>> q_0, const BoundaryLoad<Dim>& load_0, std::span<const Vector<Dim>> q_1,
@@ -45,7 +45,7 @@ public:
     [[nodiscard]] FaceCorrections<Dim> stiffness_of(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load);
     /// The corrections of contact and these. Valid until the next call and as long as those are.
     [[nodiscard]] FaceCorrections<Dim> corrections(const FaceCorrections<Dim>& of_contact);
-    /// What they push each body with besides others (n_bodies that deform).
+    /// Pushes of the springs on each body, added to those of others (n_bodies that deform).
     [[nodiscard]] std::span<const BodyPush<Dim>> pushes(std::span<const BodyPush<Dim>> others);
     [[nodiscard]] double energy() const;  ///< at the end of the step [J]
     /// The end alone: `energy` is that of it. What springs pull with stays.
@@ -84,7 +84,7 @@ private:
         std::size_t place;
     };
     using Positions = std::vector<std::array<Vector<Dim>, 2>>;
-    /// Of faces_, in their frames.
+    /// Displacement and tilt of faces_, in their frames.
     struct Tilted {
         std::vector<Vector<Dim>> displacement;
         std::vector<Matrix<Dim>> tilt;

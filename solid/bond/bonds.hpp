@@ -57,7 +57,7 @@ public:
     // In one state, or along a step. Each rank evaluates the faces of its own cells, and brings that to all: those that
     // bring something are calls of all ranks.
 
-    /// Of points at q [m] under these loads, where the frames stand.
+    /// Evaluates the bonds for points at q [m] under these loads, where the frames stand.
     void stand_at(std::span<const Vector<Dim>> q, const BoundaryLoad<Dim>& load);
     /// Along the step that the frames follow: in its middle.
     void follow(std::span<const Vector<Dim>> q_0, const BoundaryLoad<Dim>& load_0, std::span<const Vector<Dim>> q_1,
@@ -68,17 +68,17 @@ public:
                                                                const BoundaryLoad<Dim>& load);
     /// Bonded faces of small bodies here, increasing.
     [[nodiscard]] std::span<const BoundaryFace> bonded_faces() const { return faces_->faces_here(); }
-    /// What the bonds add to the corrections of contact. Valid until the next call and as long as those are.
+    /// Corrections of contact and those of the bonds. Valid until the next call and as long as those are.
     [[nodiscard]] FaceCorrections<Dim> corrections(const FaceCorrections<Dim>& of_contact);
     /// Adds dV/du through the corrections (n_cells) [N], after the cells have taken their gradient with the last of them.
     void add_gradient(std::span<Vector<Dim>> gradient);
-    /// What bodies are pushed with as a whole, with what others push them with (n_bodies that deform).
+    /// Pushes on bodies as a whole, those of others included (n_bodies that deform).
     [[nodiscard]] std::span<const BodyPush<Dim>> pushes(std::span<const BodyPush<Dim>> others);
     /// Energy in V that is not contained in that of the cells with these corrections, in one state [J].
     [[nodiscard]] double energy() const;
     /// `energy` is that of the end of the step that was followed from now on. A call of all ranks.
     void see_end(std::span<const Vector<Dim>> q_1, const BoundaryLoad<Dim>& load_1);
-    /// That energy with what cells remember now. A call of all ranks.
+    /// As `energy`, with what cells remember now. A call of all ranks.
     [[nodiscard]] double energy_at_end(std::span<const Vector<Dim>> q_1, const BoundaryLoad<Dim>& load_1);
     /// The part of the work of prescribed displacements and tractions in a step from `start` to `end` that is done
     /// through the corrections, with the gradient that was added last [J].

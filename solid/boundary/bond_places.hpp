@@ -14,7 +14,7 @@ template <int Dim>
 struct BondPlace {
     std::size_t bond;
     std::array<BoundaryFace, 2> faces;  ///< of the mesh of all bodies; `no_face`: it is on other ranks alone
-    /// Of the faces among all boundary faces of the bodies that deform, of all ranks
+    /// Numbers of the faces among all boundary faces of the bodies that deform, of all ranks
     std::array<std::size_t, 2> numbers;
     std::array<std::int32_t, 2> bodies;  ///< in the mesh
     double area;                         ///< of the overlap [m^(Dim-1)]

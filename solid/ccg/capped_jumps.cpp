@@ -24,7 +24,7 @@ bool is_finite(std::span<const Kinematics> kinematics, std::size_t body) {
     return properties_of(kinematics, body).finite_strains;
 }
 
-/// What jumps alone do for a cell: hold it along the normals of its faces, or along all directions.
+/// Directions in which jumps alone hold a cell: along the normals of its faces, or along all directions.
 enum class Held : char { no, along_normals, all };
 
 /// How the jumps around each cell hold it where it has

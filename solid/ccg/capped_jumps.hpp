@@ -40,7 +40,7 @@ public:
         return memory_[static_cast<std::size_t>(half_face)];
     }
 
-    /// Of a face of a cell; 0 where it has none of that number.
+    /// Lasting jump on a face of a cell; 0 where it has none of that number.
     [[nodiscard]] Vector<Dim> lasting_on(std::ptrdiff_t cell, std::int32_t face) const;
 
     /// Nothing is dissipated in this step so far.
@@ -72,9 +72,9 @@ public:
         Matrix<Dim> gradient = Matrix<Dim>::Zero();  // F - I, the mean of both cells
         Vector<Dim> lasting = Vector<Dim>::Zero();
     };
-    /// Of a state with this [x] as it is remembered.
+    /// Elastic part of a state with this [x] as it is remembered.
     [[nodiscard]] Elastic at(std::ptrdiff_t half_face, const Vector<Dim>& jump, const Matrix<Dim>& gradient) const;
-    /// The same, kept as the start of the next step.
+    /// As `at`, kept as the start of the next step.
     [[nodiscard]] Elastic start(std::ptrdiff_t half_face, const Vector<Dim>& jump, const Matrix<Dim>& gradient);
     /// Lets a half-face yield in the step from the start to a state with this [x]. What the mean force of both ends
     /// does beyond the change of energy is booked as lost, or where it is negative, as it may be by what the step is
@@ -103,7 +103,7 @@ private:
     /// The part of a jump in space whose traction the cap limits: all of it, or that along the face, whose normal is
     /// `normal`, of any length.
     [[nodiscard]] Vector<Dim> limited(std::ptrdiff_t half_face, const Vector<Dim>& jump, const Vector<Dim>& normal) const;
-    /// What J changes by, in space, so that `trial` comes back to the cap [m].
+    /// Change of J, in space, so that `trial` comes back to the cap [m].
     [[nodiscard]] Vector<Dim> excess(std::ptrdiff_t half_face, const Vector<Dim>& trial) const;
 
     const CcgArrays<Dim>& arrays_;

@@ -17,7 +17,7 @@ Lanes<Dim, Real> CcgSweeps<Dim, Real>::jump(std::int32_t c, std::int32_t half_fa
 
 // Bodies whose strains are linear --------------------------------------------------------------------------------------
 
-/// Of [u] in the step, where the gradient of the cell changes by `of_cell`.
+/// Change of [u] in the step, where the gradient of the cell changes by `of_cell`.
 template <int Dim, class Real>
 Vector<Dim> CcgSweeps<Dim, Real>::jump_change(std::int32_t c, std::int32_t half_face, const Matrix<Dim>& of_cell) const {
     const HalfFace& half = arrays_.half_faces[half_face];
@@ -101,7 +101,7 @@ LaneTensor<Dim, Real> CcgSweeps<Dim, Real>::sum_capped_jumps(std::int32_t c, dou
 
 // Energy -----------------------------------------------------------------------------------------------------------------
 
-/// What is left of [u] without what lasts.
+/// Part of [u] without what lasts.
 template <int Dim, class Real>
 Lanes<Dim, Real> CcgSweeps<Dim, Real>::elastic_jump(std::int32_t c, std::int32_t half_face) const {
     const Vectors all = jump(c, half_face);

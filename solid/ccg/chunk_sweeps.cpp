@@ -48,7 +48,7 @@ void CcgSweeps<Dim, Real>::set_any_stress(std::int32_t c) {
     }
 }
 
-/// Of a cell whose strains are linear what its stress has beside lambda and mu of its strain: other moduli, less
+/// Stress of a cell whose strains are linear, beside lambda and mu of its strain: other moduli, less
 /// thermal stress.
 template <int Dim, class Real>
 Matrix<Dim> CcgSweeps<Dim, Real>::stress_beside(std::int32_t c, const Matrix<Dim>& g) const {

@@ -106,7 +106,7 @@ struct CcgCoefficients {
 template <int Dim>
 struct CcgArrays;
 
-/// The same in single precision: areas, moduli and stiffness rounded one by one; the weights of a stencil to multiples
+/// Coefficients in single precision: areas, moduli and stiffness rounded one by one; the weights of a stencil to multiples
 /// of one power of two, so that they still sum to exactly 1.
 template <int Dim>
 [[nodiscard]] CcgCoefficients<Dim, float> in_single_precision(const CcgArrays<Dim>& arrays);

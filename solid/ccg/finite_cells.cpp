@@ -66,7 +66,7 @@ FiniteCells<Dim>::FiniteCells(const mesh::Mesh<Dim>& mesh, const FaceConditions<
     if (std::ranges::any_of(options.inelastic, [](const auto& law) { return law != nullptr; })) set_inelastic(mesh, options);
 }
 
-/// That of its body; where this is warm a copy, so that each cell has its own temperature.
+/// Law of its body; where this is warm a copy, so that each cell has its own temperature.
 template <int Dim>
 template <class WarmLaw, class Law>
 const Law* FiniteCells<Dim>::law_of_cell(std::int32_t cell, const Law* of_body,

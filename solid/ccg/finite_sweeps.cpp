@@ -48,7 +48,7 @@ bool CcgSweeps<Dim, Real>::follows_last_load(const StepEnds<Dim>& ends) {
     return same;
 }
 
-/// Of û_f - u_c; prescribed displacements do not change.
+/// Change of û_f - u_c; prescribed displacements do not change.
 template <int Dim, class Real>
 Lanes<Dim, Real> CcgSweeps<Dim, Real>::boundary_change(BoundaryFace face) const {
     const BoundaryReconstruction<Dim>& boundary = arrays_.boundary;

@@ -13,7 +13,7 @@ double product(const Matrix<Dim>& a, const Matrix<Dim>& b) {
     return a.cwiseProduct(b).sum();
 }
 
-/// Of dV/dF in F: sum of F_k × T_k over the columns.
+/// Moment of dV/dF in F: sum of F_k × T_k over the columns.
 template <int Dim>
 AxialVector<Dim> moment_of(const Matrix<Dim>& f, const Matrix<Dim>& gradient) {
     AxialVector<Dim> sum = AxialVector<Dim>::Zero();
@@ -60,7 +60,7 @@ std::pair<Matrix<Dim>, Matrix<Dim>> KeptEnds<Dim>::gradients(std::int32_t c) con
     return {unload(load_tensor<Dim>(start.g, c)), unload(load_tensor<Dim>(end.g, c))};
 }
 
-/// Of a cell with one normal whose material is St. Venant and Kirchhoff's.
+/// Step of a cell with one normal whose material is St. Venant and Kirchhoff's.
 template <int Dim>
 CondensedStep<Dim> KeptEnds<Dim>::step_of(std::int32_t c, const Matrix<Dim>& g_0, const Matrix<Dim>& g_1) const {
     const CellGeometry<Dim>& cell = coefficients_.cells[c];

@@ -93,7 +93,7 @@ public:
     // What contact adds to cells with one normal, by dV/dF over |c|, F as the traces take it. It acts along the step.
 
     void clear_contact();
-    /// The same by F of the affine faces.
+    /// Such terms by F of the affine faces.
     [[nodiscard]] Matrix<Dim> pull_back_contact(std::int32_t c, const Matrix<Dim>& gradient);
 
 private:

@@ -19,7 +19,7 @@ public:
     LeastEnergy(const FreeCell<Dim>& free, const StoredEnergy<Dim>& law, const Matrix<Dim>& g, const Matrix<Dim>& shape);
     /// `shape` as the linear material has it.
     [[nodiscard]] static Matrix<Dim> linear_shape(const FreeCell<Dim>& free, double contraction, const Matrix<Dim>& g);
-    /// The same of a cell that is warm.
+    /// `shape` of a cell that is warm.
     [[nodiscard]] static Matrix<Dim> warm_shape(const FreeCell<Dim>& free, double contraction, const Matrix<Dim>& g,
                                                 const ThermalStretch& stretch);
 
@@ -30,7 +30,7 @@ public:
     [[nodiscard]] Matrix<Dim> shape() const { return frame_.transpose() * (axes_ + gradient_ * axes_); }
     /// W and dW/dF of the minimum as a function of F: the stress on free faces is 0. Not numbers where there is no minimum.
     [[nodiscard]] const Response<Dim>& response() const { return response_; }
-    /// Of a cell with one normal: dV/dF from dV/dF at the minimum.
+    /// dV/dF of a cell with one normal, from dV/dF at the minimum.
     [[nodiscard]] Matrix<Dim> pull_back(const Matrix<Dim>& gradient) const;
 
 private:

@@ -20,7 +20,7 @@ namespace abut::solid {
 template <int Dim>
 class MotionBound {
 public:
-    /// Of these boundary faces, increasing. The arrays must outlive it.
+    /// Bound for these boundary faces, increasing. The arrays must outlive it.
     MotionBound(const CcgArrays<Dim>& arrays, std::span<const BoundaryFace> faces);
 
     [[nodiscard]] double operator()(std::span<const Vector<Dim>> u_from, const BoundaryLoad<Dim>& load_from,
@@ -30,8 +30,8 @@ public:
     /// |1 - D| + 2 sum_j |W_j|, j other cells than c [-]. The bound is a seminorm of du.
     [[nodiscard]] double amplification() const { return amplification_; }
 
-    /// The same of the point of a face at `arm` from its centroid that tilts with the cell: |dû_f + dG_c arm| over the
-    /// motion of the cell that moves farthest [-].
+    /// As `amplification`, of the point of a face at `arm` from its centroid that tilts with the cell: |dû_f + dG_c
+    /// arm| over the motion of the cell that moves farthest [-].
     [[nodiscard]] double corner_amplification(BoundaryFace face, const Vector<Dim>& arm) const;
 
 private:

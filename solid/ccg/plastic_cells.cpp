@@ -212,14 +212,14 @@ void PlasticCells<Dim>::set_surface(std::size_t number) {
     surface.has_flowed = cell.memory.equivalent > 0.0;
 }
 
-/// Of contact in the step.
+/// Push of contact in the step.
 template <int Dim>
 auto PlasticCells<Dim>::push_on(std::size_t number) const -> Strain {
     const std::int32_t push = surfaces_[number].push;
     return push < 0 ? Strain(Strain::Zero()) : pushes_[static_cast<std::size_t>(push)].stress;
 }
 
-/// Of C : eps.
+/// Deviator of C : eps.
 template <int Dim>
 auto PlasticCells<Dim>::elastic_deviator(const Surface& surface, const Matrix<Dim>& elastic) -> Strain {
     Strain stress = packed(elastic);

@@ -52,7 +52,7 @@ public:
     /// How far p moves such a face [m], and by how much it changes what tilts all of them [-].
     [[nodiscard]] Vector<Dim> moved(std::ptrdiff_t cell, BoundaryFace face) const;
     [[nodiscard]] Matrix<Dim> tilted(std::ptrdiff_t cell) const;
-    /// What contact does in the step to a cell that moves faces: dV/dû of a face of it by gradient(face) [N], and dV/dG
+    /// Sets what contact does in the step to a cell that moves faces: dV/dû of a face of it by gradient(face) [N], and dV/dG
     /// over the measure [Pa].
     template <class Gradient>
     void set_push(std::ptrdiff_t cell, const Gradient& gradient, const Matrix<Dim>& moment) {
@@ -87,7 +87,7 @@ public:
     [[nodiscard]] double plastic_strain(std::ptrdiff_t cell) const {
         return contains(cell) ? at(cell).memory.equivalent : 0.0;
     }
-    /// The same at the end of the step, which may not have ended yet.
+    /// As `plastic_strain`, at the end of the step, which may not have ended yet.
     [[nodiscard]] double end_plastic_strain(std::ptrdiff_t cell) const {
         return (flows_[number(cell)] != 0 ? at(cell).next : at(cell).memory).equivalent;
     }

@@ -121,7 +121,7 @@ Matrix<Dim> coupling_block(const CcgArrays<Dim>& arrays, BoundaryFace b, Boundar
     return block;
 }
 
-/// The same between corrections: with all faces that answer to them.
+/// Block between corrections: with all faces that answer to them.
 template <int Dim>
 Matrix<Dim> answered_block(const CcgArrays<Dim>& arrays, BoundaryFace b, BoundaryFace other) {
     const auto row = [&](BoundaryFace face) {

@@ -23,7 +23,7 @@ std::array<float, Dim> rounded(const std::array<double, Dim>& vector, double per
     return result;
 }
 
-/// Of R, whose weights are about 1.
+/// Rounded weight of R, whose weights are about 1.
 template <int Dim>
 LaneTensor<Dim, float> rounded(const LaneTensor<Dim>& weight) {
     LaneTensor<Dim, float> result{};
@@ -58,7 +58,7 @@ float weight_of(const FaceStencil<Dim, float>& stencil, std::int32_t cell) {
 
 double power_of_two(double near) { return std::exp2(std::round(std::log2(near))); }
 
-/// Of the largest cell, and the largest modulus.
+/// Units of the largest cell, and the largest modulus.
 template <int Dim>
 SweepUnits<Dim, float> units_of(const LargeArray<CellGeometry<Dim>>& cells) {
     double measure = 0.0, modulus = 0.0;

@@ -17,7 +17,7 @@ inline constexpr std::int32_t chunk_size = 512;
 /// Cells of a region that are worth the schedule of the whole mesh.
 inline constexpr std::size_t one_chunk = 1024;
 
-/// Of the first element of a sorted list that is not less.
+/// Position of the first element of a sorted list that is not less.
 template <class List, class Value, class Key = std::identity>
 std::int32_t position(const List& sorted, const Value& value, const Key& key = {}) {
     return static_cast<std::int32_t>(std::ranges::lower_bound(sorted, value, {}, key) - std::ranges::begin(sorted));

@@ -56,10 +56,10 @@ public:
 
     void gradient(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load, const FaceCorrections<Dim>& corrections,
                   std::span<Vector<Dim>> result);
-    /// The same of the mean of both ends.
+    /// As `gradient`, of the mean of both ends.
     void mean_gradient(const StepEnds<Dim>& ends, const BoundaryLoad<Dim>& load, const FaceCorrections<Dim>& corrections,
                        std::span<Vector<Dim>> result);
-    /// The same of u; the arrays of displacements are exchanged.
+    /// As `mean_gradient`, of u; the arrays of displacements are exchanged.
     void gradient_of_packed(LargeArray<double>& u, const BoundaryLoad<Dim>& load, const FaceCorrections<Dim>& corrections,
                             std::span<Vector<Dim>> result, const StepEnds<Dim>& ends = {});
     /// V by cell, without the work of the loads (n_cells) [J].

@@ -28,7 +28,7 @@ public:
 
     /// How far any face has moved at most until q [m]; infinite before the first search. Reads all faces.
     [[nodiscard]] double motion_until(std::span<const Vector<Dim>> q, const BoundaryLoad<Dim>& load);
-    /// The same, and remembers it as that of the end of the current step.
+    /// As `motion_until`, and remembers it as that of the end of the current step.
     [[nodiscard]] double measure(std::span<const Vector<Dim>> q, const BoundaryLoad<Dim>& load);
     /// A larger bound that costs nothing, at the end of a step in which no cell moves farther than `cell_motion` [m]: from
     /// the sum of these since `measure`. Nothing where it is not known: if loads vary, in the first step, and in one that is

@@ -136,7 +136,7 @@ void PairPotentialDriver<Dim>::search(std::span<const Vector<Dim>> q_0, std::spa
     if (touches_itself_) far_watch_.moved_in_frame = moved_in_frame();
 }
 
-/// Of faces that reach into the box of another body or obstacle when that grows by twice `far_reach_`, and by all that
+/// Nodes of faces that reach into the box of another body or obstacle when that grows by twice `far_reach_`, and by all that
 /// contact itself looks ahead and reaches beyond faces.
 template <int Dim>
 std::vector<std::int32_t> PairPotentialDriver<Dim>::near_nodes() const {
@@ -317,7 +317,7 @@ void PairPotentialDriver<Dim>::keep_touching_faces() {
     }
 }
 
-/// Of a face of a body: at rest where none turns, else in the middle of the step (dynamics::MomentArms).
+/// Middle of a face of a body: at rest where none turns, else in the middle of the step (dynamics::MomentArms).
 template <int Dim>
 Vector<Dim> PairPotentialDriver<Dim>::middle_of(contact::Face face) const {
     if (!bodies_.any_turns()) return corners_.rest_centroid(face);

@@ -161,7 +161,7 @@ void ReconstructionDriver<Dim>::answer_to_bonds(std::span<const Vector<Dim>> q, 
     for (const auto& [listed, of_bonded, block] : bond_answers_) gradient[listed] += block * displacement[of_bonded];
 }
 
-/// Of all faces of the surface.
+/// Displacement of all faces of the surface.
 template <int Dim>
 std::vector<Vector<Dim>> ReconstructionDriver<Dim>::surface_displacement(std::span<const Vector<Dim>> q,
                                                                          const BoundaryLoad<Dim>& load, double time) {
@@ -292,7 +292,7 @@ FaceCorrections<Dim> ReconstructionDriver<Dim>::corrections() const {
             values_here(step.mean_gradient.values(), gradient_here_)};
 }
 
-/// Of the listed faces that are here, from values of all of them.
+/// Values of the listed faces that are here, from values of all of them.
 template <int Dim>
 std::span<const Vector<Dim>> ReconstructionDriver<Dim>::values_here(std::span<const Vector<Dim>> of_listed,
                                                                     std::vector<Vector<Dim>>& work) const {

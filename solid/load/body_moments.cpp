@@ -87,7 +87,7 @@ void BodyMoments<Dim>::for_each_here(std::int32_t body, const OfPoint& of_point)
     for (std::int32_t i = begin; i < end; ++i) of_point(i);
 }
 
-/// Of term(point) over the points of a body.
+/// Sum of term(point) over the points of a body.
 template <int Dim>
 template <class Value, class Term>
 Value BodyMoments<Dim>::sum_of(std::int32_t body, const Value& zero, const Term& term) const {

@@ -43,7 +43,7 @@ private:
     /// Throws BadInput for one that is not finite.
     [[nodiscard]] static AxialVector<Dim> moment_at(const BodyMoment<Dim>& law, double time);
     [[nodiscard]] Middle middle_of(const Held& held, Points q_0, Points q_1) const;
-    /// Of the body where velocity(point) is that of its points.
+    /// Spin of the body where velocity(point) is that of its points.
     template <class Velocity>
     [[nodiscard]] AxialVector<Dim> spin_at(const Held& held, const Middle& middle, Points q_0, Points q_1,
                                            const Velocity& velocity) const;

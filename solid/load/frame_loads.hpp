@@ -22,7 +22,7 @@ public:
     [[nodiscard]] bool any() const { return any_; }
     /// Takes the tractions of the boundary faces. A call of all ranks.
     void take(const BoundaryLoad<Dim>& load);
-    /// What they push each body with besides others (n_bodies that deform), where the frames are.
+    /// Pushes of these loads on each body, added to those of others (n_bodies that deform), where the frames are.
     [[nodiscard]] std::span<const BodyPush<Dim>> pushes(std::span<const BodyPush<Dim>> others);
     /// The frames are along a step now.
     void follow();

@@ -56,7 +56,7 @@ public:
     [[nodiscard]] Vector<Dim> force_on(std::int32_t cell, const Vector<Dim>& gradient) const {
         return body_force_.empty() ? Vector<Dim>(-gradient) : Vector<Dim>(body_force_[cell] - gradient);
     }
-    /// The same for all cells, in place.
+    /// As `force_on`, for all cells and in place.
     void to_force(std::span<Vector<Dim>> gradient) const;
     /// Adds dt times body force less gradient, given for some cells, to the impulses of all [N s].
     void add_impulse(std::span<const std::int32_t> cells, std::span<const Vector<Dim>> gradient, double dt,

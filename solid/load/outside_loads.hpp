@@ -47,7 +47,7 @@ public:
 
     /// By how much `held` changes in q, from the loads at the start of the step to those at its end [J].
     [[nodiscard]] double held_change(std::span<const Vector<Dim>> q) const;
-    /// The same where temperatures change, and tractions not.
+    /// As `held_change`, where temperatures change, and tractions not.
     [[nodiscard]] double held_change_of_heat(std::span<const Vector<Dim>> q) const;
     /// A change of the tractions between two steps has given the bodies this energy [J].
     void add_change(double energy) { work_.changes += energy; }

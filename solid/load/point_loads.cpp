@@ -18,7 +18,7 @@ PointLoads<Dim>::PointLoads(const Bodies<Dim>& bodies, const RankPart<Dim>& part
     held_ = held_points(part);
 }
 
-/// Of all places, which are by their numbers among these from here on.
+/// Points of all places, which are by their numbers among these from here on.
 template <int Dim>
 HeldPoints<Dim> PointLoads<Dim>::held_points(const RankPart<Dim>& part) {
     std::vector<HeldPlace<Dim>*> places = springs_.places();

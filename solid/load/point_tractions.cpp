@@ -131,8 +131,8 @@ void PointTractions<Dim>::add_at(const ByPoint<Dim>& q, double time, const TurnO
     add_all(q.held, q.held, time, turn_of, force);
 }
 
-/// Of bodies that turn; those of the others are part of the loads of their cells. Constant within a step, as it begins.
-/// Their work [J].
+/// Adds tractions of bodies that turn; those of the others are part of the loads of their cells. Constant within a
+/// step, as it begins. Their work [J].
 template <int Dim>
 double PointTractions<Dim>::add_all(Points q_0, Points q_1, double time, const TurnOf<Dim>& turn_of,
                                     std::span<Vector<Dim>> force) const {

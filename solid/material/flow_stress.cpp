@@ -63,7 +63,7 @@ struct VoceHardening {
     }
 };
 
-/// Of Ludwik, and of Johnson and Cook.
+/// Hardening of Ludwik, and of Johnson and Cook.
 struct PowerHardening {
     static bool is_given(const Material& of) { return of.power_hardening > 0.0; }
     static double rise(const Material& of, double alpha) { return of.power_hardening * std::pow(alpha, of.power_exponent); }

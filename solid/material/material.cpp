@@ -39,14 +39,14 @@ struct NamedNumber {
     const char* name;
     double Material::*member;
 };
-/// Of which one means nothing without the other.
+/// Pairs of which one means nothing without the other.
 constexpr std::array<std::pair<NamedNumber, NamedNumber>, 4> numbers_in_pairs{
     {{{"saturation_rate", &Material::saturation_rate}, {"saturation", &Material::saturation}},
      {{"power_exponent", &Material::power_exponent}, {"power_hardening", &Material::power_hardening}},
      {{"cowper_symonds_exponent", &Material::cowper_symonds_exponent},
       {"cowper_symonds_rate", &Material::cowper_symonds_rate}},
      {{"johnson_cook_factor", &Material::johnson_cook_factor}, {"johnson_cook_rate", &Material::johnson_cook_rate}}}};
-/// What a table stands in the place of.
+/// Hardening that a table replaces.
 constexpr std::array<NamedNumber, 3> other_hardening{{{"hardening", &Material::hardening},
                                                       {"saturation", &Material::saturation},
                                                       {"power_hardening", &Material::power_hardening}}};

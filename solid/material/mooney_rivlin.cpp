@@ -15,7 +15,7 @@ double less_log(double x) {
     return x * x * sum;
 }
 
-/// Of F = I + G: E and what of it the energy is made of.
+/// Strain of F = I + G: E and what of it the energy is made of.
 template <int Dim>
 struct Strain {
     Matrix<Dim> e, inverse;        // Green's strain, C^-1

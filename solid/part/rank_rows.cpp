@@ -46,7 +46,7 @@ public:
         for (const BoundaryFace b : boundary_faces(mesh)) boundary_[static_cast<std::size_t>(mesh_face(mesh, b))] = b;
     }
 
-    /// Of the cells that forces on own cells depend on: the same faces and rows as at their owners.
+    /// Checks copies of the cells that forces on own cells depend on: the same faces and rows as at their owners.
     void check_copies() const {
         const Region<Dim> region = ccg_.region_of_cells(part_.own_cells());
         std::vector<double> here(number_.size());
@@ -96,7 +96,8 @@ public:
     }
 
 private:
-    /// Of what a cell brings along: which of its faces are boundary, and the rows of those whose first side it is.
+    /// Fingerprint of what a cell brings along: which of its faces are boundary, and the rows of those whose first side
+    /// it is.
     [[nodiscard]] double fingerprint(std::int32_t cell) const {
         Fingerprint print;
         for (const std::int32_t f : mesh_.cell_faces[cell]) {

@@ -8,7 +8,7 @@ namespace abut::studies::kinematics {
 /// Principal moments of inertia of a box of density 1 about its centre [kg m^2].
 [[nodiscard]] Vector<3> inertia_of_box(const Vector<3>& sides);
 
-/// Where a free body with I_1 = I_2 is that starts unturned: it precesses about L and spins about its own axis.
+/// Rotation of a free body with I_1 = I_2 that starts unturned: it precesses about L and spins about its own axis.
 [[nodiscard]] Matrix<3> symmetric_top(const Vector<3>& inertia, const Vector<3>& spin, double time);
 
 /// From one flip to the next of a free body with rising moments of inertia: twice the quarter period of sn, from the energy
