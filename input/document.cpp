@@ -17,7 +17,7 @@
 namespace abut::input {
 namespace {
 
-/// What places are told from.
+/// Positions in a document, as messages name them.
 class Places {
 public:
     Places(std::string name, bool has_lines) : name_(std::move(name)), has_lines_(has_lines) {}

@@ -78,7 +78,7 @@ std::string text_of(const Journal& journal) {
     return text;
 }
 
-/// Of a whole one: it got its name when it was complete.
+/// Journal of a whole file: it got its name when it was complete.
 Journal journal_in(const fs::path& path) {
     std::ifstream stream(path, std::ios::binary);
     const auto number = [&] {
@@ -145,7 +145,7 @@ void end(Journaled& file) {
         throw BadInput(cannot_be_written(file.path, std::strerror(errno)));
 }
 
-/// Of the file that was closed last by this thread; empty: none.
+/// Failure of the file that was closed last by this thread; empty: none.
 thread_local std::string failure;
 
 /// Always done for HDF5, which keeps a file that could not be closed, and fails over it later.

@@ -57,7 +57,7 @@ public:
             }
     }
 
-    /// Of the position of a vertex of the mesh.
+    /// Number of the position of a vertex of the mesh.
     std::int32_t number(std::int32_t vertex) {
         std::int32_t& number = number_[static_cast<std::size_t>(vertex)];
         if (number < 0) {

@@ -134,7 +134,7 @@ Start<Dim>::Start(const Scene<Dim>& of, const RunOptions& given, std::optional<P
     if (options.settle) settle(observer);
 }
 
-/// What changes momentum and angular momentum.
+/// Sets what changes momentum and angular momentum.
 template <int Dim>
 void Start<Dim>::set_outside() {
     const solid::SolidOptions<Dim>& given = solid->options();

@@ -22,7 +22,7 @@ public:
           cell_(cell),
           near_(same_place * std::pow(before.cell_measure[static_cast<std::size_t>(old_cell)], 1.0 / Dim)) {}
 
-    /// Of a face of the cell.
+    /// Old number of a face of the cell.
     [[nodiscard]] std::int32_t old_face(std::int32_t face) const {
         const auto faces = before_.cell_faces[old_cell_];
         const auto found = std::ranges::find_if(faces, [&](std::int32_t old) { return is_same(face, old); });

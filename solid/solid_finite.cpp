@@ -78,7 +78,7 @@ void Solid<Dim>::stiffness_of_cells(std::span<const Vector<Dim>> u, std::span<Ve
     for (std::size_t c = 0; c < u.size(); ++c) result[c] /= scale;
 }
 
-/// Of bodies of Kinematics::finite; the energy does not show it.
+/// Throws for collapsed cells of bodies of Kinematics::finite; the energy does not show them.
 template <int Dim>
 void Solid<Dim>::require_no_collapse() {
     if (!bodies_->any_finite() && !any_inelastic()) return;

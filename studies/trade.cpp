@@ -98,7 +98,7 @@ Row attempt(const Problem& problem, int level, const Setting& setting, const Ref
     return row;
 }
 
-/// Of the ladder, then those of the user, then those of another host.
+/// Settings of the ladder, then those of the user, then those of another host.
 std::vector<Setting> settings_of(const Problem& problem, const Options& options) {
     std::vector<Setting> settings = ladder(options.extent, problem.motion);
     for (const Setting& setting : options.settings)

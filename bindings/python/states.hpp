@@ -70,7 +70,7 @@ private:
     solid::Solid<Dim>& solid_;
 };
 
-/// The same properties for whatever has a state.
+/// Adds the properties of a state to whatever has one.
 template <class Class, class StateOf>
 void add_state(Class& made, StateOf state_of) {
     using Self = typename Class::type;

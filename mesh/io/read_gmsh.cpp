@@ -21,7 +21,7 @@ std::int32_t count_32(std::size_t n) {
     return static_cast<std::int32_t>(std::min<std::size_t>(n, std::numeric_limits<std::int32_t>::max()));
 }
 
-/// Of order 1 or 2, and none of the other dimensions' kinds.
+/// Throws unless elements are of order 1 or 2, and none of the other dimensions' kinds.
 void check_order(const MshFile& file, const MshBlock& block) {
     if (block.type.order <= 2) return;
     throw MeshError(file.name + ": element " + std::to_string(block.labels.front()) + " is a " + block.type.name +

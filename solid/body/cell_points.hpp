@@ -16,7 +16,7 @@ class RankPart;
 template <int Dim>
 [[nodiscard]] Matrix<Dim> own_second_moment(const mesh::Mesh<Dim>& mesh, std::int32_t cell);
 
-/// Where the mass of each cell of a body has to be for the body to have its moments of inertia: about the centroids of
+/// Positions of the masses of cells that give a body its moments of inertia: about the centroids of
 /// the cells these lack those of the cells themselves. With K_c the second moments of cell c over its mass and X' from
 /// the centre of mass,
 ///

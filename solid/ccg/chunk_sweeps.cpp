@@ -64,7 +64,7 @@ void CcgSweeps<Dim, Real>::add_stress_of_material(std::int32_t c) {
     add_stress(c, stress_beside(c, is_directed ? unload(load_tensor<Dim>(g_, c)) : Matrix<Dim>(Matrix<Dim>::Zero())));
 }
 
-/// What contact adds to the stress of a cell, and what its free face does.
+/// Adds what contact adds to the stress of a cell, and what its free face does.
 template <int Dim, class Real>
 void CcgSweeps<Dim, Real>::answer_to_corrections(std::int32_t c) {
     add_moments(c, c + 1);

@@ -31,7 +31,7 @@ using Array = Kokkos::View<T*, Space>;
 template <class T>
 using HostArray = Kokkos::View<T*, Kokkos::HostSpace, Kokkos::MemoryTraits<Kokkos::Unmanaged>>;
 
-/// Of the process; left alone where the program has set Kokkos up itself.
+/// Runtime of the process; left alone where the program has set Kokkos up itself.
 class Runtime {
 public:
     static void need() { static const Runtime runtime; }

@@ -8,7 +8,7 @@
 
 namespace abut::solid {
 
-/// What contact adds: of a cell whose gradient is F_cond a moment on that, less what moves the free face from where the
+/// Adds what contact adds: of a cell whose gradient is F_cond a moment on that, less what moves the free face from where the
 /// affine one is.
 template <int Dim, class Real>
 void CcgSweeps<Dim, Real>::add_moments(std::int32_t begin, std::int32_t end) {

@@ -10,7 +10,7 @@
 namespace abut::solid {
 namespace {
 
-/// What a step does to a cell that remembers. `as_it_was`: it remembers the same as before, and what it answers is
+/// Marks of what a step does to a cell that remembers. `as_it_was`: it remembers the same as before, and what it answers is
 /// evaluated.
 constexpr char flow = 1, as_it_was = 2;
 

@@ -142,7 +142,7 @@ inline void SweepElements<V>::set_any_stress(std::int32_t c) const {
     if (const std::int32_t i = tables.affine_index_of(c); i >= 0) set_affine_gradients(tables.affine_cells[i]);
 }
 
-/// Of an interior face.
+/// Gradient of an interior face.
 template <class V>
 inline void SweepElements<V>::set_any_face_gradient(std::int32_t f) const {
     const bool simplices = tables.of_simplices(tables.face_cells[f][0]);

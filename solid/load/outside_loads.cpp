@@ -108,7 +108,7 @@ double OutsideLoads<Dim>::area(const Group& group, std::size_t face) const {
     return bodies_.mesh().face_measure[static_cast<std::size_t>(group.faces[face])];
 }
 
-/// Of bodies that do not turn [J].
+/// `held` of bodies that do not turn [J].
 template <int Dim>
 double OutsideLoads<Dim>::held(const Group& group, std::span<const Vector<Dim>> traction, std::span<const Vector<Dim>> q,
                                const BoundaryLoad<Dim>& load) const {

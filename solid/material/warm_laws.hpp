@@ -31,7 +31,7 @@ private:
     ThermalStretch stretch_;
 };
 
-/// The same of a material that remembers; z is that of its law of space.
+/// Warm law of a material that remembers; z is that of its law of space.
 template <int Dim>
 class WarmInelastic final : public InelasticLaw<Dim> {
 public:

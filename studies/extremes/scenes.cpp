@@ -55,7 +55,7 @@ mesh::Mesh<2> triangle(const Vector<2>& tip, double angle, double unit) {
     return mesh::build_mesh(std::move(soup));
 }
 
-/// Of side 1, a corner below.
+/// Square of side 1, a corner below.
 mesh::Mesh<2> turned_square(const Vector<2>& corner, int cells, double unit) {
     const auto square = mesh::structured_box<2>({0.0, 0.0}, {1.0, 1.0}, {cells, cells}, mesh::CellShape::quadrangle);
     return mapped<2>(square, "square", [&](const Vector<2>& x) {

@@ -100,7 +100,7 @@ public:
     }
 
 private:
-    /// Of the wall, or of the lower bar on the upper one: with nothing else acting on it, the change of its momentum.
+    /// Force of the wall, or of the lower bar on the upper one: with nothing else acting on it, the change of its momentum.
     double force(const solid::Solid<Dim>& solid, const std::array<double, 2>& momentum, double dt) const {
         if (!solid.options().obstacles.empty()) return -solid.contact().obstacle_force(0)[bar_axis<Dim>];
         return (momentum[1] - momentum_[1]) / dt;
