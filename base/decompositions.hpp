@@ -9,13 +9,12 @@ namespace abut {
 /// Eigenvalues of a symmetric matrix of N rows, the least first, and its orthonormal eigenvectors as columns.
 template <int N>
 struct SymmetricEigen {
-    Eigen::Matrix<double, N, 1> values;
-    Eigen::Matrix<double, N, N> vectors;
+    Vector<N> values;
+    Matrix<N> vectors;
 };
 
 [[nodiscard]] SymmetricEigen<2> symmetric_eigen(const Matrix<2>& matrix);
 [[nodiscard]] SymmetricEigen<3> symmetric_eigen(const Matrix<3>& matrix);
-[[nodiscard]] SymmetricEigen<Eigen::Dynamic> symmetric_eigen(const Eigen::MatrixXd& matrix);
 
 /// The eigenvalues of a symmetric matrix alone, the least first.
 [[nodiscard]] Vector<2> symmetric_eigenvalues(const Matrix<2>& matrix);
@@ -27,7 +26,8 @@ struct SymmetricEigen {
 
 /// Pseudo-inverse of a symmetric matrix without negative eigenvalues. Those up to `cut` times the largest count as 0, as
 /// does the inverse in their directions.
-[[nodiscard]] Eigen::MatrixXd pseudo_inverse(const Eigen::MatrixXd& matrix, double cut);
+[[nodiscard]] Matrix<2> pseudo_inverse(const Matrix<2>& matrix, double cut);
+[[nodiscard]] Matrix<3> pseudo_inverse(const Matrix<3>& matrix, double cut);
 
 /// A = u diag(values) v^T, the largest of the values first, none negative; u and v orthogonal.
 struct SingularValues {
@@ -36,9 +36,6 @@ struct SingularValues {
     Matrix<3> v;
 };
 [[nodiscard]] SingularValues singular_values(const Matrix<3>& matrix);
-
-/// The rotation through the least angle that turns one unit vector into the other.
-[[nodiscard]] Matrix<3> rotation_between(const Vector<3>& from, const Vector<3>& to);
 
 /// The largest singular value.
 [[nodiscard]] double spectral_norm(const Matrix<2>& matrix);

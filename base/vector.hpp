@@ -1,8 +1,8 @@
 #pragma once
-#include <Eigen/Core>
-#include <Eigen/LU>  // inverse() and determinant() of small matrices
 #include <span>
 #include <type_traits>
+
+#include "abut/base/small_matrix.hpp"
 
 // Containers of the standard library cross the border, and those of the debug mode are laid out in another way.
 #if defined(_GLIBCXX_DEBUG) && !defined(ABUT_HAS_DEBUG_CONTAINERS)
@@ -16,11 +16,11 @@ namespace abut {
 /// Point or direction in Dim dimensions. Plain packed doubles without an alignment demand, so that a view of vectors
 /// can be laid over any host array of shape (n, Dim).
 template <int Dim>
-using Vector = Eigen::Matrix<double, Dim, 1, Eigen::DontAlign>;
+using Vector = SmallMatrix<Dim, 1>;
 
 /// Moments, angular momenta, rotations: none on a line, one component in the plane, three in space.
 template <int Dim>
-using AxialVector = Eigen::Matrix<double, Dim*(Dim - 1) / 2, 1, Eigen::DontAlign>;
+using AxialVector = SmallMatrix<Dim*(Dim - 1) / 2, 1>;
 
 /// arm × force, or any two vectors.
 template <int Dim>
@@ -36,11 +36,39 @@ template <int Dim>
 
 /// Second-order tensor, (Dim, Dim).
 template <int Dim>
-using Matrix = Eigen::Matrix<double, Dim, Dim, Eigen::DontAlign>;
+using Matrix = SmallMatrix<Dim, Dim>;
 
 /// A point of the plane (3D) or line (2D) onto which two facing faces are projected.
 template <int Dim>
-using PlaneVector = Eigen::Matrix<double, Dim - 1, 1, Eigen::DontAlign>;
+using PlaneVector = SmallMatrix<Dim - 1, 1>;
+
+/// A vector or a matrix in space, with zeros for what the plane lacks.
+template <int Dim>
+[[nodiscard]] Vector<3> in_3d(const Vector<Dim>& vector) {
+    Vector<3> result = Vector<3>::Zero();
+    for (int i = 0; i < Dim; ++i) result[i] = vector[i];
+    return result;
+}
+template <int Dim>
+[[nodiscard]] Matrix<3> in_3d(const Matrix<Dim>& matrix) requires(Dim > 1) {
+    Matrix<3> result = Matrix<3>::Zero();
+    for (int j = 0; j < Dim; ++j) result.col(j) = in_3d<Dim>(matrix.col(j));
+    return result;
+}
+
+/// Whether a <= b in each component, and a < b.
+template <int Dim>
+[[nodiscard]] bool all_at_most(const Vector<Dim>& a, const Vector<Dim>& b) {
+    for (int i = 0; i < Dim; ++i)
+        if (!(a[i] <= b[i])) return false;
+    return true;
+}
+template <int Dim>
+[[nodiscard]] bool all_less(const Vector<Dim>& a, const Vector<Dim>& b) {
+    for (int i = 0; i < Dim; ++i)
+        if (!(a[i] < b[i])) return false;
+    return true;
+}
 
 /// Arrays of shape (n, Dim) and arrays of n vectors are the same memory.
 template <int Dim, class Double>

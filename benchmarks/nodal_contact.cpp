@@ -6,7 +6,6 @@
 // of an active pair with friction; less than 2 % of a step where nothing is near.
 #include <fmt/core.h>
 
-#include <Eigen/Geometry>
 #include <array>
 #include <cmath>
 #include <random>

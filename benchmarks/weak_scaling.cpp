@@ -58,7 +58,8 @@ struct Rank {
         std::ranges::sort(others);
         const auto rest = std::ranges::unique(others);
         neighbours = others.size() - rest.size();
-        for (const Vector<3>& x : part.mesh.cell_centroid) u.push_back(1e-3 * Vector<3>(x.array().sin()));
+        for (const Vector<3>& x : part.mesh.cell_centroid)
+            u.push_back(1e-3 * x.unaryExpr([](double value) { return std::sin(value); }));
         gradient.resize(u.size());
     }
     void evaluate() { ccg->gradient(u, {}, {}, gradient); }

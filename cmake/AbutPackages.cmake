@@ -58,7 +58,7 @@ abut_package(contact_libraries libabut-contact${abut_soname} LIBRARIES SECTION l
   TEXT "Shared libraries: contact geometry, contact on nodes and on faces," "integrators, and the C interface of contact.")
 abut_package(contact_development libabut-contact-dev SECTION libdevel
   TEXT "Headers of contact for C++20, C and Fortran, files for CMake and" "pkg-config, and example programs."
-  DEPENDS "libabut-contact${abut_soname} ${abut_same}, libeigen3-dev")
+  DEPENDS "libabut-contact${abut_soname} ${abut_same}")
 set(abut_python_depends "libabut-contact${abut_soname} ${abut_same}")
 if(TARGET abut::solid)
   abut_package(libraries libabut${abut_soname} LIBRARIES SECTION libs

@@ -1,5 +1,4 @@
 // Bevels of the edges and corners of bodies in space.
-#include <Eigen/Geometry>  // cross()
 #include <algorithm>
 #include <array>
 #include <cmath>

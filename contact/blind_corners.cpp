@@ -1,7 +1,5 @@
 #include "abut/contact/blind_corners.hpp"
 
-#include <Eigen/Geometry>
-
 #include <algorithm>
 #include <span>
 #include <tuple>

@@ -1,6 +1,5 @@
 #include "abut/contact/cell_surface.hpp"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -58,7 +58,7 @@ double side_of(std::span<const std::vector<Vector<Dim>>> faces, const Vector<Dim
 template <int Dim>
 Placement<Dim> placement_at(const RigidObstacle<Dim>& obstacle, double time) {
     if (obstacle.placement) return obstacle.placement(time);
-    return {.offset = obstacle.path ? obstacle.path(time) : Vector<Dim>(Vector<Dim>::Zero())};
+    return {.offset = obstacle.path ? obstacle.path(time) : Vector<Dim>::Zero()};
 }
 
 template Placement<2> placement_at<2>(const RigidObstacle<2>&, double);

@@ -1,6 +1,5 @@
 #include "abut/contact/side_outlines.hpp"
 
-#include <Eigen/Geometry>  // cross()
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -24,7 +24,7 @@ template <>
 AngularMomentum<3> angular_velocity<3>(const Inertia<3>& inertia, const AngularMomentum<3>& carried) {
     const SymmetricEigen<3> eigen = symmetric_eigen(inertia);
     const double cut = no_inertia * eigen.values.maxCoeff();
-    const Eigen::Vector3d inverse = eigen.values.unaryExpr([&](double value) { return value > cut ? 1.0 / value : 0.0; });
+    const Vector<3> inverse = eigen.values.unaryExpr([&](double value) { return value > cut ? 1.0 / value : 0.0; });
     return eigen.vectors * inverse.cwiseProduct(eigen.vectors.transpose() * carried);
 }
 

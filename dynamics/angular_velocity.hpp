@@ -5,7 +5,7 @@ namespace abut::dynamics {
 
 /// Moments of inertia about a point: a number in the plane, a tensor in space.
 template <int Dim>
-using Inertia = Eigen::Matrix<double, n_rotations<Dim>, n_rotations<Dim>, Eigen::DontAlign>;
+using Inertia = SmallMatrix<n_rotations<Dim>, n_rotations<Dim>>;
 
 /// The angular velocity with which this inertia carries an angular momentum [rad/s]; none about axes without inertia, as of
 /// points on a line.

@@ -4,7 +4,8 @@
 #include <cmath>
 #include <utility>
 
-#include "abut/base/decompositions.hpp"
+#include "abut/base/dense_decompositions.hpp"
+#include "abut/base/eigen.hpp"
 #include "abut/base/error.hpp"
 #include "abut/base/messages.hpp"
 
@@ -42,7 +43,7 @@ template <int Dim>
 class FreeRigidMotions {
 public:
     static constexpr int n_motions = Dim + n_rotations<Dim>;
-    using Motion = Eigen::Matrix<double, n_motions, 1>;
+    using Motion = SmallMatrix<n_motions, 1>;
     using Basis = Eigen::Matrix<double, n_motions, Eigen::Dynamic, 0, n_motions, n_motions>;
 
     FreeRigidMotions(std::span<const double> mass, std::vector<Vector<Dim>> position, std::span<const Hold<Dim>> holds)
@@ -66,28 +67,29 @@ public:
         for (const Motion motion : free_.colwise()) {
             Eigen::VectorXd momentum(Dim * static_cast<Eigen::Index>(arm_.size()));
             for (std::size_t i = 0; i < arm_.size(); ++i)
-                momentum.segment<Dim>(Dim * static_cast<Eigen::Index>(i)) = root_mass[i] * velocity_at(arm_[i], motion);
+                momentum.segment<Dim>(Dim * static_cast<Eigen::Index>(i)) =
+                    as_eigen(root_mass[i] * velocity_at(arm_[i], motion));
             vectors.add(std::move(momentum), size_);
         }
     }
 
 private:
-    using Square = Eigen::Matrix<double, n_motions, n_motions>;
+    using Square = SmallMatrix<n_motions, n_motions>;
 
     static Vector<Dim> velocity_at(const Vector<Dim>& arm, const Motion& motion) {
-        return motion.template head<Dim>() +
-               turning_velocity<Dim>(AngularMomentum<Dim>(motion.template tail<n_rotations<Dim>>()), arm);
+        return motion.template head<Dim>() + turning_velocity<Dim>(motion.template tail<n_rotations<Dim>>(), arm);
     }
     /// Motions that the holds leave; a hold takes (direction, arm × direction) from each motion.
     static Basis null_space(std::span<const Hold<Dim>> holds, const Vector<Dim>& centre, double radius) {
-        if (holds.empty()) return Square::Identity();
+        if (holds.empty()) return Basis::Identity(n_motions, n_motions);
         Square held = Square::Zero();
         for (const Hold<Dim>& hold : holds) {
+            const AxialVector<Dim> turning = moment<Dim>((hold.position - centre) / radius, hold.direction);
             Motion row;
-            row << hold.direction, moment<Dim>((hold.position - centre) / radius, hold.direction);
+            std::ranges::copy(turning, std::ranges::copy(hold.direction, row.begin()).out);
             held += row * row.transpose();
         }
-        const auto eigen = symmetric_eigen(Eigen::MatrixXd(held));
+        const auto eigen = symmetric_eigen(Eigen::MatrixXd(as_eigen(held)));
         const double limit = not_held * eigen.values[n_motions - 1];
         const auto n_free = std::ranges::count_if(eigen.values, [&](double value) { return value <= limit; });
         return eigen.vectors.leftCols(n_free);
@@ -121,8 +123,8 @@ std::vector<Vector<Dim>> detail::parasitic_part(const ContactPatch<Dim>& patch, 
         mass[k] = point.mass;
         root_mass[k] = std::sqrt(mass[k]);
         position[k] = point.position;
-        v(own) = point.momentum / root_mass[k];
-        e(own) = point.parasitic / root_mass[k];
+        v(own) = as_eigen(point.momentum / root_mass[k]);
+        e(own) = as_eigen(point.parasitic / root_mass[k]);
     }
     OrthonormalVectors kept(e.size(), FreeRigidMotions<Dim>::n_motions + 1);
     FreeRigidMotions<Dim>(mass, std::move(position), patch.holds).append_to(kept, root_mass);
@@ -131,7 +133,7 @@ std::vector<Vector<Dim>> detail::parasitic_part(const ContactPatch<Dim>& patch, 
     kept.remove_from(e);
     std::vector<Vector<Dim>> part(n);
     for (std::size_t k = 0; k < n; ++k)
-        part[k] = (kappa * root_mass[k]) * e.segment<Dim>(Dim * static_cast<Eigen::Index>(k));
+        part[k] = (kappa * root_mass[k]) * Vector<Dim>(e.segment<Dim>(Dim * static_cast<Eigen::Index>(k)));
     return part;
 }
 

@@ -84,11 +84,10 @@ template <int Dim>
 AngularMomentum<Dim> pseudo_angular_momentum(const RunView<Dim>& run, double dt, std::span<const Vector<Dim>> rest_position,
                                              std::span<const double> mass) {
     const auto u = as_vectors<Dim>(run.q), before = as_vectors<Dim>(run.p_before), after = as_vectors<Dim>(run.p_after);
-    return sum_of_points(
-        run, AngularMomentum<Dim>(AngularMomentum<Dim>::Zero()), [&](std::ptrdiff_t i) -> AngularMomentum<Dim> {
-            const Vector<Dim> arm = rest_position[i] + u[i];
-            return moment<Dim>(arm, run.momentum(i)) - 0.25 * dt / mass[i] * moment<Dim>(before[i], after[i]);
-        });
+    return sum_of_points(run, AngularMomentum<Dim>::Zero(), [&](std::ptrdiff_t i) -> AngularMomentum<Dim> {
+        const Vector<Dim> arm = rest_position[i] + u[i];
+        return moment<Dim>(arm, run.momentum(i)) - 0.25 * dt / mass[i] * moment<Dim>(before[i], after[i]);
+    });
 }
 
 template <int Dim>
@@ -97,8 +96,7 @@ void detail::add_motion(LedgerEntry<Dim>& entry, const RunView<Dim>& run, std::s
     entry.step = run.steps;
     entry.time = run.time;
     const auto u = as_vectors<Dim>(run.q);
-    entry.linear_momentum =
-        sum_of_points(run, Vector<Dim>(Vector<Dim>::Zero()), [&](std::ptrdiff_t i) { return run.momentum(i); });
+    entry.linear_momentum = sum_of_points(run, Vector<Dim>::Zero(), [&](std::ptrdiff_t i) { return run.momentum(i); });
     const AngularMomentum<Dim> zero = AngularMomentum<Dim>::Zero();
     entry.angular_momentum =
         sum_of_points(run, zero, [&](std::ptrdiff_t i) { return moment<Dim>(rest_position[i] + u[i], run.momentum(i)); });

@@ -1,11 +1,13 @@
 #include "abut/dynamics/mode_search.hpp"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
 
 #include "abut/base/decompositions.hpp"
+#include "abut/base/eigen.hpp"
 #include "abut/base/error.hpp"
 #include "abut/base/parallel.hpp"
 
@@ -31,17 +33,18 @@ struct ResidualProducts {
 
 /// Vector that maximises the Rayleigh quotient in the span of the first N of three vectors, with u . W^-1 u = 1.
 template <int N>
-Eigen::Vector3d largest_in_span(const Eigen::Matrix3d& stiffness, const Eigen::Matrix3d& mass) {
-    const Eigen::LLT<Matrix<N>> factor(mass.topLeftCorner<N, N>());
-    const Matrix<N> half = factor.matrixL().solve(Matrix<N>(stiffness.topLeftCorner<N, N>()));
-    const Matrix<N> reduced = factor.matrixL().solve(Matrix<N>(half.transpose()));
-    Eigen::Vector3d coefficients = Eigen::Vector3d::Zero();
-    coefficients.head<N>() = factor.matrixU().solve(Vector<N>(symmetric_eigen(reduced).vectors.col(N - 1)));
+Vector<3> largest_in_span(const Matrix<3>& stiffness, const Matrix<3>& mass) {
+    const Eigen::LLT<Eigen::Matrix<double, N, N>> factor(as_eigen(mass.topLeftCorner<N, N>()));
+    const Matrix<N> half = factor.matrixL().solve(as_eigen(stiffness.topLeftCorner<N, N>()));
+    const Matrix<N> reduced = factor.matrixL().solve(as_eigen(half.transpose()));
+    const Vector<N> of_span = factor.matrixU().solve(as_eigen(symmetric_eigen(reduced).vectors.col(N - 1)));
+    Vector<3> coefficients = Vector<3>::Zero();
+    std::ranges::copy(of_span, coefficients.begin());
     return coefficients;
 }
 
-bool are_independent(const Eigen::Matrix3d& mass) {
-    const Eigen::LLT<Eigen::Matrix3d> factor(mass);
+bool are_independent(const Matrix<3>& mass) {
+    const Eigen::LLT<Eigen::Matrix3d> factor(as_eigen(mass));
     return factor.info() == Eigen::Success && factor.matrixLLT().diagonal().minCoeff() > independent;
 }
 
@@ -112,12 +115,12 @@ void ModeSearch::step_to_largest() {
     stiffness_of_(1, 1) =
         ordered_sum<double>(n, 0.0, [&](std::ptrdiff_t i) { return residual_.vector[i] * residual_.product[i]; });
     // Of unit length, so that what is nearly dependent can be told.
-    const Eigen::Vector3d unit(1.0, 1.0 / std::sqrt(mass_of_(1, 1)), 1.0);
-    const Eigen::Matrix3d stiffness = unit.asDiagonal() * stiffness_of_ * unit.asDiagonal(),
-                          mass = unit.asDiagonal() * mass_of_ * unit.asDiagonal();
+    const Vector<3> unit(1.0, 1.0 / std::sqrt(mass_of_(1, 1)), 1.0);
+    const Matrix<3> stiffness = unit.asDiagonal() * stiffness_of_ * unit.asDiagonal(),
+                    mass = unit.asDiagonal() * mass_of_ * unit.asDiagonal();
     has_last_ = has_last_ && are_independent(mass);
-    const Eigen::Vector3d c = has_last_ ? largest_in_span<3>(stiffness, mass) : largest_in_span<2>(stiffness, mass);
-    Eigen::Vector3d d(0.0, c[1], c[2]);
+    const Vector<3> c = has_last_ ? largest_in_span<3>(stiffness, mass) : largest_in_span<2>(stiffness, mass);
+    Vector<3> d(0.0, c[1], c[2]);
     const double length = std::sqrt(d.dot(mass * d));
     if (!(length > 0.0)) return;  // x is the highest of the three
     d /= length;
@@ -131,7 +134,7 @@ void ModeSearch::step_to_largest() {
 }
 
 /// x = c_0 x + c_1 r + c_2 p and p = d_1 r + d_2 p.
-void ModeSearch::combine(const Eigen::Vector3d& c, const Eigen::Vector3d& d) {
+void ModeSearch::combine(const Vector<3>& c, const Vector<3>& d) {
     const auto update = [&](std::vector<double>& x, const std::vector<double>& r, std::vector<double>& p, std::ptrdiff_t i) {
         x[i] = c[0] * x[i] + (c[1] * r[i] + c[2] * p[i]);
         p[i] = d[1] * r[i] + d[2] * p[i];

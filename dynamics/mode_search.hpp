@@ -1,10 +1,11 @@
 #pragma once
-#include <Eigen/Core>
 #include <cstddef>
 #include <functional>
 #include <random>
 #include <span>
 #include <vector>
+
+#include "abut/base/vector.hpp"
 
 namespace abut::dynamics {
 
@@ -40,7 +41,7 @@ private:
     };
     void set_residual();
     void step_to_largest();
-    void combine(const Eigen::Vector3d& c, const Eigen::Vector3d& d);
+    void combine(const Vector<3>& c, const Vector<3>& d);
 
     Product stiffness_;
     std::minstd_rand random_{1};
@@ -48,8 +49,8 @@ private:
     Direction x_, residual_, last_;
     double quotient_ = 0.0, change_ = 0.0;
     int iterations_ = 0;
-    Eigen::Matrix3d stiffness_of_ = Eigen::Matrix3d::Zero();  ///< products u_i . K u_j of x, residual and last direction
-    Eigen::Matrix3d mass_of_ = Eigen::Matrix3d::Identity();   ///< the same with W^-1
+    Matrix<3> stiffness_of_ = Matrix<3>::Zero();  ///< products u_i . K u_j of x, residual and last direction
+    Matrix<3> mass_of_ = Matrix<3>::Identity();   ///< the same with W^-1
     bool has_last_ = false;
 };
 

@@ -32,9 +32,12 @@ public:
         : mesh(bodies), contact(skin(mesh), options(friction)), mass_(mesh.vertices.size(), 0.0) {
         for (std::int32_t c = 0; c < mesh.n_cells(); ++c) {
             const auto node = mesh.cell_vertices[c];
-            Eigen::Matrix<double, Dim + 1, Dim + 1> corners;  // rows 1, x: the inverse has the shape functions
-            for (int i = 0; i <= Dim; ++i) corners.row(i) << 1.0, mesh.vertices[node[i]].transpose();
-            slopes_.push_back(corners.inverse().template bottomRows<Dim>());
+            Matrix<Dim> edges;  // from the first node: the rows of the inverse are the slopes of the others' shape functions
+            for (int i = 0; i < Dim; ++i) edges.col(i) = mesh.vertices[node[i + 1]] - mesh.vertices[node[0]];
+            const Matrix<Dim> of_others = edges.inverse();
+            auto& slopes = slopes_.emplace_back();
+            slopes.col(0) = -(of_others.transpose() * Vector<Dim>::Ones());
+            for (int i = 0; i < Dim; ++i) slopes.col(i + 1) = of_others.row(i).transpose();
             for (const std::int32_t n : node) mass_[n] += mesh.cell_measure[c] / (Dim + 1);
         }
         for (const double m : mass_) inverse_mass_.insert(inverse_mass_.end(), Dim, 1.0 / m);
@@ -123,7 +126,7 @@ private:
     }
 
     std::vector<double> mass_, inverse_mass_;
-    std::vector<Eigen::Matrix<double, Dim, Dim + 1, Eigen::DontAlign>> slopes_;  // of the shape functions
+    std::vector<SmallMatrix<Dim, Dim + 1>> slopes_;  // of the shape functions
 };
 
 /// What friction takes from rigid discs that slide all along the impact, over K0: they meet with the normal impulse of discs

@@ -31,8 +31,8 @@ using M = Matrix<2>;
 struct Cell {
     int part = 0;
     double area = 0.0;
-    std::array<std::int32_t, 3> node = {};                 // of this rank
-    Eigen::Matrix<double, 2, 3, Eigen::DontAlign> slopes;  // of the shape functions
+    std::array<std::int32_t, 3> node = {};  // of this rank
+    SmallMatrix<2, 3> slopes;               // of the shape functions
 
     M gradient(std::span<const V> x) const {
         return x[node[0]] * slopes.col(0).transpose() + x[node[1]] * slopes.col(1).transpose() +
@@ -69,12 +69,12 @@ public:
             Cell& cell = cells.emplace_back();
             cell.part = part[c];
             cell.area = whole.cell_measure[c];
-            Eigen::Matrix3d corners;  // rows 1, x: the inverse has the shape functions
-            for (int i = 0; i < 3; ++i) {
-                cell.node[i] = own[whole.cell_vertices[c][i]];
-                corners.row(i) << 1.0, rest[cell.node[i]].transpose();
-            }
-            cell.slopes = corners.inverse().bottomRows<2>();
+            for (int i = 0; i < 3; ++i) cell.node[i] = own[whole.cell_vertices[c][i]];
+            const V first = rest[cell.node[0]];
+            // The rows of the inverse are the slopes of the shape functions of the other two nodes.
+            const M of_others = M::from_columns(rest[cell.node[1]] - first, rest[cell.node[2]] - first).inverse();
+            cell.slopes = SmallMatrix<2, 3>::from_columns(-(of_others.transpose() * V::Ones()), of_others.row(0).transpose(),
+                                                          of_others.row(1).transpose());
         }
         std::vector<double> depths;  // of all faces: half the height of the triangle behind each
         for (std::int32_t f = 0; f < std::ssize(whole.boundary_faces); ++f) {
@@ -133,23 +133,23 @@ private:
 };
 
 enum Sum { staggered, excess_of_h, potential, momentum_x, momentum_y, angular, left_x, left_y, left_mass, n_sums };
-using Sums = Eigen::Array<double, n_sums, 1>;
+using Sums = SmallMatrix<n_sums, 1>;
 
 /// Sums over all nodes and cells at x^n, between p^{n-1/2} and p^{n+1/2}: part by part, then the parts in their order.
 Sums measure(const Host& host, std::span<const V> x, std::span<const V> p_0, std::span<const V> p_1, double dt) {
-    Eigen::Array<double, n_sums, n_parts> of_part;
+    SmallMatrix<n_sums, n_parts> of_part;
     of_part.setZero();
     for (std::size_t n = 0; n < x.size(); ++n) {
         if (host.counted_in[n] < 0) continue;
         const double m = host.mass[n];
         const V p = 0.5 * (p_0[n] + p_1[n]);
-        auto sum = of_part.col(host.counted_in[n]);
+        Sums& sum = of_part.col(host.counted_in[n]);
         sum[staggered] += 0.5 * p_0[n].dot(p_1[n]) / m;
         sum[excess_of_h] += 0.125 * (p_1[n] - p_0[n]).squaredNorm() / m;
-        sum.segment<2>(momentum_x) += p.array();
+        for (int k = 0; k < 2; ++k) sum[momentum_x + k] += p[k];
         sum[angular] += moment<2>(x[n], p)[0] - 0.25 * dt / m * moment<2>(p_0[n], p_1[n])[0];  // J~
         if (host.counted_in[n] >= n_parts / 2) continue;
-        sum.segment<2>(left_x) += p.array();
+        for (int k = 0; k < 2; ++k) sum[left_x + k] += p[k];
         sum[left_mass] += m;
     }
     for (const Cell& cell : host.cells) {
@@ -172,9 +172,9 @@ struct Figures {
         const Sums change = now - start;
         drift = std::max(drift, std::abs(change[staggered] + change[potential] + contact_energy));
         excess = std::max(excess, now[excess_of_h]);
-        momentum_drift = std::max(momentum_drift, change.segment<2>(momentum_x).matrix().norm());
+        momentum_drift = std::max(momentum_drift, change.segment<2>(momentum_x).norm());
         angular_drift = std::max(angular_drift, std::abs(change[angular]));
-        left = now.segment<2>(left_x).matrix() / now[left_mass];
+        left = now.segment<2>(left_x) / now[left_mass];
     }
 };
 

@@ -41,9 +41,10 @@ public:
         : scene(std::move(given)), mass(scene.mesh.vertices.size(), 0.0), body(mass.size()), contact(skin()) {
         for (std::int32_t c = 0; c < scene.mesh.n_cells(); ++c) {
             const auto node = scene.mesh.cell_vertices[c];
-            Eigen::Matrix3d corners;
-            for (int i = 0; i < 3; ++i) corners.row(i) << 1.0, scene.mesh.vertices[node[i]].transpose();
-            slopes_.push_back(corners.inverse().bottomRows<2>());
+            const std::vector<V>& x = scene.mesh.vertices;
+            const M edges = M::from_columns(x[node[1]] - x[node[0]], x[node[2]] - x[node[0]]), of_others = edges.inverse();
+            slopes_.push_back(SmallMatrix<2, 3>::from_columns(-(of_others.transpose() * V::Ones()),
+                                                              of_others.row(0).transpose(), of_others.row(1).transpose()));
             for (const std::int32_t n : node) mass[n] += scene.mesh.cell_measure[c] / 3, body[n] = scene.mesh.cell_body[c];
         }
         for (const double m : mass) inverse_mass_.insert(inverse_mass_.end(), 2, 1.0 / m);
@@ -127,7 +128,7 @@ private:
         step.add_force_to(f);  // nodes of the obstacle come last, and get none
     }
 
-    std::vector<Eigen::Matrix<double, 2, 3, Eigen::DontAlign>> slopes_;
+    std::vector<SmallMatrix<2, 3>> slopes_;
     std::array<double, 2> body_mass_;
     std::vector<double> inverse_mass_;
 };

@@ -23,12 +23,16 @@ struct Box {
     }
     /// The box with every side moved outwards by `margin` [m]; < 0 moves them inwards, and may leave an empty box.
     [[nodiscard]] Box grown(double margin) const {
-        return {Vector<Dim>(lower.array() - margin), Vector<Dim>(upper.array() + margin)};
+        return {lower - Vector<Dim>::Constant(margin), upper + Vector<Dim>::Constant(margin)};
     }
-    [[nodiscard]] bool empty() const { return (lower.array() > upper.array()).any(); }
+    [[nodiscard]] bool empty() const {
+        for (int i = 0; i < Dim; ++i)
+            if (lower[i] > upper[i]) return true;
+        return false;
+    }
     /// Closed test: boxes that share only a face, an edge or a point do overlap.
     [[nodiscard]] bool overlaps(const Box& other) const {
-        return (lower.array() <= other.upper.array()).all() && (other.lower.array() <= upper.array()).all();
+        return all_at_most<Dim>(lower, other.upper) && all_at_most<Dim>(other.lower, upper);
     }
 };
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <string>
 
+#include "abut/base/eigen.hpp"
 #include "abut/base/error.hpp"
 #include "abut/geometry/box.hpp"
 
@@ -25,9 +26,7 @@ Box<3> bounding_box_of(std::span<const Vector<Dim>> points, const std::string& n
                 throw BadInput(name + ": point " + std::to_string(i) + " has the " + "xyz"[axis] + " coordinate " +
                                std::to_string(point[axis]) +
                                ", a finite number is needed. Has the motion behind it blown up?");
-        Vector<3> lifted = Vector<3>::Zero();
-        lifted.template head<Dim>() = point;
-        box.extend(lifted);
+        box.extend(in_3d<Dim>(point));
     }
     return box;
 }
@@ -36,8 +35,7 @@ template <int Dim>
 ConvexBody unit_body(std::span<const Vector<Dim>> points, const Vector<3>& origin, double unit) {
     ConvexBody body;
     for (const Vector<Dim>& point : points) {
-        Vector<3> relative = Vector<3>::Zero();
-        relative.template head<Dim>() = (point - origin.head<Dim>()) / unit;
+        const Vector<3> relative = in_3d<Dim>((point - origin.head<Dim>()) / unit);
         body.points.push_back(relative);
         body.centre += relative / static_cast<double>(points.size());
     }
@@ -59,9 +57,10 @@ bool nearest_inside(const std::vector<Vector<3>>& corners, Vector<3>& nearest) {
     if (corners.size() == 1) return true;
     const Eigen::Index n = static_cast<Eigen::Index>(corners.size()) - 1;
     Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 3> edges(3, n);
-    for (Eigen::Index k = 0; k < n; ++k) edges.col(k) = corners[k + 1] - corners[0];
-    const Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 3, 1> weights = edges.colPivHouseholderQr().solve(-corners[0]);
-    nearest += edges * weights;
+    for (Eigen::Index k = 0; k < n; ++k) edges.col(k) = as_eigen(corners[k + 1] - corners[0]);
+    const Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 3, 1> weights =
+        edges.colPivHouseholderQr().solve(as_eigen(-corners[0]));
+    nearest += Vector<3>(edges * weights);
     return weights.minCoeff() >= 0.0 && weights.sum() <= 1.0;
 }
 

@@ -1,7 +1,6 @@
 #include "abut/geometry/convex_proximity.hpp"
 
 #include <ccd/ccd.h>
-#include <Eigen/Geometry>
 
 #include <algorithm>
 #include <type_traits>

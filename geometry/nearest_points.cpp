@@ -1,7 +1,5 @@
 #include "abut/geometry/nearest_points.hpp"
 
-#include <Eigen/Geometry>  // cross()
-
 #include <algorithm>
 #include <array>
 #include <utility>

@@ -1,5 +1,4 @@
 #pragma once
-#include <Eigen/Geometry>  // cross()
 
 #include "abut/base/vector.hpp"
 
@@ -18,23 +17,18 @@ public:
 
     [[nodiscard]] const Vector<Dim>& normal() const { return normal_; }
     /// Shape (Dim, Dim - 1), one tangent per column.
-    [[nodiscard]] const Eigen::Matrix<double, Dim, Dim - 1, Eigen::DontAlign>& tangents() const { return tangents_; }
+    [[nodiscard]] const SmallMatrix<Dim, Dim - 1>& tangents() const { return tangents_; }
     [[nodiscard]] PlaneVector<Dim> project(const Vector<Dim>& point) const { return tangents_.transpose() * point; }
-    /// The vector of space, orthogonal to the normal, that projects to `in_plane`. Products rounded before they are added:
-    /// Eigen's matrix times vector fuses the two where the processor can, and gives other bits there.
-    [[nodiscard]] Vector<Dim> lift(const PlaneVector<Dim>& in_plane) const {
-        Vector<Dim> lifted = in_plane[0] * tangents_.col(0);
-        if constexpr (Dim == 3) lifted += in_plane[1] * tangents_.col(1);
-        return lifted;
-    }
+    /// The vector of space, orthogonal to the normal, that projects to `in_plane`.
+    [[nodiscard]] Vector<Dim> lift(const PlaneVector<Dim>& in_plane) const { return tangents_ * in_plane; }
 
 private:
-    static Eigen::Matrix<double, Dim, Dim - 1, Eigen::DontAlign> tangents_of(const Vector<Dim>& normal) {
-        Eigen::Matrix<double, Dim, Dim - 1, Eigen::DontAlign> tangents;
+    static SmallMatrix<Dim, Dim - 1> tangents_of(const Vector<Dim>& normal) {
+        SmallMatrix<Dim, Dim - 1> tangents;
         if constexpr (Dim == 2) {
-            tangents << -normal.y(), normal.x();
+            tangents = {-normal.y(), normal.x()};
         } else {
-            Eigen::Index axis;  // the axis farthest from the normal
+            std::ptrdiff_t axis;  // the axis farthest from the normal
             normal.cwiseAbs().minCoeff(&axis);
             tangents.col(0) = Vector<3>::Unit(axis).cross(normal).normalized();
             tangents.col(1) = normal.cross(tangents.col(0));
@@ -43,7 +37,7 @@ private:
     }
 
     Vector<Dim> normal_;
-    Eigen::Matrix<double, Dim, Dim - 1, Eigen::DontAlign> tangents_;
+    SmallMatrix<Dim, Dim - 1> tangents_;
 };
 
 }  // namespace abut::geometry

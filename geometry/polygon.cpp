@@ -1,7 +1,5 @@
 #include "abut/geometry/polygon.hpp"
 
-#include <Eigen/Geometry>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -1,5 +1,4 @@
 #pragma once
-#include <Eigen/Geometry>  // cross()
 
 #include "abut/base/vector.hpp"
 
@@ -7,7 +6,7 @@ namespace abut::geometry {
 
 /// Orthonormal tangents of a plane (3D) or a line (2D), one per column.
 template <int Dim>
-using Tangents = Eigen::Matrix<double, Dim, Dim - 1, Eigen::DontAlign>;
+using Tangents = SmallMatrix<Dim, Dim - 1>;
 
 /// `vector` turned by the shortest rotation that takes the unit vector `from` to `to`, also unit. They must not be opposite:
 /// there is no shortest rotation then.

@@ -1,7 +1,5 @@
 #include "abut/geometry/triangulate.hpp"
 
-#include <Eigen/Geometry>
-
 #include <algorithm>
 #include <string>
 

@@ -67,7 +67,7 @@ private:
     void turn_about_common_centroid(const std::vector<std::int32_t>& piece) {
         const mesh::Mesh<Dim>& mesh = scene_.mesh;
         std::vector<double> mass(piece.size(), 0.0);
-        std::vector<Vector<Dim>> centre(piece.size(), Vector<Dim>(Vector<Dim>::Zero()));
+        std::vector<Vector<Dim>> centre(piece.size(), Vector<Dim>::Zero());
         Vector<Dim> common = Vector<Dim>::Zero();
         double all = 0.0;
         for (std::size_t i = 0; i < piece.size(); ++i) {

@@ -31,7 +31,7 @@ std::array<int, Dim> counts_in(const std::array<int, 3>& counts) {
 }
 
 /// Position of the middle of a shape when Gmsh makes it: a body that turns is made about the origin.
-Vector<3> centre(const BodySettings& body) { return body.turn.isZero(0.0) ? body.place : Vector<3>(Vector<3>::Zero()); }
+Vector<3> centre(const BodySettings& body) { return body.turn.isZero(0.0) ? body.place : Vector<3>::Zero(); }
 
 /// `origin`: where that of the body is while its mesh is made.
 template <int Dim>
@@ -186,11 +186,10 @@ mesh::Mesh<Dim> cut_into_regions(const mesh::Mesh<Dim>& mesh, const BodySettings
             fmt::format("bodies.{}.{}.region: {} has {} bodies, and regions are made of one. Leave the region out, and "
                         "give tables to the bodies.",
                         body.name, regions.front()->name, body.mesh.string(), mesh.n_bodies()));
-    const Vector<Dim> origin = has_centre(body.shape) ? head<Dim>(centre(body)) : Vector<Dim>(Vector<Dim>::Zero());
+    const Vector<Dim> origin = has_centre(body.shape) ? head<Dim>(centre(body)) : Vector<Dim>::Zero();
     std::vector<std::int32_t> part_of;
     for (const Vector<Dim>& centroid : mesh.cell_centroid) {
-        Vector<3> x = Vector<3>::Zero();
-        x.head<Dim>() = centroid - origin;
+        const Vector<3> x = in_3d<Dim>(centroid - origin);
         const auto found =
             std::ranges::find_if(regions, [&](const BodySettings* part) { return (*part->region)(0.0, x) != 0.0; });
         part_of.push_back(static_cast<std::int32_t>(found - regions.begin()));
@@ -230,7 +229,7 @@ mesh::Mesh<Dim> make_body(const BodySettings& body, const std::filesystem::path&
     mesh::Mesh<Dim> mesh = cut_into_regions<Dim>(unplaced<Dim>(body, folder, given), body);
     const bool turns = !body.turn.isZero(0.0);
     if (turns || (!has_centre(body.shape) && !body.place.isZero(0.0)))
-        mesh::place(mesh, turns ? rotation<Dim>(body.turn) : Matrix<Dim>(Matrix<Dim>::Identity()), head<Dim>(body.place));
+        mesh::place(mesh, turns ? rotation<Dim>(body.turn) : Matrix<Dim>::Identity(), head<Dim>(body.place));
     check_parts(mesh, body);
     name_parts(mesh, body.name);
     return mesh;

@@ -21,9 +21,7 @@ namespace {
 template <int Dim, class Condition>
 void set_value(Condition& condition, const FieldSettings& field) {
     if (varies(field))
-        condition.history = [field](double time, const Vector<Dim>& x) {
-            return value_at<Dim>(field, time, in_space<Dim>(x));
-        };
+        condition.history = [field](double time, const Vector<Dim>& x) { return value_at<Dim>(field, time, in_3d<Dim>(x)); };
     else
         condition.value = value_at<Dim>(field, 0.0, Vector<3>::Zero());
 }
@@ -223,7 +221,7 @@ void add_pressure(run::Scene<Dim>& scene, const TractionSettings& traction) {
         condition.follows = true;  // nothing else is a pressure on a body that turns; of others it makes no difference
         if (pressure.varies())
             condition.history = [pressure, normal](double time, const Vector<Dim>& x) {
-                return Vector<Dim>(-pressure(time, in_space<Dim>(x)) * normal);
+                return Vector<Dim>(-pressure(time, in_3d<Dim>(x)) * normal);
             };
         else
             condition.value = -pressure.value() * normal;

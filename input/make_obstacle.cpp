@@ -90,8 +90,7 @@ void require_one_side(const mesh::SurfaceMesh& surface, const geometry::SurfaceR
             for (const std::int32_t v : surface.faces[face])
                 boxes[static_cast<std::size_t>(part)].extend(surface.vertices[v]);
     const auto is_around = [&](std::size_t outer, std::size_t inner) {
-        return (boxes[outer].lower.array() <= boxes[inner].lower.array()).all() &&
-               (boxes[outer].upper.array() >= boxes[inner].upper.array()).all();
+        return all_at_most(boxes[outer].lower, boxes[inner].lower) && all_at_most(boxes[inner].upper, boxes[outer].upper);
     };
     for (std::size_t part = 0; part < boxes.size(); ++part) {
         if (!(health.components[part].volume * volume < 0.0)) continue;
@@ -233,8 +232,7 @@ void add_obstacles(run::Scene<Dim>& scene, const Settings& settings, mesh::Ignor
                    std::vector<Fault>& faults) {
     for (const ObstacleSettings& obstacle : settings.obstacles) {
         if (obstacle.shape == ObstacleShape::none) continue;
-        if (obstacle.shape == ObstacleShape::box &&
-            !(head<Dim>(obstacle.lower).array() < head<Dim>(obstacle.upper).array()).all()) {
+        if (obstacle.shape == ObstacleShape::box && !all_less(head<Dim>(obstacle.lower), head<Dim>(obstacle.upper))) {
             faults.push_back({obstacle.where,
                               fmt::format("obstacles.{}: lower has to be below upper in every component.", obstacle.name)});
             continue;

@@ -40,7 +40,7 @@ template <int Dim>
 solid::TemperatureRise<Dim> temperature_of(const BodySettings& body) {
     if (!body.temperature_rise) return {};
     return {
-        .value = [rise = *body.temperature_rise](double time, const Vector<Dim>& x) { return rise(time, in_space<Dim>(x)); },
+        .value = [rise = *body.temperature_rise](double time, const Vector<Dim>& x) { return rise(time, in_3d<Dim>(x)); },
         .varies = body.temperature_rise->varies()};
 }
 
@@ -286,9 +286,8 @@ void add_bonds(run::Scene<Dim>& scene, const Settings& settings, std::vector<Fau
 
 /// The table of a body, or of the file or body of regions that it is a part of.
 const BodySettings& body_of(const Settings& settings, const std::string& name) {
-    return *std::ranges::find_if(settings.bodies, [&](const BodySettings& body) {
-        return name == body.name || name.starts_with(body.name + ".");
-    });
+    return *std::ranges::find_if(
+        settings.bodies, [&](const BodySettings& body) { return name == body.name || name.starts_with(body.name + "."); });
 }
 
 template <int Dim>

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "abut/base/rotation.hpp"
 #include "abut/input/nearest_word.hpp"
 #include "abut/input/values.hpp"
 
@@ -28,8 +29,7 @@ struct Copy {
 /// A turn after another one, in space or about z.
 Vector<3> turned(const Vector<3>& first, const Vector<3>& then, int dimension) {
     if (dimension == 2 || first.isZero(0.0) || then.isZero(0.0)) return first + then;
-    const Eigen::AngleAxisd both(Matrix<3>(rotation<3>(then) * rotation<3>(first)));
-    return both.angle() * both.axis();
+    return rotation_vector(rotation<3>(then) * rotation<3>(first));
 }
 
 std::vector<Copy> in_a_row(const PatternSettings& pattern) {
@@ -49,7 +49,7 @@ std::vector<Copy> in_a_grid(const PatternSettings& pattern) {
     while (at[last] < pattern.count[last]) {
         Copy copy;
         for (std::size_t i = 0; i < at.size(); ++i) {
-            const auto along = static_cast<Eigen::Index>(i);
+            const auto along = static_cast<std::ptrdiff_t>(i);
             copy.number += fmt::format("_{}", at[i]);
             copy.offset[along] = at[i] * (*pattern.step)[along];
         }

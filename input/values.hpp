@@ -1,8 +1,8 @@
 #pragma once
 // Private to the layer.
-#include <Eigen/Geometry>
 #include <algorithm>
 
+#include "abut/base/rotation.hpp"
 #include "abut/input/settings.hpp"
 
 /// Values of a scene in one dimension.
@@ -21,16 +21,9 @@ template <int Dim>
 template <int Dim>
 [[nodiscard]] Matrix<Dim> rotation(const Vector<3>& turn) {
     if constexpr (Dim == 2)
-        return Eigen::Rotation2Dd(turn.z()).toRotationMatrix();
+        return rotation_in_plane(turn.z());
     else
-        return Eigen::AngleAxisd(turn.norm(), Eigen::Vector3d(turn.normalized())).toRotationMatrix();
-}
-
-template <int Dim>
-[[nodiscard]] Vector<3> in_space(const Vector<Dim>& position) {
-    Vector<3> result = Vector<3>::Zero();
-    result.head<Dim>() = position;
-    return result;
+        return rotation_about(Vector<3>(turn.normalized()), turn.norm());
 }
 
 [[nodiscard]] inline bool varies(const FieldSettings& field) {

@@ -253,7 +253,7 @@ template <int Dim>
 std::vector<Place<Dim>> places_of_boundary_vertices(const Mesh<Dim>& mesh, double spacing) {
     geometry::Box<Dim> box;
     for (const Vector<Dim>& vertex : mesh.vertices) box.extend(vertex);
-    const Vector<Dim> origin = box.lower.array() - std::numbers::inv_pi * spacing;
+    const Vector<Dim> origin = box.lower - Vector<Dim>::Constant(std::numbers::inv_pi * spacing);
     const std::vector<std::int32_t> first = first_of_joined(mesh);
     std::vector<Place<Dim>> places;
     for (const std::int32_t face : mesh.boundary_faces)

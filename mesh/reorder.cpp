@@ -61,9 +61,9 @@ std::vector<std::int32_t> layer_order(const std::vector<Vector<Dim>>& points) {
     const Vector<Dim> extent = box.upper - box.lower;
     const double longest = extent.maxCoeff(), unit = longest > 0.0 ? longest : 1.0;
     const Vector<Dim> relative = extent / unit;
-    std::array<Eigen::Index, Dim> axis;
+    std::array<std::ptrdiff_t, Dim> axis;
     std::iota(axis.begin(), axis.end(), 0);
-    std::ranges::stable_sort(axis, std::greater{}, [&](Eigen::Index k) { return std::round(relative[k] / resolution); });
+    std::ranges::stable_sort(axis, std::greater{}, [&](std::ptrdiff_t k) { return std::round(relative[k] / resolution); });
     const double spacing =
         layer_thickness * unit * std::pow(relative.prod() / static_cast<double>(points.size()), 1.0 / Dim);
 

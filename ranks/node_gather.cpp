@@ -46,7 +46,7 @@ void NodeGather::bring(const Communicator& communicator, std::initializer_list<P
     const double* at = received_.data();
     for (const std::int32_t node : order_)
         for (const Points<Dim>& of : points) {
-            of.to[static_cast<std::size_t>(node)] = Eigen::Map<const Vector<Dim>>(at);
+            of.to[static_cast<std::size_t>(node)] = Vector<Dim>(at);
             at += Dim;
         }
     ++traffic.gathers;

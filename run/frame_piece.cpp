@@ -105,7 +105,7 @@ private:
         for (std::size_t i = 0; i < shared.size(); i += width) {
             const auto cell = static_cast<std::size_t>(shared[i]);
             of_cells[cell] = Vector<Dim>(&shared[i + 1]);
-            if (any_turns_) gradients[cell] = Eigen::Map<const Matrix<Dim>>(&shared[i + 1 + Dim]);
+            if (any_turns_) gradients[cell] = Matrix<Dim>(&shared[i + 1 + Dim]);
         }
         std::vector<Vector<Dim>> mean(mesh_.vertices.size(), Vector<Dim>::Zero());
         std::vector<int> count(mesh_.vertices.size(), 0);

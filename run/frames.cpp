@@ -163,8 +163,7 @@ private:
 
 template <int Dim>
 double von_mises(const Matrix<Dim>& stress, double out_of_plane_stress) {
-    Matrix<3> full = Matrix<3>::Zero();
-    full.topLeftCorner<Dim, Dim>() = stress;
+    Matrix<3> full = in_3d<Dim>(stress);
     if constexpr (Dim == 2) full(2, 2) = out_of_plane_stress;
     const Matrix<3> deviator = full - full.trace() / 3.0 * Matrix<3>::Identity();
     return std::sqrt(1.5) * deviator.norm();

@@ -159,7 +159,7 @@ std::vector<Vector<Dim>> ObstacleWatch<Dim>::centres(const solid::Solid<Dim>& so
     for (std::size_t k = 0; k < all.size(); ++k) sums[k % sums.size()] += all[k];
     std::vector<Vector<Dim>> centres;
     for (std::size_t first = 0; first < sums.size(); first += Dim + 1)
-        centres.push_back(Eigen::Map<const Vector<Dim>>(sums.data() + first + 1) / sums[first]);
+        centres.push_back(Vector<Dim>(sums.data() + first + 1) / sums[first]);
     return centres;
 }
 

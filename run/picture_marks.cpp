@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <limits>
 
-#include <Eigen/Dense>
-
 #include "abut/base/index.hpp"
 #include "abut/run/body_names.hpp"
 #include "abut/run/scene.hpp"
@@ -25,9 +23,7 @@ Matrix<3> axes_of(std::span<const Position> corners) {
     const Vector<3> along = (as_vector(corners[1]) - as_vector(corners[0])).normalized();
     const Vector<3> up = corners.size() > 2 ? Vector<3>(as_vector(corners[2]) - as_vector(corners[0])) : Vector<3>::UnitZ();
     const Vector<3> normal = along.cross(up).normalized();
-    Matrix<3> axes;
-    axes << along, normal, along.cross(normal);
-    return axes;
+    return Matrix<3>::from_columns(along, normal, along.cross(normal));
 }
 
 /// The end of a spring by the corners of the nearest cell of its body, weighted so that it moves with them where they

@@ -157,7 +157,7 @@ Way way_of(const Scene<Dim>& scene, const solid::SolidOptions<Dim>& options, con
     const Vector<Dim> velocity = whole.velocity();
     const bool travels = velocity.norm() > most * speed, turns = whole.speed_of_rim() > most * speed;
     const bool rubs = scene.contact && options.has_friction();
-    const Vector<Dim> pull = options.acceleration.empty() ? Vector<Dim>(Vector<Dim>::Zero()) : options.acceleration[body];
+    const Vector<Dim> pull = options.acceleration.empty() ? Vector<Dim>::Zero() : options.acceleration[body];
     if (travels && pull.dot(velocity) > 0.9 * pull.norm() * velocity.norm() && !pull.isZero(0.0))
         return {"falls " + along<Dim>(velocity),
                 "hold it by supports or springs, put it nearer to where it rests, or give it something to rest on"};

@@ -175,7 +175,7 @@ void SurfaceWatch<Dim>::move(const dynamics::RunView<Dim>& run, const solid::Sol
     const std::vector<Vector<Dim>> displacement = solid.cells().displacement(run.q);
     const std::size_t n_of_mesh = vertex_.size();
     std::vector<int> n_cells(n_of_mesh, 0);
-    std::fill_n(position_.begin(), n_of_mesh, Vector<Dim>(Vector<Dim>::Zero()));
+    std::fill_n(position_.begin(), n_of_mesh, Vector<Dim>::Zero());
     for (const Body& body : bodies_)
         for (const Part& part : body.parts) {
             if (part.cell < 0) continue;

@@ -1,11 +1,11 @@
 #include "abut/solid/rigid_motions.hpp"
 
-#include <Eigen/Geometry>  // cross()
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
-#include "abut/base/decompositions.hpp"
+#include "abut/base/dense_decompositions.hpp"
+#include "abut/base/eigen.hpp"
 #include "abut/base/messages.hpp"
 #include "abut/solid/bond_view.hpp"
 #include "abut/solid/boundary/bond_places.hpp"
@@ -20,7 +20,7 @@ inline constexpr double closed = 1e-6;    // of a body's size: faces that near t
 template <int Dim>
 inline constexpr int n_motions = Dim == 2 ? 3 : 6;
 template <int Dim>
-using Motions = Eigen::Matrix<double, Dim, n_motions<Dim>>;
+using Motions = SmallMatrix<Dim, n_motions<Dim>>;
 
 /// Centre about which a body turns, and its size.
 template <int Dim>
@@ -53,9 +53,9 @@ template <int Dim>
 Motions<Dim> motions_at(const Frame<Dim>& frame, const Vector<Dim>& x) {
     const Vector<Dim> r = (x - frame.centre) / frame.radius;
     Motions<Dim> result;
-    result.template leftCols<Dim>().setIdentity();
+    for (int axis = 0; axis < Dim; ++axis) result.col(axis) = Vector<Dim>::Unit(axis);
     if constexpr (Dim == 2)
-        result.col(2) << -r.y(), r.x();
+        result.col(2) = {-r.y(), r.x()};
     else
         for (int axis = 0; axis < 3; ++axis) result.col(3 + axis) = Vector<3>::Unit(axis).cross(r);
     return result;
@@ -75,7 +75,7 @@ Eigen::MatrixXd hold(Solid<Dim>& solid, std::span<const double> q, const std::ve
     for (const BoundaryFace b : solid.ccg().boundary_faces()) {
         const Motions<Dim> held = prescribed[b] * motions(b);
         const Eigen::Index first = Eigen::Index{body_at(b)} * n_motions<Dim>;
-        result.template block<n_motions<Dim>, n_motions<Dim>>(first, first) += held.transpose() * held;
+        result.template block<n_motions<Dim>, n_motions<Dim>>(first, first) += as_eigen(held.transpose() * held);
     }
     const double size = std::ranges::max_element(frame, {}, [](const Frame<Dim>& one) { return one.radius; })->radius;
     for (const TouchingPair<Dim>& pair : solid.contact_at(q).touching_pairs(closed * size)) {
@@ -83,7 +83,7 @@ Eigen::MatrixXd hold(Solid<Dim>& solid, std::span<const double> q, const std::ve
         const auto add = [&](BoundaryFace b, double sign) {
             if (b == no_face) return;
             row.segment<n_motions<Dim>>(Eigen::Index{body_at(b)} * n_motions<Dim>) +=
-                sign * motions(b).transpose() * pair.normal;
+                as_eigen(sign * motions(b).transpose() * pair.normal);
         };
         add(pair.face_1, -1.0);
         add(pair.face_2, 1.0);
@@ -94,7 +94,7 @@ Eigen::MatrixXd hold(Solid<Dim>& solid, std::span<const double> q, const std::ve
         for (std::size_t side = 0; side < 2; ++side) {
             const std::int32_t body = body_at(place.faces[side]);
             jump.middleCols<n_motions<Dim>>(Eigen::Index{body} * n_motions<Dim>) +=
-                (side == 0 ? -1.0 : 1.0) * motions_at(frame[static_cast<std::size_t>(body)], place.position);
+                as_eigen((side == 0 ? -1.0 : 1.0) * motions_at(frame[static_cast<std::size_t>(body)], place.position));
         }
         result += jump.transpose() * jump;
     }
@@ -129,7 +129,7 @@ std::string describe(const mesh::Mesh<Dim>& mesh, const Eigen::VectorXd& motion)
 
 template <int Dim>
 std::optional<std::string> free_rigid_motion(Solid<Dim>& solid, std::span<const double> q) {
-    const SymmetricEigen<Eigen::Dynamic> modes = symmetric_eigen(hold(solid, q, frames(solid.mesh())));
+    const DenseEigen modes = symmetric_eigen(hold(solid, q, frames(solid.mesh())));
     if (modes.values[0] > stopped * modes.values.tail<1>()[0]) return std::nullopt;
     return describe(solid.mesh(), modes.vectors.col(0));
 }

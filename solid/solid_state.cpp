@@ -11,7 +11,7 @@
 #include "abut/solid/load/loads.hpp"
 #include "abut/solid/load/outside_loads.hpp"
 #include "abut/solid/load/point_loads.hpp"
-#include "abut/solid/part/state_of_eigen.hpp"
+#include "abut/solid/part/state_of_matrix.hpp"
 #include "abut/solid/solid.hpp"
 
 namespace abut::solid {

@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <Eigen/Geometry>
-
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -15,6 +13,7 @@
 #include "abut/base/error.hpp"
 #include "abut/base/index.hpp"
 #include "abut/base/input_file.hpp"
+#include "abut/base/rotation.hpp"
 #include "apps/support/command_line.hpp"
 
 namespace abut::apps {
@@ -74,13 +73,12 @@ Vector<3> vector_at(const std::vector<double>& values, std::size_t first) {
 }
 
 Matrix<3> turn_about(const Vector<3>& axis, double angle) {
-    return angle == 0.0 ? Matrix<3>(Matrix<3>::Identity())
-                        : Matrix<3>(Eigen::AngleAxisd(angle, Eigen::Vector3d(axis)).toRotationMatrix());
+    return angle == 0.0 ? Matrix<3>::Identity() : Matrix<3>(rotation_about(Vector<3>(axis), angle));
 }
 
 Matrix<3> turn_of_vector(const Vector<3>& degrees) {
     const double angle = degrees.norm();
-    return turn_about(angle > 0.0 ? Vector<3>(degrees / angle) : Vector<3>(Vector<3>::UnitZ()), angle * radians);
+    return turn_about(angle > 0.0 ? Vector<3>(degrees / angle) : Vector<3>::UnitZ(), angle * radians);
 }
 
 std::vector<Vector<3>> centres_of(const Bodies& bodies) {
@@ -88,7 +86,7 @@ std::vector<Vector<3>> centres_of(const Bodies& bodies) {
     for (std::size_t v = 0; v < bodies.start.size(); ++v) boxes[at(bodies.vertex_body[v])].extend(bodies.start[v]);
     std::vector<Vector<3>> centres;
     for (const auto& box : boxes)
-        centres.push_back(box.empty() ? Vector<3>(Vector<3>::Zero()) : Vector<3>(0.5 * (box.lower + box.upper)));
+        centres.push_back(box.empty() ? Vector<3>::Zero() : Vector<3>(0.5 * (box.lower + box.upper)));
     return centres;
 }
 

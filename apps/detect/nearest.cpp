@@ -64,8 +64,8 @@ public:
 
 private:
     static bool is_within(const Box& inner, const Box& outer) {
-        return !inner.empty() && !outer.empty() && (inner.lower.array() >= outer.lower.array()).all() &&
-               (inner.upper.array() <= outer.upper.array()).all();
+        return !inner.empty() && !outer.empty() && all_at_most(outer.lower, inner.lower) &&
+               all_at_most(inner.upper, outer.upper);
     }
     [[nodiscard]] bool is_wholly_inside(const BodyFaces& inner, const BodyFaces& outer) const {
         constexpr std::size_t most_points = 64;

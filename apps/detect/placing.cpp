@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <Eigen/Geometry>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -14,6 +12,7 @@
 
 #include "abut/base/error.hpp"
 #include "abut/base/index.hpp"
+#include "abut/base/rotation.hpp"
 
 namespace abut::apps {
 namespace {
@@ -56,7 +55,7 @@ Vector<3> vector_of(const Keys& keys, const std::array<const char*, 3>& names) {
 void turn(SurfaceMesh& surface, const Vector<3>& degrees) {
     const double angle = degrees.norm();
     if (angle == 0.0) return;
-    const Matrix<3> turned = Eigen::AngleAxisd(angle * radian, Eigen::Vector3d(degrees / angle)).toRotationMatrix();
+    const Matrix<3> turned = rotation_about(Vector<3>(degrees / angle), angle * radian);
     for (auto* points : {&surface.vertices, &surface.displacement})
         for (Vector<3>& x : *points) x = turned * x;
 }

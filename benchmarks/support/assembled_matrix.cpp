@@ -8,12 +8,12 @@ namespace abut::benchmark {
 namespace {
 
 using Block = Matrix<3>;
-using Elasticity = Eigen::Matrix<double, 9, 9>;
+using Elasticity = SmallMatrix<9, 9>;
 
 /// sum_j coefficients[j] u_cells[j] with blocks of Rows x 3.
 template <int Rows>
 struct LinearForm {
-    using Coefficient = Eigen::Matrix<double, Rows, 3, Eigen::DontAlign>;
+    using Coefficient = SmallMatrix<Rows, 3>;
     std::vector<std::int32_t> cells;
     std::vector<Coefficient> coefficients;
 
@@ -55,7 +55,9 @@ std::vector<Displacement> face_displacements(const mesh::Mesh<3>& mesh, const so
 /// a (x) v as a map of a: column j of the tensor is v_j a.
 Gradient::Coefficient tensor_with(const Vector<3>& v, const Block& a) {
     Gradient::Coefficient map;
-    for (int j = 0; j < 3; ++j) map.middleRows<3>(3 * j) = v[j] * a;
+    for (int j = 0; j < 3; ++j)
+        for (int k = 0; k < 3; ++k)
+            for (int i = 0; i < 3; ++i) map(3 * j + i, k) = v[j] * a(i, k);
     return map;
 }
 
@@ -92,7 +94,8 @@ void add_value_at_face(Displacement& jump, double sign, std::int32_t c, const Gr
     jump.add(c, sign * Block::Identity());
     for (std::size_t i = 0; i < gradient.cells.size(); ++i) {
         Block value = Block::Zero();
-        for (int j = 0; j < 3; ++j) value += arm[j] * gradient.coefficients[i].middleRows<3>(3 * j);
+        for (int j = 0; j < 3; ++j)
+            for (int k = 0; k < 3; ++k) value.col(k) += arm[j] * gradient.coefficients[i].col(k).segment<3>(3 * j);
         jump.add(gradient.cells[i], sign * value);
     }
 }

@@ -42,7 +42,7 @@ std::vector<geometry::Box<3>> Body::boxes(double margin) const {
     result.reserve(triangles.size());
     for (std::size_t i = 0; i < triangles.size(); ++i) {
         const auto [a, b, c] = corners(i);
-        result.push_back({(a.cwiseMin(b).cwiseMin(c)).array() - margin, (a.cwiseMax(b).cwiseMax(c)).array() + margin});
+        result.push_back(geometry::Box<3>{a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c)}.grown(margin));
     }
     return result;
 }

@@ -77,9 +77,7 @@ int abut_solid_add_box(abut_solid* solid, const char* name, const double* lower,
         std::array<int, dim> cells;
         std::copy_n(counts, static_cast<int>(dim), cells.begin());
         const auto shape = dim == 2 ? mesh::CellShape::quadrangle : mesh::CellShape::hexahedron;
-        run.add(mesh::structured_box<dim>(Eigen::Map<const Vector<dim>>(lower), Eigen::Map<const Vector<dim>>(upper), cells,
-                                          shape, name),
-                material, velocity);
+        run.add(mesh::structured_box<dim>(Vector<dim>(lower), Vector<dim>(upper), cells, shape, name), material, velocity);
     });
 }
 

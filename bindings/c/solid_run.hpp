@@ -63,9 +63,7 @@ public:
     [[nodiscard]] double ledger_value(const std::string& column);
 
 private:
-    static Vector<Dim> vector_of(const double* given) {
-        return given == nullptr ? Vector<Dim>(Vector<Dim>::Zero()) : Vector<Dim>(Eigen::Map<const Vector<Dim>>(given));
-    }
+    static Vector<Dim> vector_of(const double* given) { return given == nullptr ? Vector<Dim>::Zero() : Vector<Dim>(given); }
 
     struct NamedBond {
         std::array<std::string, 2> sides;

@@ -40,7 +40,7 @@ public:
         const py::ssize_t n = solid_.mesh().n_cells();
         py::array_t<double> stress({n, py::ssize_t{Dim}, py::ssize_t{Dim}});
         for (py::ssize_t c = 0; c < n; ++c)  // symmetric: the order of rows and columns is free
-            Eigen::Map<Matrix<Dim>>(stress.mutable_data(c)) = solid_.cells().stress(static_cast<std::int32_t>(c));
+            std::ranges::copy(solid_.cells().stress(static_cast<std::int32_t>(c)), stress.mutable_data(c));
         return stress;
     }
     [[nodiscard]] py::array_t<double> von_mises() const {

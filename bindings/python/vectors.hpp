@@ -24,7 +24,7 @@ Vector<Dim> vector_of(const py::handle& given, const char* name) {
         PyErr_Clear();
         throw py::value_error(std::string(name) + " must be " + std::to_string(Dim) + " numbers");
     }
-    return Eigen::Map<const Vector<Dim>>(values.data());
+    return Vector<Dim>(values.data());
 }
 
 /// Anything of shape (n, Dim).

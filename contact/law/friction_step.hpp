@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Core>
+#include "abut/base/vector.hpp"
 
 namespace abut::contact {
 
 /// Along the tangents of a face: one component in 2D, two in 3D.
 template <int N>
-using Along = Eigen::Matrix<double, N, 1, Eigen::DontAlign>;
+using Along = SmallMatrix<N, 1>;
 
 /// Friction state of a face.
 template <int N>

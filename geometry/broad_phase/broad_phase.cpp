@@ -26,11 +26,7 @@ struct Selection {
 
 template <int Dim>
 Box<3> lifted(const Box<Dim>& box) {
-    if constexpr (Dim == 3) return box;
-    Box<3> result{Vector<3>::Zero(), Vector<3>::Zero()};
-    result.lower.template head<Dim>() = box.lower;
-    result.upper.template head<Dim>() = box.upper;
-    return result;
+    return {in_3d<Dim>(box.lower), in_3d<Dim>(box.upper)};
 }
 
 [[noreturn]] void reject(std::size_t index, double bound) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "abut/base/eigen.hpp"
 #include "abut/geometry/broad_phase/backends.hpp"
 
 namespace abut::geometry::backend {
@@ -20,7 +21,7 @@ void build(Boxes boxes, Tree& tree) {
     leaves.reserve(boxes.size());
     for (const Box<3>& box : boxes) {
         Node* leaf = new Node;  // owned by the tree
-        leaf->bv = fcl::AABB<double>(box.lower, box.upper);
+        leaf->bv = fcl::AABB<double>(as_eigen(box.lower), as_eigen(box.upper));
         leaf->parent = nullptr;
         leaf->children[1] = nullptr;
         leaf->data = const_cast<Box<3>*>(&box);

@@ -1,7 +1,5 @@
 #include "abut/geometry/health/surface_health.hpp"
 
-#include <Eigen/Geometry>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -44,7 +44,7 @@ void check_finite(ProjectedFace<Dim> face_1, ProjectedFace<Dim> face_2, const Pl
     PlaneVector<Dim> zero = 0.0 * shift;  // NaN where a number is not finite
     for (const PlaneVector<Dim>& corner : face_1) zero += 0.0 * corner;
     for (const PlaneVector<Dim>& corner : face_2) zero += 0.0 * corner;
-    if (!(zero.array() == 0.0).all()) refuse_not_finite<Dim>(face_1, face_2, shift);
+    if (!(zero == PlaneVector<Dim>::Zero())) refuse_not_finite<Dim>(face_1, face_2, shift);
 }
 
 // What rounding takes off a + b: a + b = fl(a + b) + sum_error(a, b) exactly (Knuth).

@@ -1,4 +1,3 @@
-#include <Eigen/Geometry>  // cross()
 #include <cmath>
 #include <cstdint>
 

@@ -1,8 +1,5 @@
 #include "abut/geometry/pair_potential/pair_frame.hpp"
 
-#include <Eigen/Geometry>  // cross()
-#include <Eigen/LU>
-
 namespace abut::geometry {
 namespace {
 
@@ -89,8 +86,7 @@ PairCorners<3> in_mean_frame(const PairFrame<3>& start, const PairFrame<3>& end,
     }
     result = from_mean<3>(result);
     const Vector<3> edge_b = mean_of<3>(start.edge_b, end.edge_b), edge_c = mean_of<3>(start.edge_c, end.edge_c);
-    Eigen::Matrix3d turning;  // L^T
-    turning << e[1].cross(edge_b), e[2].cross(edge_b), e[2].cross(edge_c);
+    const auto turning = Matrix<3>::from_columns(e[1].cross(edge_b), e[2].cross(edge_b), e[2].cross(edge_c));  // L^T
     const Vector<3> lambda = -(turning.inverse() * moment);
     const Vector<3> at_b = lambda[0] * e[1] + lambda[1] * e[2], at_c = lambda[2] * e[2];
     result[0] -= at_b + at_c;

@@ -1,6 +1,5 @@
 #include "abut/geometry/pair_potential/pair_potential.hpp"
 
-#include <Eigen/Geometry>  // cross()
 #include <algorithm>
 #include <array>
 #include <cmath>

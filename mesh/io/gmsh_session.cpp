@@ -86,7 +86,7 @@ std::vector<std::size_t> read_nodes(CellSoup<Dim>& soup) {
     gmsh().nodes(tags, coordinates);
     soup.vertices.resize(tags.size());
     for (std::size_t i = 0; i < tags.size(); ++i)
-        for (std::size_t k = 0; k < Dim; ++k) soup.vertices[i][static_cast<Eigen::Index>(k)] = coordinates[3 * i + k];
+        for (std::size_t k = 0; k < Dim; ++k) soup.vertices[i][static_cast<std::ptrdiff_t>(k)] = coordinates[3 * i + k];
     soup.vertex_label.assign(tags.begin(), tags.end());
     return tags;
 }

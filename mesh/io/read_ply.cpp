@@ -150,7 +150,7 @@ private:
             Vector<3> vertex = Vector<3>::Zero();
             read_item(element, item, [&](std::size_t property, double value) {
                 for (std::size_t k = 0; k < 3; ++k)
-                    if (coordinates[k] == property) vertex[static_cast<Eigen::Index>(k)] = value;
+                    if (coordinates[k] == property) vertex[static_cast<std::ptrdiff_t>(k)] = value;
             });
             mesh_.vertices.push_back(vertex);
         }

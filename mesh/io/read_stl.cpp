@@ -53,7 +53,7 @@ void read_binary_stl(const std::string& contents, SurfaceMesh& mesh) {
             corners[i] = static_cast<std::int32_t>(mesh.vertices.size());
             Vector<3> vertex;
             for (std::size_t k = 0; k < 3; ++k)
-                vertex[static_cast<Eigen::Index>(k)] = binary_value<float>(contents, position + 4 * k, ByteOrder::little);
+                vertex[static_cast<std::ptrdiff_t>(k)] = binary_value<float>(contents, position + 4 * k, ByteOrder::little);
             mesh.vertices.push_back(vertex);
         }
         mesh.faces.append(corners);

@@ -11,8 +11,6 @@
 #include <utility>
 #include <vector>
 
-#include <Eigen/Geometry>
-
 #include "abut/base/sort_unique.hpp"
 #include "abut/geometry/box.hpp"
 #include "abut/mesh/connected_bodies.hpp"

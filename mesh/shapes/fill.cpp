@@ -1,7 +1,5 @@
 #include "abut/mesh/shapes/fill.hpp"
 
-#include <Eigen/Geometry>
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>

@@ -1,12 +1,11 @@
 #include "abut/mesh/shapes/shapes.hpp"
 
-#include <Eigen/Geometry>
-
 #include <cmath>
 #include <functional>
 #include <numbers>
 
 #include "abut/base/messages.hpp"
+#include "abut/base/rotation.hpp"
 #include "abut/mesh/io/gmsh_functions.hpp"
 #include "abut/mesh/io/gmsh_session.hpp"
 #include "abut/mesh/quality.hpp"
@@ -196,7 +195,7 @@ Mesh<Dim> placed_part(const std::string& name, const Placement<Dim>& placement, 
 }
 
 Matrix<3> turn_about(const Vector<3>& axis, int variant) {
-    return Eigen::AngleAxisd(variant * golden_angle, axis.normalized()).toRotationMatrix();
+    return rotation_about(axis.normalized(), variant * golden_angle);
 }
 
 /// Name of the side of a box with one corner at the origin.

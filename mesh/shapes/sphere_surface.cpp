@@ -60,9 +60,9 @@ Subdivision icosahedron() {
         for (std::int32_t j = i + 1; j < 12; ++j)
             for (std::int32_t k = j + 1; k < 12; ++k) {
                 if (!are_neighbours(i, j) || !are_neighbours(j, k) || !are_neighbours(k, i)) continue;
-                Matrix<3> corners;
-                corners << shape.vertices[static_cast<std::size_t>(i)], shape.vertices[static_cast<std::size_t>(j)],
-                    shape.vertices[static_cast<std::size_t>(k)];
+                const auto corners = Matrix<3>::from_columns(shape.vertices[static_cast<std::size_t>(i)],
+                                                             shape.vertices[static_cast<std::size_t>(j)],
+                                                             shape.vertices[static_cast<std::size_t>(k)]);
                 shape.triangles.push_back(corners.determinant() > 0.0 ? Subdivision::Triangle{i, j, k}
                                                                       : Subdivision::Triangle{i, k, j});
             }

@@ -167,7 +167,7 @@ void check_grid(const Vector<Dim>& lower, const Vector<Dim>& upper, const std::a
         if (counts[i] < 1)
             throw MeshError(name + ": counts[" + std::to_string(i) + "] is " + std::to_string(counts[i]) +
                             ", at least 1 is needed. Change the argument.");
-        const double side = upper[static_cast<Eigen::Index>(i)] - lower[static_cast<Eigen::Index>(i)];
+        const double side = upper[static_cast<std::ptrdiff_t>(i)] - lower[static_cast<std::ptrdiff_t>(i)];
         if (!(side > 0.0) || !std::isfinite(side))
             throw MeshError(name + ": the box is " + number(side) + " m long along " + "xyz"[i] +
                             ", a finite length above 0 is needed. Swap lower and upper.");

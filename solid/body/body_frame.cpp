@@ -1,6 +1,5 @@
 #include "abut/solid/body/body_frame.hpp"
 
-#include <Eigen/LU>
 #include <cmath>
 
 #include "abut/base/decompositions.hpp"
@@ -12,7 +11,7 @@ template <int Dim>
 AxialVector<Dim> spin_of(const Matrix<Dim>& second_moment, const AxialVector<Dim>& angular_momentum) {
     dynamics::Inertia<Dim> inertia;
     if constexpr (Dim == 2)
-        inertia << second_moment.trace();
+        inertia(0, 0) = second_moment.trace();
     else
         inertia = second_moment.trace() * Matrix<3>::Identity() - second_moment;
     return dynamics::angular_velocity<Dim>(inertia, angular_momentum);
@@ -24,9 +23,7 @@ template <>
 Matrix<2> nearest_rotation<2>(const Matrix<2>& b) {
     const double cosine = b(0, 0) + b(1, 1), sine = b(1, 0) - b(0, 1);
     const double length = std::hypot(cosine, sine);
-    Matrix<2> turn;
-    turn << cosine, -sine, sine, cosine;
-    return turn / length;
+    return Matrix<2>{{cosine, -sine}, {sine, cosine}} / length;
 }
 
 template <>

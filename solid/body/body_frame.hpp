@@ -6,12 +6,10 @@ namespace abut::solid {
 /// hat(a) b = a × b.
 template <int Dim>
 [[nodiscard]] Matrix<Dim> hat(const AxialVector<Dim>& a) {
-    Matrix<Dim> m;
     if constexpr (Dim == 2)
-        m << 0.0, -a[0], a[0], 0.0;
+        return {{0.0, -a[0]}, {a[0], 0.0}};
     else
-        m << 0.0, -a[2], a[1], a[2], 0.0, -a[0], -a[1], a[0], 0.0;
-    return m;
+        return {{0.0, -a[2], a[1]}, {a[2], 0.0, -a[0]}, {-a[1], a[0], 0.0}};
 }
 
 /// Twice the axial vector of the skew part: for M = b a^T it is a × b.
@@ -64,7 +62,7 @@ public:
     [[nodiscard]] AxialVector<Dim> carry(const AxialVector<Dim>& missing_moment) const { return to_carry_ * missing_moment; }
 
 private:
-    using AxialMatrix = Eigen::Matrix<double, Dim*(Dim - 1) / 2, Dim*(Dim - 1) / 2, Eigen::DontAlign>;
+    using AxialMatrix = SmallMatrix<Dim*(Dim - 1) / 2, Dim*(Dim - 1) / 2>;
 
     Matrix<Dim> mean_turn_ = Matrix<Dim>::Identity();
     Matrix<Dim> force_turn_ = Matrix<Dim>::Identity();

@@ -39,7 +39,7 @@ Register4 load_four(const LargeArray<double>& values, std::ptrdiff_t i) {
 /// Sums of a (x) (b, 1) over points: a row of four per component of a.
 template <int Dim>
 struct Moments {
-    using Sums = Eigen::Matrix<double, Dim, Dim + 1, Eigen::DontAlign>;
+    using Sums = SmallMatrix<Dim, Dim + 1>;
     std::array<Register4, Dim> row{};
 
     [[gnu::always_inline]] void add(const Lanes<Dim>& a, const Register4& b) {
@@ -80,7 +80,7 @@ typename Moments<Dim>::Sums sum_moments(std::int32_t begin, std::int32_t end, co
 template <int Dim, class Add>
 typename Moments<Dim>::Sums sum_moments(const RankPart<Dim>& part, std::size_t body, const Add& add) {
     using Sums = typename Moments<Dim>::Sums;
-    return part.sum_of_body(body, Sums(Sums::Zero()), [&](std::int32_t i) {
+    return part.sum_of_body(body, Sums::Zero(), [&](std::int32_t i) {
         Moments<Dim> term;
         add(term, i);
         return term.all();
@@ -131,7 +131,7 @@ void BodyFrames<Dim>::set_rest(std::span<const Vector<Dim>> rest, std::span<cons
     for (std::size_t body = 0; body < turns_.size(); ++body) {
         BodyFrame<Dim>& frame = rest_[body];
         mass_[body] = sum_of(body, 0.0, [&](std::ptrdiff_t i) { return masses[i]; });
-        const Vector<Dim> moment = sum_of(body, Vector<Dim>(Vector<Dim>::Zero()), [&](std::ptrdiff_t i) -> Vector<Dim> {
+        const Vector<Dim> moment = sum_of(body, Vector<Dim>::Zero(), [&](std::ptrdiff_t i) -> Vector<Dim> {
             return masses[i] * (rest[i] - origins[body]);
         });
         frame.centre = origins[body] + moment / mass_[body];
@@ -141,7 +141,7 @@ void BodyFrames<Dim>::set_rest(std::span<const Vector<Dim>> rest, std::span<cons
             for (int k = 0; k < Dim; ++k) weighted_arm_[4 * i + k] = masses[i] * arm[k];
             weighted_arm_[4 * i + Dim] = masses[i];
         }
-        frame.moment = sum_of(body, Matrix<Dim>(Matrix<Dim>::Zero()), [&](std::ptrdiff_t i) -> Matrix<Dim> {
+        frame.moment = sum_of(body, Matrix<Dim>::Zero(), [&](std::ptrdiff_t i) -> Matrix<Dim> {
             const Vector<Dim> arm = rest[i] - frame.centre;
             return masses[i] * arm * arm.transpose();
         });

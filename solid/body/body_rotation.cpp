@@ -1,6 +1,5 @@
 #include "abut/solid/body/body_rotation.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 
 #include "abut/base/decompositions.hpp"
@@ -50,9 +49,9 @@ std::vector<double> BodyRotation<Dim>::angles(std::span<const Vector<Dim>> u) co
     for (std::size_t body = 0; body < bodies_.size(); ++body) {
         const auto& [centre, inverse] = bodies_[body];
         // sum m u (x - centre)^T
-        const Matrix<Dim> moment = sum_of(
-            body, Matrix<Dim>(Matrix<Dim>::Zero()),
-            [&, at = centre](std::size_t c) -> Matrix<Dim> { return (masses_[c] * u[c]) * (rest_[c] - at).transpose(); });
+        const Matrix<Dim> moment = sum_of(body, Matrix<Dim>::Zero(), [&, at = centre](std::size_t c) -> Matrix<Dim> {
+            return (masses_[c] * u[c]) * (rest_[c] - at).transpose();
+        });
         angles.push_back(rotation_angle<Dim>(nearest_rotation<Dim>(Matrix<Dim>::Identity() + moment * inverse)));
     }
     return angles;

@@ -1,4 +1,5 @@
 #include "abut/solid/body/cell_points.hpp"
+#include "abut/base/rotation.hpp"
 
 #include <Eigen/LU>
 #include <algorithm>
@@ -7,6 +8,7 @@
 #include <vector>
 
 #include "abut/base/decompositions.hpp"
+#include "abut/base/eigen.hpp"
 #include "abut/solid/body/bodies.hpp"
 #include "abut/solid/part/body_cells.hpp"
 #include "abut/solid/part/rank_part.hpp"
@@ -22,12 +24,14 @@ constexpr double stays_inside = 0.25;     // of the depth of its cell behind eac
 template <int Dim>
 constexpr int n_pairs = Dim*(Dim + 1) / 2;
 
-/// Components of a symmetric matrix.
+/// Components of a symmetric matrix, then those of a vector.
 template <int Dim>
-Eigen::Matrix<double, n_pairs<Dim>, 1> packed(const Matrix<Dim>& m) {
-    Eigen::Matrix<double, n_pairs<Dim>, 1> all;
-    for (int i = 0, k = 0; i < Dim; ++i)
+SmallMatrix<n_pairs<Dim> + Dim, 1> unknowns_of(const Matrix<Dim>& m, const Vector<Dim>& v) {
+    SmallMatrix<n_pairs<Dim> + Dim, 1> all;
+    int k = 0;
+    for (int i = 0; i < Dim; ++i)
         for (int j = i; j < Dim; ++j) all[k++] = m(i, j);
+    for (int i = 0; i < Dim; ++i) all[k++] = v[i];
     return all;
 }
 /// 1 at a component of a symmetric matrix.
@@ -82,7 +86,7 @@ Matrix<Dim> own_second_moment(const mesh::Mesh<Dim>& mesh, std::int32_t cell) {
             arms.col(0) = mesh.vertices[corners[0]] - mesh.cell_centroid[cell];
             for (int k = 1; k < Dim; ++k)
                 arms.col(k) = mesh.vertices[corners[i + static_cast<std::size_t>(k) - 1]] - mesh.cell_centroid[cell];
-            const Vector<Dim> sum = arms.rowwise().sum();
+            const Vector<Dim> sum = arms * Vector<Dim>::Ones();
             constexpr double factorial = Dim == 2 ? 24.0 : 120.0;  // (Dim + 2)!
             moment += std::abs(arms.determinant()) / factorial * (arms * arms.transpose() + sum * sum.transpose());
         }
@@ -102,8 +106,8 @@ std::optional<CellPoints<Dim>> find_cell_points(const mesh::Mesh<Dim>& mesh, std
                                                 std::pair<std::int32_t, std::int32_t> cells, double density,
                                                 const RankPart<Dim>& part) {
     constexpr int n = n_pairs<Dim> + Dim;
-    using Unknowns = Eigen::Matrix<double, n, 1, Eigen::DontAlign>;
-    using Sums = Eigen::Matrix<double, n, n + 2, Eigen::DontAlign>;
+    using Unknowns = SmallMatrix<n, 1>;
+    using Sums = SmallMatrix<n, n + 2>;
     const auto sum = [&](const auto& zero, const auto& term) {
         return part.sum_of_body(static_cast<std::size_t>(body), zero, term);
     };
@@ -117,7 +121,7 @@ std::optional<CellPoints<Dim>> find_cell_points(const mesh::Mesh<Dim>& mesh, std
         sum(zero,
             [&](std::int32_t c) -> Vector<Dim> { return mesh.cell_measure[c] * (mesh.cell_centroid[c] - points.centre); }) /
         measure;
-    const Matrix<Dim> moment = sum(Matrix<Dim>(Matrix<Dim>::Zero()), [&](std::int32_t c) -> Matrix<Dim> {
+    const Matrix<Dim> moment = sum(Matrix<Dim>::Zero(), [&](std::int32_t c) -> Matrix<Dim> {
         const Vector<Dim> arm = mesh.cell_centroid[c] - points.centre;
         return mesh.cell_measure[c] * arm * arm.transpose();
     });
@@ -130,26 +134,25 @@ std::optional<CellPoints<Dim>> find_cell_points(const mesh::Mesh<Dim>& mesh, std
     // Newton's method in S and b. Columns: the values of both sides, then the derivatives of the left ones.
     bool found = false;
     for (int iteration = 0; iteration < most_placings; ++iteration) {
-        const Sums sums = sum(Sums(Sums::Zero()), [&](std::int32_t c) -> Sums {
+        const Sums sums = sum(Sums::Zero(), [&](std::int32_t c) -> Sums {
             const Vector<Dim> x = (mesh.cell_centroid[c] - points.centre) / points.size;
             const Matrix<Dim> own = own_second_moment(mesh, c) / (mesh.cell_measure[c] * points.size * points.size);
             const Vector<Dim> y = x + own * (points.slope * x + points.shift);
             Sums of_cell;
-            of_cell.col(0) << packed<Dim>(y * y.transpose()), y;
-            of_cell.col(1) << packed<Dim>(x * x.transpose() + own), zero;
+            of_cell.col(0) = unknowns_of<Dim>(y * y.transpose(), y);
+            of_cell.col(1) = unknowns_of<Dim>(x * x.transpose() + own, zero);
             for (int k = 0; k < n; ++k) {
                 const Vector<Dim> change =
                     k < n_pairs<Dim> ? Vector<Dim>(own * (unit<Dim>(k) * x)) : Vector<Dim>(own.col(k - n_pairs<Dim>));
                 const Matrix<Dim> half = change * y.transpose();
-                of_cell.col(2 + k) << packed<Dim>(half + half.transpose()), change;
+                of_cell.col(2 + k) = unknowns_of<Dim>(half + half.transpose(), change);
             }
             return mesh.cell_measure[c] / measure * of_cell;
         });
         const Unknowns missing = sums.col(1) - sums.col(0);
         found = missing.norm() <= placed_well;
         if (found) break;
-        const Eigen::Matrix<double, n, n> slope = sums.template rightCols<n>();
-        const Unknowns step = slope.fullPivLu().solve(missing);
+        const Unknowns step = as_eigen(sums.template rightCols<n>()).fullPivLu().solve(as_eigen(missing));
         if (!step.allFinite()) return std::nullopt;
         for (int k = 0; k < n_pairs<Dim>; ++k) points.slope += step[k] * unit<Dim>(k);
         points.shift += step.template tail<Dim>();
@@ -159,11 +162,11 @@ std::optional<CellPoints<Dim>> find_cell_points(const mesh::Mesh<Dim>& mesh, std
         stays = is_inside<Dim>(mesh, c, points.place(mesh, c));
     if (part.any(!stays)) return std::nullopt;
     points.inverse_x = (density * moment).inverse();
-    points.inverse_y = sum(Matrix<Dim>(Matrix<Dim>::Zero()), [&](std::int32_t c) -> Matrix<Dim> {
+    points.inverse_y = sum(Matrix<Dim>::Zero(), [&](std::int32_t c) -> Matrix<Dim> {
         const Vector<Dim> arm = points.place(mesh, c) - points.centre;
         return density * mesh.cell_measure[c] * arm * arm.transpose();
     });
-    points.inverse_y = points.inverse_y.inverse().eval();
+    points.inverse_y = points.inverse_y.inverse();
     return points;
 }
 
@@ -174,7 +177,7 @@ template <int Dim>
 template <class PositionOf>
 Matrix<Dim> Bodies<Dim>::mean_slope(std::size_t body, std::span<const Vector<Dim>> of_mesh_cells, std::int32_t on,
                                     const PositionOf& x_of) const {
-    return rank_part_->sum_of_body(body, Matrix<Dim>(Matrix<Dim>::Zero()), [&](std::int32_t c) -> Matrix<Dim> {
+    return rank_part_->sum_of_body(body, Matrix<Dim>::Zero(), [&](std::int32_t c) -> Matrix<Dim> {
         return masses_[c] * of_mesh_cells[c + on] * (x_of(c) - cell_points_[body]->centre).transpose();
     });
 }
@@ -262,7 +265,7 @@ std::vector<Vector<Dim>> Bodies<Dim>::of_points(std::span<const Vector<Dim>> dis
             moment += cell_mass(c) * (arm + displacement[c]) * arm.transpose();
             largest = std::max(largest, (displacement[c] - displacement[begin]).norm());
         }
-        const Matrix<Dim> turn = largest == 0.0 ? Matrix<Dim>(Matrix<Dim>::Identity()) : least_rotation<Dim>(moment);
+        const Matrix<Dim> turn = largest == 0.0 ? Matrix<Dim>::Identity() : least_rotation<Dim>(moment);
         rigid_->set_displacement(i, {rigid_->rest_centre(i) + shift, turn}, q);
     }
     return q;

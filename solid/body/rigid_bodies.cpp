@@ -1,6 +1,5 @@
 #include "abut/solid/body/rigid_bodies.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -12,7 +11,7 @@
 #include "abut/base/parallel.hpp"
 #include "abut/solid/part/body_cells.hpp"
 #include "abut/solid/part/rank_part.hpp"
-#include "abut/solid/part/state_of_eigen.hpp"
+#include "abut/solid/part/state_of_matrix.hpp"
 
 namespace abut::solid {
 namespace {
@@ -23,13 +22,11 @@ constexpr double settled = 1e-15;  // the last turn of Newton's method [rad]
 /// Corners of a regular simplex about the origin, as columns: the sum of their outer products is the identity times their
 /// number.
 template <int Dim>
-Eigen::Matrix<double, Dim, Dim + 1> simplex() {
-    Eigen::Matrix<double, Dim, Dim + 1> corners;
+SmallMatrix<Dim, Dim + 1> simplex() {
     if constexpr (Dim == 2)
-        corners << 0.0, -std::sqrt(1.5), std::sqrt(1.5), std::sqrt(2.0), -std::sqrt(0.5), -std::sqrt(0.5);
+        return {{0.0, -std::sqrt(1.5), std::sqrt(1.5)}, {std::sqrt(2.0), -std::sqrt(0.5), -std::sqrt(0.5)}};
     else
-        corners << 1.0, 1.0, -1.0, -1.0, 1.0, -1.0, 1.0, -1.0, 1.0, -1.0, -1.0, 1.0;
-    return corners;
+        return {{1.0, 1.0, -1.0, -1.0}, {1.0, -1.0, 1.0, -1.0}, {1.0, -1.0, -1.0, 1.0}};
 }
 
 /// Second moment of a body with density 1 about a point: sum over simplices from there to its faces, cut into simplices.
@@ -43,7 +40,7 @@ Matrix<Dim> second_moment_of(const mesh::Mesh<Dim>& mesh, std::int32_t body, con
             Matrix<Dim> arms;  // from the point to the corners of a part of the face, as columns
             arms.col(0) = mesh.vertices[corners[0]] - centre;
             for (int k = 1; k < Dim; ++k) arms.col(k) = mesh.vertices[corners[i + static_cast<std::size_t>(k) - 1]] - centre;
-            const Vector<Dim> sum = arms.rowwise().sum();
+            const Vector<Dim> sum = arms * Vector<Dim>::Ones();
             constexpr double factorial = Dim == 2 ? 24.0 : 120.0;  // (Dim + 2)!
             moment += arms.determinant() / factorial * (arms * arms.transpose() + sum * sum.transpose());
         }
@@ -84,8 +81,11 @@ RigidBodies<Dim>::RigidBodies(const mesh::Mesh<Dim>& mesh, std::span<const std::
         body.second_moment = density * second_moment_of(mesh, number, body.centre);
         body.inverse = body.second_moment.inverse();
 
+        const auto root_of = [](const Vector<Dim>& squares) {
+            return squares.unaryExpr([](double square) { return std::sqrt(std::max(square, 0.0)); });
+        };
         const SymmetricEigen<Dim> eigen = symmetric_eigen(body.second_moment);
-        const Matrix<Dim> scale = eigen.vectors * (eigen.values / body.mass).cwiseMax(0.0).cwiseSqrt().asDiagonal();
+        const Matrix<Dim> scale = eigen.vectors * root_of(eigen.values / body.mass).asDiagonal();
         for (int i = 0; i < points_per_body; ++i)
             body.rest.push_back(body.centre + scale * Vector<Dim>(simplex<Dim>().col(i)));
         bodies_.push_back(body);
@@ -190,7 +190,7 @@ void RigidBodies<Dim>::constrain_at(std::span<const Vector<Dim>> q, double dt, s
 template <int Dim>
 Matrix<Dim> RigidBodies<Dim>::constrain(Body& body, const Matrix<Dim>& lines, const Matrix<Dim>& guess,
                                         std::span<const Vector<Dim>> q, double dt, std::span<Vector<Dim>> p) const {
-    using AxialMatrix = Eigen::Matrix<double, Dim*(Dim - 1) / 2, Dim*(Dim - 1) / 2, Eigen::DontAlign>;
+    using AxialMatrix = SmallMatrix<Dim*(Dim - 1) / 2, Dim*(Dim - 1) / 2>;
     const double mass = body.mass / points_per_body;
     Matrix<Dim> momenta = Matrix<Dim>::Zero();
     for (int i = 0; i < points_per_body; ++i) momenta += p[body.first_point + i] * rest_arm(body, i).transpose();

@@ -74,8 +74,7 @@ public:
     [[nodiscard]] Vector<Dim> motion() const { return vector(of_w) / of(mass); }
     // About the centre
     [[nodiscard]] Matrix<Dim> second_moment() const {
-        return Matrix<Dim>(Eigen::Map<const Matrix<Dim>>(values_.data() + of_xx)) -
-               of(mass) * centre() * centre().transpose();
+        return Matrix<Dim>(values_.data() + of_xx) - of(mass) * centre() * centre().transpose();
     }
     [[nodiscard]] AxialVector<Dim> turning() const {
         return axial_vector(of_xw) - of(mass) * moment<Dim>(centre(), motion());
@@ -84,10 +83,8 @@ public:
 
 private:
     [[nodiscard]] double of(int i) const { return values_.values[static_cast<std::size_t>(i)]; }
-    [[nodiscard]] Vector<Dim> vector(int i) const { return Eigen::Map<const Vector<Dim>>(values_.data() + i); }
-    [[nodiscard]] AxialVector<Dim> axial_vector(int i) const {
-        return Eigen::Map<const AxialVector<Dim>>(values_.data() + i);
-    }
+    [[nodiscard]] Vector<Dim> vector(int i) const { return Vector<Dim>(values_.data() + i); }
+    [[nodiscard]] AxialVector<Dim> axial_vector(int i) const { return AxialVector<Dim>(values_.data() + i); }
 
     Values values_;
 };

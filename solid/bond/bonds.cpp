@@ -124,7 +124,7 @@ void Bonds<Dim>::take_faces() {
     for (std::size_t i = 0; i < faces.size(); ++i)
         of_faces_.push_back(
             {.measure = measure[i],
-             .stiffness = Eigen::Map<const Matrix<Dim>>(&stiffness[Dim * Dim * i]),
+             .stiffness = Matrix<Dim>(&stiffness[Dim * Dim * i]),
              .cell = faces[i] == no_face ? -1 : cell_of(mesh_, faces[i]),
              .neighbours = faces.is_own(i) ? boundary_of(cell_of(mesh_, faces[i])) : std::vector<BoundaryFace>{}});
 }
@@ -195,7 +195,7 @@ void Bonds<Dim>::append_slope(std::size_t face, const Vector<Dim>& arm) {
         const Vector<Dim> x = mesh_.cell_centroid[c] - centre;
         second_moment += x * x.transpose();
     }
-    const Vector<Dim> slope = pseudo_inverse(Eigen::MatrixXd(second_moment), flat) * arm;
+    const Vector<Dim> slope = pseudo_inverse(second_moment, flat) * arm;
     for (const std::int32_t c : cells) slope_.push_back({c, slope.dot(mesh_.cell_centroid[c] - centre)});
 }
 

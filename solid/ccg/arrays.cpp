@@ -120,14 +120,14 @@ void CcgArrays<Dim>::set_shares(std::span<const Kinematics> kinematics) {
         Vector<Dim> to_centroid = Vector<Dim>::Zero();
         double largest = 0.0;
         for (std::int32_t i = half_face_offsets[c]; i < half_face_offsets[c + 1]; ++i) {
-            const Eigen::Map<const Vector<Dim>> arm(lever_arms[i].data());
+            const Vector<Dim> arm(lever_arms[i].data());
             to_centroid += at_centroid * arm;
             largest = std::max(largest, arm.norm());
         }
         if (to_centroid.norm() <= rounding * largest) continue;
         any = true;
         for (const HalfFace& half_face : half_faces_of(c)) {
-            const Eigen::Map<const Vector<Dim>> area(faces[half_face.face].area_vector.data());
+            const Vector<Dim> area(faces[half_face.face].area_vector.data());
             const double along = cells[c].inverse_measure * to_centroid.dot(area);
             if (half_face.first == c)
                 found[half_face.face][0] -= along;

@@ -73,7 +73,7 @@ struct CcgArrays : CcgCoefficients<Dim, double> {
     [[nodiscard]] std::int32_t face_of(BoundaryFace b) const { return boundary_faces[static_cast<std::size_t>(b)]; }
     /// Out of the body.
     [[nodiscard]] Vector<Dim> normal_of(BoundaryFace b) const {
-        return Eigen::Map<const Vector<Dim>>(faces[face_of(b)].area_vector.data()).normalized();
+        return Vector<Dim>(faces[face_of(b)].area_vector.data()).normalized();
     }
     [[nodiscard]] std::span<const HalfFace> half_faces_of(std::int32_t c) const {
         return {half_faces.data() + half_face_offsets[c],

@@ -4,7 +4,8 @@
 #include <limits>
 #include <utility>
 
-#include "abut/base/decompositions.hpp"
+#include "abut/base/dense_decompositions.hpp"
+#include "abut/base/eigen.hpp"
 #include "abut/solid/ccg/directed_cells.hpp"
 #include "abut/solid/ccg/free_strains.hpp"
 #include "abut/solid/kinematics/properties.hpp"
@@ -223,10 +224,10 @@ private:
         const auto n = static_cast<Eigen::Index>(faces.size()) * Dim;
         Eigen::MatrixXd among(n, n), with_b(n, Dim);
         for (std::size_t i = 0; i < faces.size(); ++i) {
-            with_b.block<Dim, Dim>(first_row(i), 0) = free_part(faces[i]) * stiffness(cell, faces[i], b);
+            with_b.block<Dim, Dim>(first_row(i), 0) = as_eigen(free_part(faces[i]) * stiffness(cell, faces[i], b));
             for (std::size_t j = 0; j < faces.size(); ++j)
                 among.block<Dim, Dim>(first_row(i), first_row(j)) =
-                    free_part(faces[i]) * stiffness(cell, faces[i], faces[j]) * free_part(faces[j]);
+                    as_eigen(free_part(faces[i]) * stiffness(cell, faces[i], faces[j]) * free_part(faces[j]));
         }
         return {std::move(among), std::move(with_b)};
     }
@@ -241,7 +242,7 @@ private:
         Eigen::MatrixXd& b = kept.of_faces;  // of û, which is |c|/|f| z
         for (std::size_t i = 0; i < faces.size(); ++i)
             b.middleRows<Dim>(first_row(i)) *= mesh_.cell_measure[cell] / mesh_.face_measure[mesh_face(mesh_, faces[i])];
-        return b * pseudo_inverse(b.transpose() * among * b, no_stiffness) * b.transpose();
+        return b * pseudo_inverse(Eigen::MatrixXd(b.transpose() * among * b), no_stiffness) * b.transpose();
     }
 
     /// Static condensation: the minimum of the cell's energy over its corner faces when b is displaced by delta,
@@ -251,9 +252,9 @@ private:
         const std::vector<BoundaryFace> corners = corners_with(b, boundary);
         if (corners.empty()) return;
         Condensed of_corners = stiffness_of(corners, cell, b);
-        if (!conditions_.prescribed[b].isZero(0.0)) of_corners.with_b = of_corners.with_b * free_part(b);
+        if (!conditions_.prescribed[b].isZero(0.0)) of_corners.with_b = of_corners.with_b * as_eigen(free_part(b));
         const Eigen::MatrixXd answers = -compliance_of(cell, corners, of_corners.among) * of_corners.with_b;
-        const Matrix<Dim> relaxed = stiffness(cell, b, b) + of_corners.with_b.transpose() * answers;
+        const Matrix<Dim> relaxed = stiffness(cell, b, b) + Matrix<Dim>(of_corners.with_b.transpose() * answers);
         const double left = normal_stiffness(b, relaxed), measure = mesh_.face_measure[mesh_face(mesh_, b)];
         const double young = materials_[mesh_.cell_body[cell]].mean_young();
         if (left < least_stiffness * young * measure / mesh_.cell_measure[cell]) return;
@@ -273,9 +274,9 @@ private:
         Eigen::MatrixXd a = Eigen::MatrixXd::Zero(n, n);
         Eigen::MatrixXd free = Eigen::MatrixXd::Zero(n, n);
         for (std::size_t i = 0; i < boundary.size(); ++i) {
-            block(free, i, i) = free_part(boundary[i]);
+            block(free, i, i) = as_eigen(free_part(boundary[i]));
             for (std::size_t j = 0; j < boundary.size(); ++j)
-                block(a, i, j) = stiffness(cell, mesh_face(mesh_, boundary[i]), mesh_face(mesh_, boundary[j]));
+                block(a, i, j) = as_eigen(stiffness(cell, mesh_face(mesh_, boundary[i]), mesh_face(mesh_, boundary[j])));
         }
         Eigen::MatrixXd compliance = free * compliance_of(cell, boundary, free * a * free) * free;
         Eigen::MatrixXd undetermined = free - compliance * a * free;
@@ -287,7 +288,7 @@ private:
                 const BoundaryFace b = boundary[j];
                 const std::int32_t face = mesh_face(mesh_, b);
                 const Matrix<Dim> answer = block(compliance, i, j);
-                Row<Dim>::add(row.displacement, b, block(from_prescribed, i, j) * conditions_.prescribed[b]);
+                Row<Dim>::add(row.displacement, b, Matrix<Dim>(block(from_prescribed, i, j)) * conditions_.prescribed[b]);
                 Row<Dim>::add(row.traction, b, mesh_.face_measure[face] * answer);
                 if (!block(undetermined, i, j).isZero(1e-9)) row.add_stencil(affine_[b], block(undetermined, i, j));
                 for (const std::int32_t g : mesh_.cell_faces[cell])
@@ -314,14 +315,12 @@ private:
             packed.offsets.push_back(static_cast<std::int32_t>(packed.cells.size()));
             const bool prescribed = std::any_of(row.displacement.begin(), row.displacement.end(),
                                                 [](const auto& term) { return !term.weight.isZero(0.0); });
-            packed.deficit.push_back(prescribed ? Matrix<Dim>(Matrix<Dim>::Identity() - sum)
-                                                : Matrix<Dim>(Matrix<Dim>::Zero()));
+            packed.deficit.push_back(prescribed ? Matrix<Dim>(Matrix<Dim>::Identity() - sum) : Matrix<Dim>::Zero());
             for (std::size_t i = 0; i < row.displacement.size(); ++i) {
                 const auto& [face, weight] = row.displacement[i];
                 packed.load_faces.push_back(face);
                 packed.from_displacement.push_back(weight);
-                packed.from_traction.push_back(row.traction.empty() ? Matrix<Dim>(Matrix<Dim>::Zero())
-                                                                    : row.traction[i].weight);
+                packed.from_traction.push_back(row.traction.empty() ? Matrix<Dim>::Zero() : row.traction[i].weight);
             }
             packed.load_offsets.push_back(static_cast<std::int32_t>(packed.load_faces.size()));
             for (const auto& [face, answer] : row.answers) {

@@ -163,7 +163,7 @@ auto CappedJumps<Dim>::advance(std::ptrdiff_t cell, std::ptrdiff_t half_face, co
     next_[i] = memory_[i];
     if (end.jump.norm() <= largest_[i]) return end;
     const Matrix<Dim> deformed = Matrix<Dim>::Identity() + gradient, back = deformed.inverse();
-    const Vector<Dim> normal = back.transpose() * Eigen::Map<const Vector<Dim>>(arrays_.faces[face].area_vector.data());
+    const Vector<Dim> normal = back.transpose() * Vector<Dim>(arrays_.faces[face].area_vector.data());
     const Vector<Dim> yielded = excess(half_face, limited(half_face, end.jump, normal));
     if (yielded.isZero(0.0)) return end;
     next_[i] = memory_[i] + back * yielded;
@@ -210,7 +210,7 @@ void CappedJumps<Dim>::put_memory(std::ptrdiff_t cell, std::vector<double>& valu
 template <int Dim>
 void CappedJumps<Dim>::set_memory(std::ptrdiff_t cell, std::span<const double> values) {
     for (std::int32_t i = arrays_.half_face_offsets[cell]; i < arrays_.half_face_offsets[cell + 1]; ++i) {
-        memory_[i] = next_[i] = Eigen::Map<const Vector<Dim>>(values.data());
+        memory_[i] = next_[i] = Vector<Dim>(values.data());
         if (!has_cap(i) && !memory_[i].isZero(0.0)) largest_[static_cast<std::size_t>(i)] = never_reached;
         elastic_[i].setConstant(not_known);
         values = values.subspan(Dim);

@@ -92,8 +92,7 @@ LaneTensor<Dim, Real> CcgSweeps<Dim, Real>::sum_capped_jumps(std::int32_t c, dou
                                       : capped_->at(i, jumped, g);
         const Vector<Dim> gradient = coefficients_.faces[face].jump_stiffness * elastic.jump;
         direct += gradient;
-        sum += gradient *
-               (Eigen::Map<const Vector<Dim>>(coefficients_.lever_arms[i].data()) - 0.5 * elastic.lasting).transpose();
+        sum += gradient * (Vector<Dim>(coefficients_.lever_arms[i].data()) - 0.5 * elastic.lasting).transpose();
     }
     store(load_packed<Dim>(direct), direct_, c);
     return load_packed<Dim>(Matrix<Dim>(coefficients_.cells[c].inverse_measure * sum));
@@ -106,8 +105,7 @@ template <int Dim, class Real>
 Lanes<Dim, Real> CcgSweeps<Dim, Real>::elastic_jump(std::int32_t c, std::int32_t half_face) const {
     const Vectors all = jump(c, half_face);
     if (!capped_ || !capped_->contains(c)) return all;
-    const Matrix<Dim> g =
-        finite_.contains(c) ? gradient_at_face(arrays_.half_faces[half_face].face) : Matrix<Dim>(Matrix<Dim>::Zero());
+    const Matrix<Dim> g = finite_.contains(c) ? gradient_at_face(arrays_.half_faces[half_face].face) : Matrix<Dim>::Zero();
     return load_packed<Dim>(capped_->at(half_face, unload(all), g).jump);
 }
 

@@ -61,7 +61,7 @@ Matrix<Dim> CcgSweeps<Dim, Real>::stress_beside(std::int32_t c, const Matrix<Dim
 template <int Dim, class Real>
 void CcgSweeps<Dim, Real>::add_stress_of_material(std::int32_t c) {
     const bool is_directed = arrays_.directed.contains(c);
-    add_stress(c, stress_beside(c, is_directed ? unload(load_tensor<Dim>(g_, c)) : Matrix<Dim>(Matrix<Dim>::Zero())));
+    add_stress(c, stress_beside(c, is_directed ? unload(load_tensor<Dim>(g_, c)) : Matrix<Dim>::Zero()));
 }
 
 /// Adds what contact adds to the stress of a cell, and what its free face does.

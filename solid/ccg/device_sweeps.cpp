@@ -55,8 +55,7 @@ void DeviceSweeps<Dim>::run(const LoadCell& load_cell, const BoundaryLoad<Dim>& 
     parallel_each(arrays_.n_cells(), [&](std::ptrdiff_t c) { store(load_cell(c), staged.u.data, c); });
     const auto gradient = kernels_.gradient(plain<double>(load.displacement), plain<double>(load.traction),
                                             !corrections.faces.empty(), {moment_cells_, moment_stresses_});
-    parallel_each(arrays_.n_cells(),
-                  [&](std::ptrdiff_t c) { result[c] = Eigen::Map<const Vector<Dim>>(gradient.data() + Dim * c); });
+    parallel_each(arrays_.n_cells(), [&](std::ptrdiff_t c) { result[c] = Vector<Dim>(gradient.data() + Dim * c); });
     has_boundary_y_ = has_state_ = false;
 }
 

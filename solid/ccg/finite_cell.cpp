@@ -1,6 +1,5 @@
 #include "abut/solid/ccg/finite_cell.hpp"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
@@ -24,11 +23,9 @@ double stretch(double contraction, const Matrix<3>& y) {
 
 /// e_1 along y_1, e_3 normal to both tangents.
 Matrix<3> frame_of(const Matrix<3>& y) {
-    const Eigen::Vector3d e_1 = y.col(0).normalized();
-    const Eigen::Vector3d e_3 = Eigen::Vector3d(y.col(0)).cross(Eigen::Vector3d(y.col(1))).normalized();
-    Matrix<3> frame;
-    frame << e_1, e_3.cross(e_1), e_3;
-    return frame;
+    const Vector<3> e_1 = y.col(0).normalized();
+    const Vector<3> e_3 = y.col(0).cross(y.col(1)).normalized();
+    return Matrix<3>::from_columns(e_1, e_3.cross(e_1), e_3);
 }
 
 Vector<3> cross(const Vector<3>& a, const Vector<3>& b) { return moment<3>(a, b); }
@@ -64,11 +61,10 @@ CellStretch cell_stretch(const Matrix<Dim>& g) {
 template <int Dim>
 CellStretch condensed_stretch(const FreeCell<Dim>& free, double contraction, const Matrix<Dim>& g) {
     const Matrix<Dim> f = free.axes + g * free.axes;
-    const Eigen::Matrix<double, Dim - 1, Dim - 1> metric =
-        f.template leftCols<Dim - 1>().transpose() * f.template leftCols<Dim - 1>();
+    const SmallMatrix<Dim - 1, Dim - 1> metric = f.template leftCols<Dim - 1>().transpose() * f.template leftCols<Dim - 1>();
     const double square = normal_stretch_squared<Dim>(free, contraction, g);
     if (!(square >= least_normal_square)) return {0.0, 0.0};
-    const double in_plane = 0.5 * (metric - Eigen::Matrix<double, Dim - 1, Dim - 1>::Identity()).norm();
+    const double in_plane = 0.5 * (metric - SmallMatrix<Dim - 1, Dim - 1>::Identity()).norm();
     return {std::sqrt(square * metric.determinant()), std::hypot(in_plane, 0.5 * (square - 1.0))};
 }
 
@@ -108,8 +104,8 @@ void CondensedStep<3>::set_space(double contraction, const Matrix<3>& y_0, const
     z_ = 0.5 * (at_0 * frame_0.col(2) + at_1 * frame_1.col(2));
     const Vector<3> e_2 = frame_.col(1), e_3 = frame_.col(2);
     const Vector<3> change_1 = y_1.col(0) - y_0.col(0), change_2 = y_1.col(1) - y_0.col(1);
-    Matrix<3> transposed;  // L^T
-    transposed << cross(e_2, y_.col(0)), cross(e_3, y_.col(0)), cross(e_3, y_.col(1));
+    const auto transposed =
+        Matrix<3>::from_columns(cross(e_2, y_.col(0)), cross(e_3, y_.col(0)), cross(e_3, y_.col(1)));  // L^T
     to_angles_ = -transposed.inverse();
     const Vector<3> omega = to_angles_.transpose() * Vector<3>(e_2.dot(change_1), e_3.dot(change_1), e_3.dot(change_2));
     stretch_arm_ = e_3 - 0.25 * cross(omega, cross(omega, e_3));

@@ -130,7 +130,7 @@ void CcgSweeps<Dim, Real>::set_push_of_contact(std::int32_t c) {
 template <int Dim, class Real>
 void CcgSweeps<Dim, Real>::add_linear_stress(std::int32_t c) {
     const bool flows = plastic_ && plastic_->contains(c);
-    const Matrix<Dim> elastic = flows ? elastic_stress_of_stage(c) : Matrix<Dim>(Matrix<Dim>::Zero());
+    const Matrix<Dim> elastic = flows ? elastic_stress_of_stage(c) : Matrix<Dim>::Zero();
     if (steps_ && viscous_ && viscous_->contains(c))
         add_stress(c, viscous_->stress(c, Matrix<Dim>::Zero(), linear_change(c), dt_));
     if (!flows) return;
@@ -207,7 +207,7 @@ void CcgSweeps<Dim, Real>::advance(std::int32_t c, std::int32_t inelastic, const
     }
     const FreeCell<Dim>& free = finite_.free()[position];
     const auto shape = start.shape(inelastic);
-    end.shape(inelastic) = shape;
+    end.set_shape(inelastic, shape);
     std::ranges::copy(before, after.begin());
     const LeastEnergy<Dim> at_first(free, end.law(inelastic), g, shape);
     advance_to(at_first.gradient());
@@ -217,7 +217,7 @@ void CcgSweeps<Dim, Real>::advance(std::int32_t c, std::int32_t inelastic, const
         return;
     }
     const LeastEnergy<Dim> least(free, SteppedLaw<Dim>(law, dt_, before, after), g, shape);
-    end.shape(inelastic) = least.shape();
+    end.set_shape(inelastic, least.shape());
     advance_to(least.gradient());
 }
 

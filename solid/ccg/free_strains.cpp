@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <numbers>
 
-#include "abut/base/decompositions.hpp"
+#include "abut/base/dense_decompositions.hpp"
+#include "abut/base/eigen.hpp"
 
 namespace abut::solid {
 namespace {

@@ -1,17 +1,11 @@
 #pragma once
 // Private to the sources of this layer.
+#include <Eigen/Core>
 #include <span>
 
-#include "abut/base/vector.hpp"
+#include "abut/solid/ccg/free_face_of_cell.hpp"
 
 namespace abut::solid {
-
-/// A boundary face of a cell, and in which directions it is free.
-template <int Dim>
-struct FreeFaceOfCell {
-    Vector<Dim> normal;     ///< of unit length, out of the cell
-    Matrix<Dim> free_part;  ///< projector onto the directions that are not prescribed
-};
 
 /// Orthonormal combinations of z = |f|/|c| û_f of a cell's free faces that balance the stress of the cell, one per
 /// column (n_faces Dim, n_kept). docs/method.md, Space.

@@ -131,7 +131,7 @@ void KeptEnds<Dim>::set_defect(std::int32_t c, bool flows, double of_capped_jump
 template <int Dim>
 StepDefect<Dim> KeptEnds<Dim>::defect(std::int32_t c) const {
     const double* of_cell = defects_.data() + n_of_defect * c;
-    StepDefect<Dim> defect{.energy = of_cell[0], .rounding = 0.0, .moment = Eigen::Map<const AxialVector<Dim>>(of_cell + 1)};
+    StepDefect<Dim> defect{.energy = of_cell[0], .rounding = 0.0, .moment = AxialVector<Dim>(of_cell + 1)};
     if (!finite_.has_law(c)) return defect;
     const double measure = 1.0 / coefficients_.cells[c].inverse_measure;
     double size = start.energy[c] + end.energy[c];

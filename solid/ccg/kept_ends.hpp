@@ -1,5 +1,6 @@
 #pragma once
 // Private to the sources of this layer.
+#include <algorithm>
 #include <memory>
 #include <span>
 #include <utility>
@@ -44,13 +45,18 @@ public:
         return std::span(values_).subspan(static_cast<std::size_t>(cell.begin), static_cast<std::size_t>(cell.size));
     }
     /// LeastEnergy::shape of a cell that has free faces.
-    [[nodiscard]] Eigen::Map<Matrix<Dim>> shape(std::int32_t index) {
-        const auto& cell = finite_.inelastic_cell(index);
-        return Eigen::Map<Matrix<Dim>>(values_.data() + cell.begin + cell.size);
+    [[nodiscard]] Matrix<Dim> shape(std::int32_t index) const { return Matrix<Dim>(values_.data() + begin_of_shape(index)); }
+    void set_shape(std::int32_t index, const Matrix<Dim>& shape) {
+        std::ranges::copy(shape, values_.data() + begin_of_shape(index));
     }
     [[nodiscard]] const StoredEnergy<Dim>& law(std::int32_t index) const { return laws_[static_cast<std::size_t>(index)]; }
 
 private:
+    [[nodiscard]] std::ptrdiff_t begin_of_shape(std::int32_t index) const {
+        const auto& cell = finite_.inelastic_cell(index);
+        return cell.begin + cell.size;
+    }
+
     const FiniteCells<Dim>& finite_;
     std::vector<double> values_;
     std::vector<FrozenLaw<Dim>> laws_;

@@ -1,11 +1,12 @@
 #include "abut/solid/ccg/least_energy.hpp"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
+
+#include "abut/base/eigen.hpp"
 
 namespace abut::solid {
 namespace {
@@ -18,21 +19,16 @@ constexpr double first_square = 0.05;  // of the stretch across that the search 
 /// the second axis is in the plane of it and of the first normal as affine faces carry it.
 template <int Dim>
 Matrix<Dim> principal_frame_of(const Matrix<Dim>& y, bool has_one_normal) {
-    Matrix<Dim> frame;
+    const Vector<Dim> along = y.col(0).normalized();
     if constexpr (Dim == 2) {
-        const Vector<2> along = Vector<2>(y.col(0)).normalized();
-        frame << along, Vector<2>(-along[1], along[0]);
+        return Matrix<2>::from_columns(along, Vector<2>(-along[1], along[0]));
+    } else if (has_one_normal) {
+        const Vector<3> normal = y.col(0).cross(y.col(1)).normalized();
+        return Matrix<3>::from_columns(along, normal.cross(along), normal);
     } else {
-        const Eigen::Vector3d along = Eigen::Vector3d(y.col(0)).normalized(), second = y.col(1);
-        if (has_one_normal) {
-            const Eigen::Vector3d normal = Eigen::Vector3d(y.col(0)).cross(second).normalized();
-            frame << along, normal.cross(along), normal;
-        } else {
-            const Eigen::Vector3d across = (second - along.dot(second) * along).normalized();
-            frame << along, across, along.cross(across);
-        }
+        const Vector<3> across = (y.col(1) - along.dot(y.col(1)) * along).normalized();
+        return Matrix<3>::from_columns(along, across, along.cross(across));
     }
-    return frame;
 }
 
 }  // namespace
@@ -74,18 +70,18 @@ LeastEnergy<Dim>::LeastEnergy(const FreeCell<Dim>& free, const StoredEnergy<Dim>
 template <int Dim>
 template <int n>
 void LeastEnergy<Dim>::minimise(std::array<Matrix<Dim>, n> directions) {
-    using Unknowns = Eigen::Matrix<double, n, 1>;
+    using Unknowns = SmallMatrix<n, 1>;
     std::array<Matrix<Dim>, n> changes;
     response_ = law_->at(gradient_);
     for (int step = 0; step < most_steps; ++step) {
         Unknowns residual;
-        Eigen::Matrix<double, n, n> tangent;
+        SmallMatrix<n, n> tangent;
         law_->stress_changes(gradient_, directions, changes);
         for (int l = 0; l < n; ++l) {
             for (int k = 0; k < n; ++k) tangent(k, l) = directions[k].cwiseProduct(changes[l]).sum();
             residual[l] = directions[l].cwiseProduct(response_.stress).sum();
         }
-        const Unknowns a = -tangent.ldlt().solve(residual);
+        const Unknowns a = -Unknowns(as_eigen(tangent).ldlt().solve(as_eigen(residual)));
         Matrix<Dim> change = Matrix<Dim>::Zero();
         for (int k = 0; k < n; ++k) change += a[k] * directions[k];
         const bool is_last = change.norm() <= last_step;
@@ -122,7 +118,7 @@ template <int Dim>
 void LeastEnergy<Dim>::set_edge(const Matrix<Dim>& shape) {
     if constexpr (Dim == 3) {
         Matrix<3> wanted = axes_ + gradient_ * axes_;
-        wanted.template rightCols<2>() = frame_ * shape.template rightCols<2>();
+        for (int k = 1; k < 3; ++k) wanted.col(k) = frame_ * shape.col(k);
         gradient_ = (wanted - axes_) * axes_.transpose();
         const Vector<3> along = frame_.col(0), u = frame_.col(1), v = frame_.col(2), n_1 = axes_.col(1), n_2 = axes_.col(2);
         minimise<5>({along * n_1.transpose(), u * n_1.transpose(), along * n_2.transpose(), u * n_2.transpose(),

@@ -17,7 +17,9 @@ constexpr double of_rounding = 1e-12;
 /// Not below the spectral norm; it for multiples of the identity.
 template <int Dim>
 double norm_bound(const Matrix<Dim>& m) {
-    const double columns = m.cwiseAbs().colwise().sum().maxCoeff(), rows = m.cwiseAbs().rowwise().sum().maxCoeff();
+    const Matrix<Dim> sizes = m.cwiseAbs();
+    const double columns = (sizes.transpose() * Vector<Dim>::Ones()).maxCoeff(),
+                 rows = (sizes * Vector<Dim>::Ones()).maxCoeff();
     return std::min(m.norm(), std::sqrt(columns * rows));
 }
 
@@ -73,7 +75,7 @@ double MotionBound<Dim>::corner_amplification(BoundaryFace face, const Vector<Di
     add(own, Matrix<Dim>::Identity());
     add_boundary_face(face, 1.0);
     for (const HalfFace& half_face : arrays_.half_faces_of(own)) {
-        const auto area = Eigen::Map<const Vector<Dim>>(arrays_.faces[half_face.face].area_vector.data());
+        const auto area = Vector<Dim>(arrays_.faces[half_face.face].area_vector.data());
         const double share = (half_face.first == own ? 1.0 : -1.0) * arrays_.cells[own].inverse_measure * area.dot(arm);
         if (const BoundaryFace b = arrays_.boundary_index[half_face.face]; b != no_face) {
             add_boundary_face(b, share);

@@ -7,7 +7,9 @@
 #include <numbers>
 #include <utility>
 
+#include "abut/base/eigen.hpp"
 #include "abut/base/parallel.hpp"
+#include "abut/solid/ccg/free_strains.hpp"
 #include "abut/solid/kinematics/properties.hpp"
 #include "abut/solid/material/rising_root.hpp"
 
@@ -36,7 +38,7 @@ constexpr std::array<std::pair<int, int>, Dim == 2 ? 1 : 3> shears = [] {
 template <class Strain>
 [[gnu::always_inline]] inline Strain deviator_of(Strain strain) {
     const double mean = strain.template head<3>().sum() * third;
-    strain.template head<3>().array() -= mean;
+    for (int i = 0; i < 3; ++i) strain[i] -= mean;
     return strain;
 }
 
@@ -70,26 +72,26 @@ auto PlasticCells<Dim>::response_of(const Material& material, std::span<const Fr
     Response response;
     Stiffness& stiffness = response.stiffness;
     stiffness = 2.0 * material.mu() * Stiffness::Identity();
-    stiffness.template topLeftCorner<3, 3>().array() += material.lambda();
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j) stiffness(i, j) += material.lambda();
     if (!free.empty()) {
         Eigen::MatrixXd strains(n_strains, std::ssize(free) * Dim);
         for (std::size_t i = 0; i < free.size(); ++i)
             for (int j = 0; j < Dim; ++j)
                 strains.col(static_cast<Eigen::Index>(i) * Dim + j) =
-                    packed(free[i].free_part.col(j) * free[i].normal.transpose());
+                    as_eigen(packed(free[i].free_part.col(j) * free[i].normal.transpose()));
         strains *= balancing_combinations<Dim>(free).of_faces;
-        const Eigen::MatrixXd stresses = stiffness * strains;
+        const Eigen::MatrixXd stresses = as_eigen(stiffness) * strains;
         const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(strains.transpose() * stresses);
         for (Eigen::Index i = 0; i < solver.eigenvalues().size(); ++i) {
             const Eigen::VectorXd relaxed = stresses * solver.eigenvectors().col(i);
-            stiffness -= relaxed * relaxed.transpose() / solver.eigenvalues()[i];
+            stiffness -= Stiffness(relaxed * relaxed.transpose() / solver.eigenvalues()[i]);
         }
     }
     Stiffness of_deviators;
-    for (int j = 0; j < n_strains; ++j)
-        of_deviators.col(j) = deviator_of(Strain(stiffness * deviator_of(Strain(Strain::Unit(j)))));
+    for (int j = 0; j < n_strains; ++j) of_deviators.col(j) = deviator_of(Strain(stiffness * deviator_of(Strain::Unit(j))));
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, n_strains, n_strains>> solver(
-        Eigen::Matrix<double, n_strains, n_strains>(0.5 * (of_deviators + of_deviators.transpose())));
+        as_eigen(0.5 * (of_deviators + of_deviators.transpose())));
     response.axes = solver.eigenvectors();
     response.values = solver.eigenvalues();
     for (int i = 0; i < n_strains; ++i)
@@ -148,9 +150,9 @@ void PlasticCells<Dim>::make_push(const CcgArrays<Dim>& arrays, std::int32_t cel
     for (const HalfFace& half_face : arrays.half_faces_of(cell)) {
         const BoundaryFace b = arrays.boundary_index[half_face.face];
         if (b == no_face || conditions.prescribed[b].isIdentity(0.0)) continue;
-        Shift& shift = shifts_.emplace_back(Shift{b, Eigen::Matrix<double, Dim, n_strains, Eigen::DontAlign>::Zero()});
+        Shift& shift = shifts_.emplace_back(Shift{b, SmallMatrix<Dim, n_strains>::Zero()});
         const BoundaryReconstruction<Dim>& boundary = arrays.boundary;
-        const Vector<Dim> area = Eigen::Map<const Vector<Dim>>(arrays.faces[half_face.face].area_vector.data());
+        const Vector<Dim> area = Vector<Dim>(arrays.faces[half_face.face].area_vector.data());
         for (int k = 0; k < n_strains; ++k) {
             const Matrix<Dim> stress = unpacked(Strain(response_inside(of).stiffness.col(k)));
             Vector<Dim> moved = Vector<Dim>::Zero();
@@ -158,7 +160,7 @@ void PlasticCells<Dim>::make_push(const CcgArrays<Dim>& arrays, std::int32_t cel
                 moved += boundary.from_traction[i] * (stress * arrays.normal_of(boundary.load_faces[i]));
             shift.moved.col(k) = moved;
             const Matrix<Dim> of_gradient = arrays.cells[cell].inverse_measure * moved * area.transpose();
-            push.tilt.col(k) += Eigen::Map<const Eigen::Matrix<double, Dim * Dim, 1>>(of_gradient.data());
+            push.tilt.col(k) += SmallMatrix<Dim * Dim, 1>(of_gradient.data());
         }
     }
     push.end_shift = static_cast<std::int32_t>(shifts_.size());
@@ -184,8 +186,8 @@ Vector<Dim> PlasticCells<Dim>::moved(std::ptrdiff_t cell, BoundaryFace face) con
 template <int Dim>
 Matrix<Dim> PlasticCells<Dim>::tilted(std::ptrdiff_t cell) const {
     const Push& push = pushes_[static_cast<std::size_t>(surfaces_[number(cell)].push)];
-    const Eigen::Matrix<double, Dim * Dim, 1> tilt = push.tilt * at(cell).memory.plastic;
-    return Eigen::Map<const Matrix<Dim>>(tilt.data());
+    const SmallMatrix<Dim * Dim, 1> tilt = push.tilt * at(cell).memory.plastic;
+    return Matrix<Dim>(tilt.data());
 }
 
 template <int Dim>
@@ -216,7 +218,7 @@ void PlasticCells<Dim>::set_surface(std::size_t number) {
 template <int Dim>
 auto PlasticCells<Dim>::push_on(std::size_t number) const -> Strain {
     const std::int32_t push = surfaces_[number].push;
-    return push < 0 ? Strain(Strain::Zero()) : pushes_[static_cast<std::size_t>(push)].stress;
+    return push < 0 ? Strain::Zero() : pushes_[static_cast<std::size_t>(push)].stress;
 }
 
 /// Deviator of C : eps.
@@ -371,7 +373,7 @@ void PlasticCells<Dim>::put_memory(std::ptrdiff_t cell, std::vector<double>& val
 template <int Dim>
 void PlasticCells<Dim>::set_memory(std::ptrdiff_t cell, std::span<const double> values) {
     const std::size_t n = number(cell);
-    cells_[n].memory = memory_of(cells_[n], Eigen::Map<const Strain>(values.data()), values[n_strains]);
+    cells_[n].memory = memory_of(cells_[n], Strain(values.data()), values[n_strains]);
     set_surface(n);
     flows_[n] = 0;
     driving_[n] = unknown();

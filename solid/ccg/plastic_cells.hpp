@@ -11,7 +11,7 @@
 #include "abut/solid/boundary/boundary_conditions.hpp"
 #include "abut/solid/ccg/arrays.hpp"
 #include "abut/solid/ccg/ccg.hpp"
-#include "abut/solid/ccg/free_strains.hpp"
+#include "abut/solid/ccg/free_face_of_cell.hpp"
 #include "abut/solid/kinematics/kinematics.hpp"
 #include "abut/solid/material/flow_stress.hpp"
 #include "abut/solid/material/material.hpp"
@@ -61,7 +61,7 @@ public:
         for (std::int32_t i = push.first_shift; i < push.end_shift; ++i)
             sum -= shifts_[static_cast<std::size_t>(i)].moved.transpose() *
                    (gradient(shifts_[static_cast<std::size_t>(i)].face) / at(cell).measure);
-        push.stress = sum - push.tilt.transpose() * Eigen::Map<const Eigen::Matrix<double, Dim * Dim, 1>>(moment.data());
+        push.stress = sum - push.tilt.transpose() * SmallMatrix<Dim * Dim, 1>(moment.data());
         make_deviator(push.stress);
     }
     /// Work of contact in the step by what flow has moved, had that moved along [J]: a part of `loss`.
@@ -108,8 +108,8 @@ private:
     /// Components of a symmetric tensor in space; in the plane, of one without shear out of it. Products of vectors are
     /// those of tensors.
     static constexpr int n_strains = Dim == 2 ? 4 : 6;
-    using Strain = Eigen::Matrix<double, n_strains, 1, Eigen::DontAlign>;
-    using Stiffness = Eigen::Matrix<double, n_strains, n_strains, Eigen::DontAlign>;
+    using Strain = SmallMatrix<n_strains, 1>;
+    using Stiffness = SmallMatrix<n_strains, n_strains>;
     [[nodiscard]] static Strain packed(const Matrix<Dim>& tensor);
     [[nodiscard]] static Matrix<Dim> unpacked(const Strain& strain);
 
@@ -143,15 +143,15 @@ private:
     /// How p moves a boundary face: by moved p.
     struct Shift {
         BoundaryFace face;
-        Eigen::Matrix<double, Dim, n_strains, Eigen::DontAlign> moved;
+        SmallMatrix<Dim, n_strains> moved;
     };
     /// Push of contact on a cell that moves faces.
     struct Push {
-        std::size_t number;                                                  // of the cell
-        std::int32_t first_shift, end_shift;                                 // of its faces
-        Eigen::Matrix<double, Dim * Dim, n_strains, Eigen::DontAlign> tilt;  // what p makes of G
-        Strain stress = Strain::Zero();                                      // of contact in the step, on p
-        double work = 0.0;                                                   // of it in the step
+        std::size_t number;                      // of the cell
+        std::int32_t first_shift, end_shift;     // of its faces
+        SmallMatrix<Dim * Dim, n_strains> tilt;  // what p makes of G
+        Strain stress = Strain::Zero();          // of contact in the step, on p
+        double work = 0.0;                       // of it in the step
     };
     void make_push(const CcgArrays<Dim>& arrays, std::int32_t cell, const FaceConditions<Dim>& conditions);
     static void make_deviator(Strain& strain);

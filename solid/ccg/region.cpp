@@ -9,7 +9,7 @@ namespace {
 
 template <int Dim>
 Vector<Dim> vector(const std::array<double, Dim>& a) {
-    return Eigen::Map<const Vector<Dim>>(a.data());
+    return Vector<Dim>(a.data());
 }
 
 template <int Dim>

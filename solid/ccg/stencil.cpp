@@ -32,7 +32,7 @@ struct BodyCentroids {
 
     [[nodiscard]] std::size_t kdtree_get_point_count() const { return points.size(); }
     [[nodiscard]] double kdtree_get_pt(std::size_t i, std::size_t axis) const {
-        return points[i][static_cast<Eigen::Index>(axis)];
+        return points[i][static_cast<std::ptrdiff_t>(axis)];
     }
     template <class Bounds>
     bool kdtree_get_bbox(Bounds&) const {

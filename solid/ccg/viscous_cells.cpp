@@ -30,8 +30,8 @@ Matrix<Dim> volume_of_strain(const Material& material, const FreeCell<Dim>* free
         const Vector<Dim> along = free->axes.col(0);
         return left / along.dot(metric * along) * along * along.transpose();
     }
-    const Eigen::Matrix<double, Dim, Dim - 1> tangents = free->axes.template leftCols<Dim - 1>();
-    const Eigen::Matrix<double, Dim - 1, Dim - 1> in_plane = tangents.transpose() * metric * tangents;
+    const SmallMatrix<Dim, Dim - 1> tangents = free->axes.template leftCols<Dim - 1>();
+    const SmallMatrix<Dim - 1, Dim - 1> in_plane = tangents.transpose() * metric * tangents;
     return 2.0 * material.mu() / material.wave_modulus() * tangents * in_plane.inverse() * tangents.transpose();
 }
 
@@ -164,8 +164,8 @@ void ViscousCells<Dim>::put_memory(std::ptrdiff_t cell, std::vector<double>& val
 template <int Dim>
 void ViscousCells<Dim>::set_memory(std::ptrdiff_t cell, std::span<const double> values) {
     Rates& rates = at(cell).before;
-    rates.strain = Eigen::Map<const Matrix<Dim>>(values.data());
-    rates.velocity = Eigen::Map<const Vector<Dim>>(values.data() + Dim * Dim);
+    rates.strain = Matrix<Dim>(values.data());
+    rates.velocity = Vector<Dim>(values.data() + Dim * Dim);
     const std::span<const double> rest = values.subspan(Dim * Dim + Dim);
     rates.volume = rest[0];
     rates.deforms_known = rest[1] != 0.0;

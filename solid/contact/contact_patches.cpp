@@ -76,8 +76,10 @@ template <int Dim>
 std::vector<dynamics::Hold<Dim>> holds_of_cell(const Ccg<Dim>& ccg, std::int32_t cell) {
     std::vector<dynamics::Hold<Dim>> holds;
     for (const BoundaryFace face : ccg.prescribed_faces_of(cell))
-        for (const Vector<Dim> kept : ccg.prescribed()[face].colwise())
+        for (int j = 0; j < Dim; ++j) {
+            const Vector<Dim> kept = ccg.prescribed()[face].col(j);
             if (kept.norm() > smallest_part) holds.push_back({ccg.centroid(face), kept.normalized()});
+        }
     return holds;
 }
 

@@ -83,7 +83,7 @@ void Obstacles<Dim>::displace(double time, std::span<Vector<Dim>> faces) const {
 
 template <int Dim>
 void Obstacles<Dim>::clear_forces() {
-    std::ranges::fill(force_, Vector<Dim>(Vector<Dim>::Zero()));
+    std::ranges::fill(force_, Vector<Dim>::Zero());
 }
 
 template <int Dim>

@@ -15,7 +15,7 @@ namespace {
 
 template <class Array>
 void append(std::vector<double>& values, const Array& array) {
-    for (const double value : array.reshaped()) values.push_back(value);
+    for (const double value : array) values.push_back(value);
 }
 
 template <int Dim>

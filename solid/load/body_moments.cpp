@@ -7,7 +7,7 @@
 #include "abut/base/messages.hpp"
 #include "abut/base/parallel.hpp"
 #include "abut/dynamics/point_system.hpp"
-#include "abut/solid/part/state_of_eigen.hpp"
+#include "abut/solid/part/state_of_matrix.hpp"
 
 namespace abut::solid {
 
@@ -102,10 +102,10 @@ template <int Dim>
 auto BodyMoments<Dim>::middle_of(const Held& held, Points q_0, Points q_1) const -> Middle {
     const std::int32_t body = held.law.body;
     const auto at = [&](std::int32_t i) -> Vector<Dim> { return bodies_.rest()[i] + 0.5 * (q_0[i] + q_1[i]); };
-    const Vector<Dim> moment_of_mass = sum_of(body, Vector<Dim>(Vector<Dim>::Zero()),
-                                              [&](std::int32_t i) -> Vector<Dim> { return bodies_.masses()[i] * at(i); });
+    const Vector<Dim> moment_of_mass =
+        sum_of(body, Vector<Dim>::Zero(), [&](std::int32_t i) -> Vector<Dim> { return bodies_.masses()[i] * at(i); });
     Middle middle{moment_of_mass / held.mass, Matrix<Dim>::Zero()};
-    middle.second_moment = sum_of(body, Matrix<Dim>(Matrix<Dim>::Zero()), [&](std::int32_t i) -> Matrix<Dim> {
+    middle.second_moment = sum_of(body, Matrix<Dim>::Zero(), [&](std::int32_t i) -> Matrix<Dim> {
         const Vector<Dim> arm = at(i) - middle.centre;
         return bodies_.masses()[i] * arm * arm.transpose();
     });
@@ -117,7 +117,7 @@ template <class Velocity>
 AxialVector<Dim> BodyMoments<Dim>::spin_at(const Held& held, const Middle& middle, Points q_0, Points q_1,
                                            const Velocity& velocity) const {
     const AxialVector<Dim> angular =
-        sum_of(held.law.body, AxialVector<Dim>(AxialVector<Dim>::Zero()), [&](std::int32_t i) -> AxialVector<Dim> {
+        sum_of(held.law.body, AxialVector<Dim>::Zero(), [&](std::int32_t i) -> AxialVector<Dim> {
             const Vector<Dim> arm = bodies_.rest()[i] + 0.5 * (q_0[i] + q_1[i]) - middle.centre;
             return bodies_.masses()[i] * moment<Dim>(arm, Vector<Dim>(velocity(i)));
         });

@@ -5,7 +5,7 @@
 
 #include "abut/base/error.hpp"
 #include "abut/base/parallel.hpp"
-#include "abut/solid/part/state_of_eigen.hpp"
+#include "abut/solid/part/state_of_matrix.hpp"
 
 namespace abut::solid {
 namespace {

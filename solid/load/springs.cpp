@@ -7,7 +7,7 @@
 
 #include "abut/base/error.hpp"
 #include "abut/base/messages.hpp"
-#include "abut/solid/part/state_of_eigen.hpp"
+#include "abut/solid/part/state_of_matrix.hpp"
 
 namespace abut::solid {
 namespace {

@@ -47,7 +47,7 @@ template <int Dim>
 struct J2Plasticity<Dim>::Elastic {
     Matrix<Dim> directions;
     Vector<Dim> stretch;  // eigenvalues of b_e - I
-    Eigen::Vector3d strain;
+    Vector<3> strain;
     bool is_sound;  // det F > 0
 };
 
@@ -62,7 +62,7 @@ auto J2Plasticity<Dim>::elastic_part(const Matrix<Dim>& g, std::span<const doubl
     const Matrix<Dim> part = plastic_part<Dim>(memory);
     const Matrix<Dim> left = left_stretched<Dim>(g) + f * part * f.transpose();
     const SymmetricEigen<Dim> eigen = symmetric_eigen(Matrix<Dim>(0.5 * (left + left.transpose())));
-    Elastic elastic{eigen.vectors, eigen.values, Eigen::Vector3d::Zero(), f.determinant() > 0.0};
+    Elastic elastic{eigen.vectors, eigen.values, Vector<3>::Zero(), f.determinant() > 0.0};
     for (int k = 0; k < Dim; ++k) elastic.strain[k] = 0.5 * std::log1p(eigen.values[k]);
     if constexpr (Dim == 2) elastic.strain[2] = 0.5 * std::log1p(memory[n_plastic<2>]);
     return elastic;
@@ -100,7 +100,7 @@ double J2Plasticity<Dim>::flow(double size, const FlowStress& stress) const {
 template <int Dim>
 Advance<Dim> J2Plasticity<Dim>::advance(const Matrix<Dim>& g, double dt, std::span<double> memory) const {
     Elastic elastic = elastic_part(g, memory);
-    const Eigen::Vector3d deviator = elastic.strain.array() - elastic.strain.mean();
+    const Vector<3> deviator = elastic.strain - Vector<3>::Constant(elastic.strain.mean());
     const double mu = material_.mu(), size = 2.0 * mu * deviator.norm();
     const FlowStress stress(material_, memory.back(), dt);
     if (!elastic.is_sound || !(size > alpha_per_flow * stress.at_start())) return {response(g, elastic), false};
@@ -138,15 +138,15 @@ template <int Dim>
 bool J2Plasticity<Dim>::advanced_changes(const Matrix<Dim>& g, double dt, std::span<const double> memory,
                                          std::span<const Matrix<Dim>> changes, std::span<Matrix<Dim>> results) const {
     const Elastic elastic = elastic_part(g, memory);
-    const Eigen::Vector3d deviator = elastic.strain.array() - elastic.strain.mean();
+    const Vector<3> deviator = elastic.strain - Vector<3>::Constant(elastic.strain.mean());
     const double mu = material_.mu(), size = 2.0 * mu * deviator.norm();
     const FlowStress stress(material_, memory.back(), dt);
-    Eigen::Vector3d strain = elastic.strain;
+    Vector<3> strain = elastic.strain;
     Matrix<3> moduli = elastic_moduli();
     if (size > alpha_per_flow * stress.at_start()) {
         const double flowed = flow(size, stress);
         const double hardening = 2.0 / 3.0 * stress.at(alpha_per_flow * flowed).slope;
-        const Eigen::Vector3d along = deviator.normalized();
+        const Vector<3> along = deviator.normalized();
         const Matrix<3> onto = along * along.transpose();
         const Matrix<3> deviatoric = Matrix<3>::Identity() - Matrix<3>::Constant(1.0 / 3.0);
         moduli -= 4.0 * mu * mu * (flowed / size * (deviatoric - onto) + onto / (2.0 * mu + hardening));
@@ -159,19 +159,19 @@ bool J2Plasticity<Dim>::advanced_changes(const Matrix<Dim>& g, double dt, std::s
 /// Changes of P = tau F^-T, tau being a function of b_e before the step has flowed, with its axes.
 template <int Dim>
 void J2Plasticity<Dim>::change_stress(const Matrix<Dim>& g, std::span<const double> memory, const Elastic& elastic,
-                                      const Eigen::Vector3d& strain, const Matrix<3>& moduli,
-                                      std::span<const Matrix<Dim>> changes, std::span<Matrix<Dim>> results) const {
+                                      const Vector<3>& strain, const Matrix<3>& moduli, std::span<const Matrix<Dim>> changes,
+                                      std::span<Matrix<Dim>> results) const {
     const Matrix<Dim> f = Matrix<Dim>::Identity() + g, to_stress = f.inverse().transpose();
     const Matrix<Dim> arm = (Matrix<Dim>::Identity() + plastic_part<Dim>(memory)) * f.transpose();
-    const Eigen::Vector3d tau = material_.lambda() * strain.sum() * Eigen::Vector3d::Ones() + 2.0 * material_.mu() * strain;
+    const Vector<3> tau = material_.lambda() * strain.sum() * Vector<3>::Ones() + 2.0 * material_.mu() * strain;
     const Matrix<Dim>& axes = elastic.directions;
     const Matrix<Dim> stress = axes * tau.head<Dim>().asDiagonal() * axes.transpose() * to_stress;
     for (std::size_t n = 0; n < changes.size(); ++n) {
         const Matrix<Dim> half = changes[n] * arm;
         const Matrix<Dim> stretched = axes.transpose() * (half + half.transpose()) * axes;
-        Eigen::Vector3d strained = Eigen::Vector3d::Zero();
+        Vector<3> strained = Vector<3>::Zero();
         for (int k = 0; k < Dim; ++k) strained[k] = 0.5 * stretched(k, k) / (1.0 + elastic.stretch[k]);
-        const Eigen::Vector3d along = moduli * strained;
+        const Vector<3> along = moduli * strained;
         Matrix<Dim> change;
         for (int j = 0; j < Dim; ++j)
             for (int i = 0; i < Dim; ++i) {
@@ -188,7 +188,7 @@ void J2Plasticity<Dim>::change_stress(const Matrix<Dim>& g, std::span<const doub
 template <int Dim>
 std::optional<double> J2Plasticity<Dim>::out_of_plane_stress(const Matrix<Dim>& g, std::span<const double> memory) const {
     if constexpr (Dim == 3) return std::nullopt;
-    const Eigen::Vector3d strain = elastic_part(g, memory).strain;
+    const Vector<3> strain = elastic_part(g, memory).strain;
     const double tau = material_.lambda() * strain.sum() + 2.0 * material_.mu() * strain[2];
     return tau / (Matrix<Dim>::Identity() + g).determinant();
 }

@@ -36,9 +36,8 @@ private:
     [[nodiscard]] Response<Dim> response(const Matrix<Dim>& g, const Elastic& elastic) const;
     [[nodiscard]] double flow(double size, const FlowStress& stress) const;
     [[nodiscard]] Matrix<3> elastic_moduli() const;
-    void change_stress(const Matrix<Dim>& g, std::span<const double> memory, const Elastic& elastic,
-                       const Eigen::Vector3d& strain, const Matrix<3>& moduli, std::span<const Matrix<Dim>> changes,
-                       std::span<Matrix<Dim>> results) const;
+    void change_stress(const Matrix<Dim>& g, std::span<const double> memory, const Elastic& elastic, const Vector<3>& strain,
+                       const Matrix<3>& moduli, std::span<const Matrix<Dim>> changes, std::span<Matrix<Dim>> results) const;
 
     Material material_;
 };

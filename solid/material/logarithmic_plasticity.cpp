@@ -104,7 +104,7 @@ auto LogarithmicPlasticity<Dim>::strain_of(const Matrix<Dim>& g) -> Strain {
         .axes = eigen.vectors, .stretch = eigen.values, .is_sound = (Matrix<Dim>::Identity() + g).determinant() > 0.0};
     Vector<Dim> logarithms;
     for (int k = 0; k < Dim; ++k) logarithms[k] = 0.5 * std::log1p(eigen.values[k]);
-    strain.of.template topLeftCorner<Dim, Dim>() = eigen.vectors * logarithms.asDiagonal() * eigen.vectors.transpose();
+    strain.of = in_3d<Dim>(eigen.vectors * logarithms.asDiagonal() * eigen.vectors.transpose());
     return strain;
 }
 
@@ -193,8 +193,7 @@ void LogarithmicPlasticity<Dim>::change_stress(const Matrix<Dim>& g, const Strai
     const Matrix<Dim> stress = stress_of(strain, plastic).template topLeftCorner<Dim, Dim>(), mapped = strain.mapped(stress);
     for (std::size_t n = 0; n < changes.size(); ++n) {
         const Matrix<Dim> half = f.transpose() * changes[n], change = half + half.transpose();
-        Matrix<3> strained = Matrix<3>::Zero();
-        strained.template topLeftCorner<Dim, Dim>() = strain.mapped(change);
+        const Matrix<3> strained = in_3d<Dim>(strain.mapped(change));
         Matrix<3> stressed = material_.lambda() * strained.trace() * Matrix<3>::Identity() + 2.0 * mu * strained;
         if (flow.size > 0.0) {
             const double along = flow.along.cwiseProduct(strained).sum();

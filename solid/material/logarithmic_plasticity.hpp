@@ -1,6 +1,5 @@
 #pragma once
 // Private to the sources of this layer.
-#include <Eigen/Core>
 
 #include "abut/solid/material/flow_stress.hpp"
 #include "abut/solid/material/inelastic.hpp"

@@ -1,7 +1,5 @@
 #include "abut/solid/material/orthotropic.hpp"
 
-#include <Eigen/Geometry>
-#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,29 +10,29 @@
 
 #include "abut/base/error.hpp"
 #include "abut/base/messages.hpp"
+#include "abut/base/rotation.hpp"
 
 namespace abut::solid {
 namespace {
 
-using Stiffness = Eigen::Matrix<double, 6, 6>;  // of 11, 22, 33 and sqrt 2 times 23, 13, 12
+using Stiffness = SmallMatrix<6, 6>;  // of 11, 22, 33 and sqrt 2 times 23, 13, 12
 constexpr std::array<std::pair<int, int>, 6> components_in_space{{{0, 0}, {1, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}}};
 constexpr double least_determinant = 1e-9;  // of the compliances of tension, over those without Poisson's ratios
 constexpr double right_angle = 1e-6;        // of the cosine between axes
 
 Matrix<3> compliance_of_tension(const Material& material) {
     const double e_1 = material.young, e_2 = material.young_2, e_3 = material.young_3;
-    Matrix<3> compliance;
-    compliance << 1.0 / e_1, -material.poisson / e_1, -material.poisson_13 / e_1,  //
-        -material.poisson / e_1, 1.0 / e_2, -material.poisson_23 / e_2,            //
-        -material.poisson_13 / e_1, -material.poisson_23 / e_2, 1.0 / e_3;
-    return compliance;
+    return {{1.0 / e_1, -material.poisson / e_1, -material.poisson_13 / e_1},
+            {-material.poisson / e_1, 1.0 / e_2, -material.poisson_23 / e_2},
+            {-material.poisson_13 / e_1, -material.poisson_23 / e_2, 1.0 / e_3}};
 }
 
 /// In the axes of the material.
 Stiffness stiffness_of(const Material& material) {
     Stiffness stiffness = Stiffness::Zero();
     const Matrix<3> tension = compliance_of_tension(material).inverse();
-    stiffness.topLeftCorner<3, 3>() = 0.5 * (tension + tension.transpose());
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j) stiffness(i, j) = 0.5 * (tension(i, j) + tension(j, i));
     stiffness(3, 3) = 2.0 * material.shear_23;
     stiffness(4, 4) = 2.0 * material.shear_13;
     stiffness(5, 5) = 2.0 * material.shear_12;
@@ -49,7 +47,7 @@ Matrix<3> axes_of(const Material& material) {
     const Vector<3> second = given(material.axis_2);
     axes.col(1) = (second - axes.col(0).dot(second) * axes.col(0)).normalized();
     axes.col(2) = axes.col(0).cross(axes.col(1));
-    return Eigen::AngleAxisd(material.axis_angle, Vector<3>::UnitZ()).toRotationMatrix() * axes;
+    return rotation_about(Vector<3>::UnitZ(), material.axis_angle) * axes;
 }
 
 /// How the components of symmetric tensors turn with their axes; its inverse is its transpose.
@@ -69,7 +67,8 @@ Stiffness turn_of(const Matrix<3>& axes) {
 
 Stiffness isotropic(const Lame& moduli) {
     Stiffness stiffness = 2.0 * moduli.mu * Stiffness::Identity();
-    stiffness.topLeftCorner<3, 3>().array() += moduli.lambda;
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j) stiffness(i, j) += moduli.lambda;
     return stiffness;
 }
 
@@ -134,7 +133,7 @@ void check_orthotropic(const Material& material, int body) {
         refuse_constant(body, "1 - nu_12 nu_21 - nu_13 nu_31 - nu_23 nu_32 - 2 nu_21 nu_32 nu_13", determinant,
                         "it must be above " + number(least_determinant) +
                             ", or some stretch would cost no energy. Make poisson, poisson_13 or poisson_23 smaller.");
-    const Vector<3> first = Vector<3>::Map(material.axis_1.data()), second = Vector<3>::Map(material.axis_2.data());
+    const Vector<3> first = Vector<3>(material.axis_1.data()), second = Vector<3>(material.axis_2.data());
     for (const auto& [name, axis] : {std::pair{"axis_1", first}, std::pair{"axis_2", second}})
         if (!(axis.norm() > 0.0) || !axis.allFinite())
             refuse_constant(body, std::string("the length of ") + name, axis.norm(), "it must be finite and above 0.");

@@ -41,12 +41,12 @@ public:
 
 private:
     static constexpr int n_components = Dim * (Dim + 1) / 2;
-    using Packed = Eigen::Matrix<double, n_components, 1>;
+    using Packed = SmallMatrix<n_components, 1>;
     [[nodiscard]] static Packed packed(const Matrix<Dim>& tensor);
 
     bool any_;
-    Eigen::Matrix<double, n_components, n_components> stiffness_;  // of symmetric tensors with shears times sqrt 2
-    Packed out_of_plane_;                                          // the row of the stress out of the plane
+    SmallMatrix<n_components, n_components> stiffness_;  // of symmetric tensors with shears times sqrt 2
+    Packed out_of_plane_;                                // the row of the stress out of the plane
 };
 
 /// lambda + 2 mu, or of a material with directions the modulus of a wave along the unit vector n whose motion is along

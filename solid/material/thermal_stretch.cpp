@@ -1,7 +1,5 @@
 #include "abut/solid/material/thermal_stretch.hpp"
 
-#include <Eigen/LU>
-
 namespace abut::solid {
 
 void ThermalStretch::set_rise(double rise) {

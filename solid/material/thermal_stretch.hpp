@@ -31,12 +31,12 @@ public:
     /// F_e - I of F = I + G: (G - a T) A^-1, so that small strains lose no digits.
     template <int Dim>
     [[nodiscard]] Matrix<3> elastic_gradient(const Matrix<Dim>& g) const {
-        return (in_space<Dim>(g) - strain_) * inverse_;
+        return (in_3d<Dim>(g) - strain_) * inverse_;
     }
     /// By how much F_e changes with F.
     template <int Dim>
     [[nodiscard]] Matrix<3> elastic_change(const Matrix<Dim>& change) const {
-        return in_space<Dim>(change) * inverse_;
+        return in_3d<Dim>(change) * inverse_;
     }
     /// det A P A^-T, in 2D its part in the plane.
     template <int Dim>
@@ -52,13 +52,6 @@ public:
     [[nodiscard]] double out_of_plane_stress(const Matrix<2>& g, const Matrix<3>& of_law) const;
 
 private:
-    template <int Dim>
-    [[nodiscard]] static Matrix<3> in_space(const Matrix<Dim>& g) {
-        Matrix<3> result = Matrix<3>::Zero();
-        result.template topLeftCorner<Dim, Dim>() = g;
-        return result;
-    }
-
     Matrix<3> per_kelvin_;
     double rise_ = 0.0, volume_ = 1.0;
     Matrix<3> strain_ = Matrix<3>::Zero();       // A - I

@@ -157,7 +157,7 @@ std::vector<Vector<Dim>> RankPart<Dim>::faces_here(const mesh::Mesh<Dim>& mesh, 
     std::vector<Vector<Dim>> values;
     for (const BoundaryFace face : boundary_faces(mesh)) {
         const std::size_t position = face_number(key_of(mesh, face));
-        values.push_back(position < of_all.size() ? of_all[position] : Vector<Dim>(Vector<Dim>::Zero()));
+        values.push_back(position < of_all.size() ? of_all[position] : Vector<Dim>::Zero());
     }
     return values;
 }

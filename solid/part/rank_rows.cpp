@@ -25,7 +25,7 @@ public:
     void add(double value) { add(std::bit_cast<std::int64_t>(value)); }
     template <int Dim>
     void add(const Matrix<Dim>& matrix) {
-        for (const double value : matrix.reshaped()) add(value);
+        for (const double value : matrix) add(value);
     }
     [[nodiscard]] double number() const { return static_cast<double>(hash_ >> 12); }
 

@@ -22,7 +22,7 @@ public:
     template <class Array>
     Array next_array() {
         Array array;
-        for (double& value : array.reshaped()) value = next();
+        for (double& value : array) value = next();
         return array;
     }
 

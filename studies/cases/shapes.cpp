@@ -1,8 +1,8 @@
 #include "studies/cases/shapes.hpp"
 
-#include <Eigen/Geometry>
 #include <cmath>
 
+#include "abut/base/rotation.hpp"
 #include "abut/mesh/shapes/shapes.hpp"
 
 namespace abut::studies {
@@ -28,11 +28,7 @@ mesh::Mesh<Dim> turned_box(const TurnedBox<Dim>& box) {
     return mapped<Dim>(upright, box.name, [&](const Vector<Dim>& x) { return Vector<Dim>(box.centre + box.turn * x); });
 }
 
-Matrix<2> rotation(double angle) {
-    Matrix<2> turn;
-    turn << std::cos(angle), -std::sin(angle), std::sin(angle), std::cos(angle);
-    return turn;
-}
+Matrix<2> rotation(double angle) { return rotation_in_plane(angle); }
 
 mesh::Mesh<3> beam(const Vector<3>& axis, const Vector<3>& middle, double angle, bool is_upper, mesh::CellShape shape,
                    double unit) {

@@ -1,10 +1,11 @@
 #include "studies/kinematics/closed_forms.hpp"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <tuple>
+
+#include "abut/base/rotation.hpp"
 
 namespace abut::studies::kinematics {
 namespace {
@@ -12,13 +13,13 @@ namespace {
 Matrix<3> turned(const Vector<3>& rotation) {
     const double angle = rotation.norm();
     if (angle == 0.0) return Matrix<3>::Identity();
-    return Eigen::AngleAxisd(angle, Eigen::Vector3d(rotation / angle)).toRotationMatrix();
+    return rotation_about(Vector<3>(rotation / angle), angle);
 }
 
 }  // namespace
 
 Vector<3> inertia_of_box(const Vector<3>& sides) {
-    const Vector<3> squares = sides.cwiseAbs2();
+    const Vector<3> squares = sides.cwiseProduct(sides);
     return sides.prod() / 12.0 * (squares.sum() * Vector<3>::Ones() - squares);
 }
 

@@ -1,5 +1,4 @@
 #include <fmt/format.h>
-#include <Eigen/LU>
 #include <cmath>
 #include <numbers>
 

@@ -70,7 +70,7 @@ void P1Bodies<Dim>::make_elements() {
         Matrix<Dim> edges;
         for (int i = 0; i < Dim; ++i) edges.col(i) = mesh.vertices[element.node[i + 1]] - mesh.vertices[element.node[0]];
         const Matrix<Dim> slopes = edges.inverse();
-        element.slope[0] = -slopes.colwise().sum().transpose();
+        element.slope[0] = -(slopes.transpose() * Vector<Dim>::Ones());
         for (int i = 0; i < Dim; ++i) element.slope[i + 1] = slopes.row(i).transpose();
         for (const std::int32_t node : element.node) {
             mass_[node] += material.density * element.measure / (Dim + 1);
@@ -237,8 +237,9 @@ template <int Dim>
 std::vector<double> P1Bodies<Dim>::rotations(std::span<const double> q) const {
     std::vector<double> angles;
     for (const Matrix<Dim>& mean : mean_gradients(q)) {
+        const Matrix<Dim> f = Matrix<Dim>::Identity() + mean;
         const Eigen::Transform<double, Dim, Eigen::Affine> motion(
-            Eigen::Matrix<double, Dim, Dim>(Matrix<Dim>::Identity() + mean));
+            Eigen::Map<const Eigen::Matrix<double, Dim, Dim>>(f.data()).eval());
         if constexpr (Dim == 2)
             angles.push_back(std::abs(Eigen::Rotation2Dd(motion.rotation()).angle()));
         else

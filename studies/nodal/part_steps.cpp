@@ -29,7 +29,7 @@ Case<Dim> two_boxes(const Pair<Dim>& pair) {
         box.cells.fill(pair.cells[body]);
         box.centre[Dim - 1] = body == 0 ? -0.5 : 0.52 + 0.5 * std::abs(pair.tilt);
         if (body == 1) box.centre[0] = pair.tilt == 0.0 && pair.cells[0] == pair.cells[1] ? 0.0 : 0.07;
-        box.turn.template topLeftCorner<2, 2>() = rotation(Dim == 2 ? pair.tilt : 0.0);
+        if constexpr (Dim == 2) box.turn = rotation(pair.tilt);
         meshes.push_back(turned_box<Dim>(box));
     }
     auto one = case_of<Dim>(pair.name, meshes, Kinematics::finite);

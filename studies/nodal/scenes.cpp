@@ -1,9 +1,10 @@
 #include "studies/nodal/scenes.hpp"
 
-#include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "abut/base/rotation.hpp"
 #include "abut/mesh/shapes/shapes.hpp"
 #include "studies/nodal/shapes.hpp"
 #include "studies/scenes/two_cylinders.hpp"
@@ -32,17 +33,14 @@ Case<Dim> two_round_bodies(const std::string& name, Kinematics strain, double si
     for (std::size_t body = 0; body < 2; ++body) {
         one.motion[body].velocity[0] = body == 0 ? bodies.speed : -bodies.speed;
         one.motion[body].centre = Vector<Dim>::Zero();
-        one.motion[body].centre->template head<2>() = centres(bodies)[body];
+        std::ranges::copy(centres(bodies)[body], one.motion[body].centre->begin());
     }
     one.scene.time = 20.0;
     return one;
 }
 
 /// Turns the diagonal of a cube upright, and a little aside of it.
-Matrix<3> corner_down() {
-    const auto upright = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d(1.0, 1.0, 1.0), Eigen::Vector3d(0.1, 0.06, 1.0));
-    return upright.toRotationMatrix();
-}
+Matrix<3> corner_down() { return rotation_between({1.0, 1.0, 1.0}, {0.1, 0.06, 1.0}); }
 
 double lowest(const mesh::Mesh<3>& mesh) {
     double least = mesh.vertices.front().z();

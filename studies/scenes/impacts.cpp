@@ -151,8 +151,8 @@ void ImpactObserver<Dim>::look(const dynamics::RunView<Dim>& run, solid::Solid<D
     Sample sample{.time = run.time, .force = Vector<Dim>::Zero(), .displacement = bodies.displacement, .spin = 0.0};
     if (dt > 0.0) sample.force = bodies.impulse / dt;
     for (std::size_t body = 0; body < 2; ++body)
-        sample.velocity[body] = bodies.mass[body] > 0.0 ? Vector<Dim>(bodies.momentum[body] / bodies.mass[body])
-                                                        : Vector<Dim>(Vector<Dim>::Zero());
+        sample.velocity[body] =
+            bodies.mass[body] > 0.0 ? Vector<Dim>(bodies.momentum[body] / bodies.mass[body]) : Vector<Dim>::Zero();
     if constexpr (Dim == 2) sample.spin = spin(run, solid);
     sample.in_contact = solid.contact().report().active_pairs > 0;
     if (sample.in_contact) {

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Geometry>
-
 #include <cmath>
 #include <stdexcept>
 
@@ -113,7 +111,7 @@ Manufactured<2> manufactured<2>() {
             .direction = Vector<2>(1.0, 1.0),
             .shape = [](const Vector<2>& x) { return 0.5 * x.squaredNorm(); },
             .slope = [](const Vector<2>& x) { return x; },
-            .curvature = [](const Vector<2>&) { return Matrix<2>(Matrix<2>::Identity()); }};
+            .curvature = [](const Vector<2>&) { return Matrix<2>::Identity(); }};
 }
 
 template <>
@@ -127,9 +125,7 @@ Manufactured<3> manufactured<3>() {
     const auto curvature = [phi, slope](const Vector<3>& x) {
         const Vector<3> g = slope(x);
         const double f = phi(x), mixed = -2.0 * std::cos(2.0 * x[0]) * std::sin(x[1]) * std::exp(0.5 * x[2]);
-        Matrix<3> h;
-        h << -4.0 * f, mixed, 0.5 * g[0], mixed, -f, 0.5 * g[1], 0.5 * g[0], 0.5 * g[1], 0.25 * f;
-        return h;
+        return Matrix<3>{{-4.0 * f, mixed, 0.5 * g[0]}, {mixed, -f, 0.5 * g[1]}, {0.5 * g[0], 0.5 * g[1], 0.25 * f}};
     };
     return {.formula = "u = (a/2) sin 2x cos y exp(z/2) (1, 2, -1)",
             .material = {.young = young, .poisson = poisson},

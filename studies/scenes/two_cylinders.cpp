@@ -26,7 +26,8 @@ std::optional<mesh::Refinement<Dim>> refinement(const TwoCylinders& options, std
     if (options.refine == 1.0) return {};
     const auto centre = centres(options);
     Vector<Dim> nearest = Vector<Dim>::Zero();
-    nearest.template head<2>() = centre[body] + body_radius * (centre[1 - body] - centre[body]).normalized();
+    const Vector<2> in_plane = centre[body] + body_radius * (centre[1 - body] - centre[body]).normalized();
+    std::ranges::copy(in_plane, nearest.begin());
     return mesh::Refinement<Dim>{nearest, options.size / options.refine, options.refine_over};
 }
 

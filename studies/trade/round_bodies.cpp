@@ -59,7 +59,7 @@ void add_errors(const run::Scene<Dim>& scene, const run::RunResult<Dim>& result,
                 Outcome& outcome) {
     if (!std::isnan(reference.restitution))
         outcome.restitution = std::abs(restitution_of(scene, result) - reference.restitution);
-    const Vector<Dim> velocity = Eigen::Map<const Vector<Dim>>(reference.velocity.data());
+    const Vector<Dim> velocity(reference.velocity.data());
     outcome.velocity = (result.end.front().velocity - velocity).norm() / speed;
 }
 

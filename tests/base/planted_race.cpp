@@ -3,8 +3,6 @@
 #include <cstdio>
 #include <thread>
 
-#include <Eigen/Core>  // before ours, as in most sources: it defines macros by which a compiler's sanitizer is asked for
-
 #include "abut/base/parallel.hpp"
 
 int main() {

@@ -3,6 +3,9 @@
 #include <vector>
 
 #include "abut/base/decompositions.hpp"
+#include "abut/base/dense_decompositions.hpp"
+#include "abut/base/eigen.hpp"
+#include "abut/base/rotation.hpp"
 
 using namespace abut;
 
@@ -22,7 +25,8 @@ TEST_CASE("the eigenvalues of a symmetric matrix come in rising order, with thei
     const Matrix<3> space{{4.0, 0.0, 0.0}, {0.0, 2.0, 1.0}, {0.0, 1.0, 2.0}};
     CHECK((symmetric_eigen(space).values - Vector<3>(1.0, 3.0, 4.0)).norm() <= 10.0 * rounding);
     CHECK((symmetric_eigenvalues(space) - Vector<3>(1.0, 3.0, 4.0)).norm() <= 10.0 * rounding);
-    CHECK((symmetric_eigen(Eigen::MatrixXd(space)).values - Eigen::Vector3d(1.0, 3.0, 4.0)).norm() <= 10.0 * rounding);
+    const DenseEigen of_any_size = symmetric_eigen(Eigen::MatrixXd(as_eigen(space)));
+    CHECK((of_any_size.values - Eigen::Vector3d(1.0, 3.0, 4.0)).norm() <= 10.0 * rounding);
 }
 
 TEST_CASE("the largest eigenvalue of a tridiagonal matrix is that of a chain of equal springs", "[base][decompositions]") {

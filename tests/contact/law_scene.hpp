@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "abut/base/eigen.hpp"
+
 #include "contact/law.hpp"
 #include "contact/reference.hpp"
 #include "contact/surfaces.hpp"
@@ -28,7 +30,7 @@ std::vector<Vector<Dim>> as_vectors(const VectorXd& x) {
 template <int Dim>
 VectorXd as_column(std::span<const Vector<Dim>> v) {
     VectorXd x(static_cast<Eigen::Index>(v.size()) * Dim);
-    for (std::size_t i = 0; i < v.size(); ++i) x.segment<Dim>(static_cast<Eigen::Index>(i) * Dim) = v[i];
+    for (std::size_t i = 0; i < v.size(); ++i) x.segment<Dim>(static_cast<Eigen::Index>(i) * Dim) = as_eigen(v[i]);
     return x;
 }
 
@@ -50,10 +52,11 @@ struct Host {
         q_ff = MatrixXd::Zero(n, n);
         for (int f = 0; f < n_faces; ++f)
             for (int g = f; g < std::min(f + 3, n_faces); ++g) {
-                Matrix<Dim> block = Matrix<Dim>::NullaryExpr([&] { return uniform(random, -1.0, 1.0); });
+                Matrix<Dim> block;
+                for (double& value : block) value = uniform(random, -1.0, 1.0);
                 if (f == g) block = block * block.transpose() + 8.0 * Matrix<Dim>::Identity();
-                q_ff.block<Dim, Dim>(f * Dim, g * Dim) = block;
-                q_ff.block<Dim, Dim>(g * Dim, f * Dim) = block.transpose();
+                q_ff.block<Dim, Dim>(f * Dim, g * Dim) = as_eigen(block);
+                q_ff.block<Dim, Dim>(g * Dim, f * Dim) = as_eigen(block.transpose());
             }
         for (int f = 0; f < n_faces; ++f) {
             for (int g = std::max(0, f - 2); g < std::min(f + 3, n_faces); ++g) {

@@ -1,12 +1,12 @@
 #pragma once
 // Bodies with nodes for the tests of contact on nodes.
-#include <Eigen/Geometry>
 
 #include <array>
 #include <map>
 #include <random>
 #include <vector>
 
+#include "abut/base/rotation.hpp"
 #include "abut/contact/nodal_contact.hpp"
 #include "abut/contact/nodal_faces.hpp"
 #include "abut/contact/placement.hpp"
@@ -130,9 +130,9 @@ template <int Dim>
 contact::Placement<Dim> turned_about(const Vector<Dim>& centre, double angle, const Vector<Dim>& by = Vector<Dim>::Zero()) {
     contact::Placement<Dim> placement;
     if constexpr (Dim == 2)
-        placement.turn = Eigen::Rotation2Dd(angle).toRotationMatrix();
+        placement.turn = rotation_in_plane(angle);
     else
-        placement.turn = Eigen::AngleAxisd(angle, Eigen::Vector3d(0.3, -0.5, 1.0).normalized()).toRotationMatrix();
+        placement.turn = rotation_about(Vector<3>(0.3, -0.5, 1.0).normalized(), angle);
     placement.offset = centre - placement.turn * centre + by;
     return placement;
 }

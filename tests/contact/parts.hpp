@@ -95,9 +95,9 @@ public:
         bits_.push_back(static_cast<std::uint64_t>(value));
     }
     void add(contact::Face face) { add(static_cast<std::int32_t>(face)); }
-    template <class Derived>
-    void add(const Eigen::DenseBase<Derived>& value) {
-        for (Eigen::Index i = 0; i < value.size(); ++i) add(value.derived().coeff(i));
+    template <int Rows, int Cols>
+    void add(const SmallMatrix<Rows, Cols>& value) {
+        for (const double number : value) add(number);
     }
     void add(const std::vector<std::byte>& bytes) { add_all(bytes); }
     void add(std::byte value) { add(static_cast<std::uint8_t>(value)); }

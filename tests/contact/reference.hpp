@@ -35,9 +35,9 @@ inline Patch<2> shared_patch(const std::vector<Vector<2>>& face_1, const std::ve
 /// Sutherland-Hodgman for the area; for its derivative every edge of face 2 is cut to the part inside face 1.
 inline Patch<3> shared_patch(const std::vector<Vector<3>>& face_1, const std::vector<Vector<3>>& face_2,
                              const Vector<3>& normal) {
-    using Point = Eigen::Vector2d;
-    const Vector<3> e_1 = Eigen::Vector3d(normal).unitOrthogonal();
-    const Vector<3> e_2 = Eigen::Vector3d(normal).cross(Eigen::Vector3d(e_1));
+    using Point = Vector<2>;
+    const Vector<3> e_1 = Vector<3>(normal).unitOrthogonal();
+    const Vector<3> e_2 = Vector<3>(normal).cross(Vector<3>(e_1));
     const auto cross = [](const Point& a, const Point& b) { return a.x() * b.y() - a.y() * b.x(); };
     const auto area_of = [&](const std::vector<Point>& p) {
         double twice = 0.0;

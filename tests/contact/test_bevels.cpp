@@ -1,12 +1,12 @@
 // Sharp corners under the pair potential: a facet of their own across the tip.
 #include <catch2/catch.hpp>
 
-#include <Eigen/Geometry>
-
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <vector>
+
+#include "abut/base/rotation.hpp"
 
 #include "contact/nodal_scenes.hpp"
 #include "contact/triangle_host.hpp"
@@ -37,7 +37,7 @@ struct TipOnBlock {
     }
     /// The tip at `at`, turned.
     [[nodiscard]] std::vector<Vector<2>> placed_at(const Vector<2>& at, double turn = 0.0) const {
-        return placed<2>(scene, 0, {Eigen::Rotation2Dd(turn).toRotationMatrix(), at});
+        return placed<2>(scene, 0, {rotation_in_plane(turn), at});
     }
     NodalScene<2> scene;
 };

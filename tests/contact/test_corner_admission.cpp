@@ -2,11 +2,11 @@
 // look past each other because a tip is thinner than D.
 #include <catch2/catch.hpp>
 
-#include <Eigen/Geometry>
-
 #include <cmath>
 #include <numbers>
 #include <string>
+
+#include "abut/base/rotation.hpp"
 
 #include "contact/nodal_scenes.hpp"
 
@@ -23,14 +23,11 @@ constexpr double stiffness_of_pair = 15.0 / 8.0;  // of k = 3 and 5 in series
 template <int Dim>
 Matrix<Dim> edge_up() {
     if constexpr (Dim == 2)
-        return Eigen::Rotation2Dd(std::numbers::pi / 4.0).toRotationMatrix();
+        return rotation_in_plane(std::numbers::pi / 4.0);
     else
-        return Eigen::AngleAxisd(std::numbers::pi / 4.0, Eigen::Vector3d(0.0, 1.0, 0.0)).toRotationMatrix();
+        return rotation_about(Vector<3>(0.0, 1.0, 0.0), std::numbers::pi / 4.0);
 }
-Matrix<3> corner_up() {
-    return Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d(1.0, 1.0, 1.0), Eigen::Vector3d(0.0, 0.0, 1.0))
-        .toRotationMatrix();
-}
+Matrix<3> corner_up() { return rotation_between({1.0, 1.0, 1.0}, {0.0, 0.0, 1.0}); }
 
 /// Two unit boxes of n cells about their middles, each turned: one below the origin, the upper ends of which meet the lower
 /// ends of the other one.

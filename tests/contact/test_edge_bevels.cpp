@@ -1,12 +1,12 @@
 // Sharp edges of bodies in space under the pair potential: strips of their own across the edges.
 #include <catch2/catch.hpp>
 
-#include <Eigen/Geometry>
-
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <vector>
+
+#include "abut/base/rotation.hpp"
 
 #include "contact/nodal_scenes.hpp"
 
@@ -60,7 +60,7 @@ NodalScene<3> crossing_edges(double angle_1, double angle_2) {
     return scene;
 }
 std::vector<Vector<3>> placed_at(const NodalScene<3>& scene, double z, double turn = 0.0) {
-    return placed<3>(scene, 0, {Eigen::AngleAxisd(turn, Vector<3>::UnitX()).toRotationMatrix(), Vector<3>(0.013, 0.017, z)});
+    return placed<3>(scene, 0, {rotation_about(Vector<3>::UnitX(), turn), Vector<3>(0.013, 0.017, z)});
 }
 /// Presses body 0 in from above.
 NodalStep<3> pressed_in(const NodalScene<3>& scene, NodalContact<3>& contact, double by, double turn = 0.0) {

@@ -286,8 +286,8 @@ TEMPLATE_TEST_CASE_SIG("the length of a step must be finite and > 0; a step that
                                       .coupling_of = [](auto listed) { return uncoupled<Dim>(listed.size()); },
                                       .gradients_of =
                                           [](auto, auto y_0, auto y_1) {
-                                              std::ranges::fill(y_0, Vector<Dim>(Vector<Dim>::Zero()));
-                                              std::ranges::fill(y_1, Vector<Dim>(Vector<Dim>::Zero()));
+                                              std::ranges::fill(y_0, Vector<Dim>::Zero());
+                                              std::ranges::fill(y_1, Vector<Dim>::Zero());
                                           }};
     for (const double dt : {0.0, -1e-3, nan, infinity}) {
         CHECK_THROWS_AS(nodal.step(dt, scene.rest, scene.rest), BadInput);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 
+#include "abut/base/rotation.hpp"
 #include "abut/contact/overlaps.hpp"
 #include "abut/contact/search/candidate_search.hpp"
 #include "contact/turning.hpp"
@@ -267,7 +268,7 @@ TEST_CASE(
     surface.append(tile<3>(Vector<3>(0.0, 0.0, 0.6), -axis<3>(0), 0.5), 0.1, 1.0, 1);
     const contact::CandidateOptions options{.distance = 0.5, .skin = 1.0};
     Points<3> turned = surface.vertices;
-    const Matrix<3> tip = Eigen::AngleAxisd(-0.25 * std::numbers::pi, Eigen::Vector3d::UnitY()).toRotationMatrix();
+    const Matrix<3> tip = rotation_about(Vector<3>::UnitY(), -0.25 * std::numbers::pi);
     for (std::size_t v = 4; v < 8; ++v)
         turned[v] = Vector<3>(0.0, 0.0, 0.6) + Vector<3>(tip * (surface.vertices[v] - Vector<3>(0.0, 0.0, 0.6)));
     double motion = 0.0;

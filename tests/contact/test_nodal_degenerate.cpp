@@ -1,5 +1,4 @@
 // Bodies that touch at a gap of exactly 0, and faces that break down: the law gives numbers or an error that names faces.
-#include <Eigen/Geometry>
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -7,6 +6,7 @@
 #include <random>
 
 #include "abut/base/error.hpp"
+#include "abut/base/rotation.hpp"
 #include "contact/nodal_scenes.hpp"
 #include "support/worst.hpp"
 
@@ -26,8 +26,7 @@ Vector<3> any_vector_of(std::mt19937_64& random, double size) {
 /// up and one down, in a plane that is turned and shifted freely in space; on nodes of their own, or all on the same ones.
 NodalScene<3> matching_squares(int n, bool cut, bool on_same_nodes, std::mt19937_64& random) {
     NodalScene<3> scene;
-    const Matrix<3> turn =
-        Eigen::AngleAxisd(3.0 * any_vector_of(random, 1.0).x(), any_vector_of(random, 1.0).normalized()).toRotationMatrix();
+    const Matrix<3> turn = rotation_about(any_vector_of(random, 1.0).normalized(), 3.0 * any_vector_of(random, 1.0).x());
     const Vector<3> by = any_vector_of(random, 2.0);
     scene.faces.stiffness = {1.0, 3.0};
     for (int body = 0; body < 2; ++body) {

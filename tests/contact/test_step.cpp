@@ -23,8 +23,8 @@ contact::HostStep<Dim> constant_host(const std::vector<Vector<Dim>>& u_0, const 
             .coupling_of = [](auto listed) { return uncoupled<Dim>(listed.size(), 0.0); },
             .gradients_of =
                 [](auto, auto y_0, auto y_1) {
-                    std::ranges::fill(y_0, Vector<Dim>(Vector<Dim>::Ones()));
-                    std::ranges::fill(y_1, Vector<Dim>(Vector<Dim>::Ones()));
+                    std::ranges::fill(y_0, Vector<Dim>::Ones());
+                    std::ranges::fill(y_1, Vector<Dim>::Ones());
                 },
             .take = take};
 }
@@ -53,8 +53,8 @@ TEMPLATE_TEST_CASE_SIG("one call per step does what search and integrate do", "[
                                                .coupling_of = [](auto listed) { return uncoupled<Dim>(listed.size()); },
                                                .gradients_of =
                                                    [](auto, auto y_0, auto y_1) {
-                                                       std::ranges::fill(y_0, Vector<Dim>(Vector<Dim>::Ones()));
-                                                       std::ranges::fill(y_1, Vector<Dim>(Vector<Dim>::Ones()));
+                                                       std::ranges::fill(y_0, Vector<Dim>::Ones());
+                                                       std::ranges::fill(y_1, Vector<Dim>::Ones());
                                                    }});
         expert.search(states[i], states[i + 1]);
         expert.move_to(states[i + 1]);

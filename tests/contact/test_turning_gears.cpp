@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 #include <optional>
 
+#include "abut/base/rotation.hpp"
 #include "abut/contact/overlaps.hpp"
 #include "abut/contact/search/candidate_search.hpp"
 #include "contact/turning.hpp"
@@ -41,7 +42,7 @@ Points<2> outline() {
 /// Segments (2D), or the side of a prism in triangles (3D).
 template <int Dim>
 void append_gear(contact::Surface<Dim>& surface, const Vector<2>& centre, double turned, double depth, std::int32_t body) {
-    const Matrix<2> turn = Eigen::Rotation2D<double>(turned).toRotationMatrix();
+    const Matrix<2> turn = rotation_in_plane(turned);
     const auto points = outline();
     for (std::size_t i = 0; i < points.size(); ++i) {
         const Vector<2> a = Vector<2>(turn * points[i]) + centre,
@@ -65,8 +66,9 @@ Points<Dim> turned_by(const contact::Surface<Dim>& surface, double angle) {
         for (const std::int32_t v : surface.view().vertices_of(face)) {
             const double sign = surface.body[face] == 0 ? 1.0 : -1.0;
             const Vector<2> centre(surface.body[face] == 0 ? 0.0 : middle_distance, 0.0);
-            const Matrix<2> turn = Eigen::Rotation2D<double>(sign * angle).toRotationMatrix();
-            x[v].template head<2>() = turn * (surface.vertices[v].template head<2>() - centre) + centre;
+            const Matrix<2> turn = rotation_in_plane(sign * angle);
+            const Vector<2> turned = turn * (surface.vertices[v].template head<2>() - centre) + centre;
+            std::ranges::copy(turned, x[v].begin());
         }
     return x;
 }

@@ -1,6 +1,5 @@
 #pragma once
 // A host of linear elastic triangles, E = rho = 1, nu = 0.3 in plane strain, for tests of contact on nodes in motion.
-#include <Eigen/LU>
 
 #include <algorithm>
 #include <array>
@@ -103,8 +102,7 @@ private:
         }
     }
     void append_triangle(const std::array<std::int32_t, 3>& node) {
-        Matrix<2> edges;
-        edges << rest_[node[1]] - rest_[node[0]], rest_[node[2]] - rest_[node[0]];
+        const auto edges = Matrix<2>::from_columns(rest_[node[1]] - rest_[node[0]], rest_[node[2]] - rest_[node[0]]);
         const Matrix<2> slopes = edges.inverse();
         Triangle t{node, {}, 0.5 * edges.determinant()};
         t.slope = {-(slopes.row(0) + slopes.row(1)).transpose(), slopes.row(0).transpose(), slopes.row(1).transpose()};

@@ -1,6 +1,5 @@
 #pragma once
 // Bodies that turn and deform: positions of vertices, and the surface that a host would make from them by hand.
-#include <Eigen/Geometry>
 
 #include <array>
 #include <cmath>
@@ -8,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "abut/base/rotation.hpp"
 #include "abut/geometry/polygon.hpp"
 #include "contact/surfaces.hpp"
 
@@ -19,10 +19,10 @@ using Points = std::vector<Vector<Dim>>;
 template <int Dim>
 Matrix<Dim> turn(std::mt19937& random, double angle) {
     if constexpr (Dim == 2) {
-        return Eigen::Rotation2D<double>(uniform(random, -angle, angle)).toRotationMatrix();
+        return rotation_in_plane(uniform(random, -angle, angle));
     } else {
-        const Eigen::Vector3d axis = Eigen::Vector3d(random_vector<3>(random, 1.0)).normalized();
-        return Eigen::AngleAxisd(uniform(random, -angle, angle), axis).toRotationMatrix();
+        const Vector<3> axis = Vector<3>(random_vector<3>(random, 1.0)).normalized();
+        return rotation_about(axis, uniform(random, -angle, angle));
     }
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 // A host that knows no mesh, no contact and no solid.
-#include <Eigen/Geometry>
+#include <algorithm>
 #include <random>
 #include <span>
 #include <vector>
@@ -73,13 +73,13 @@ inline std::vector<double> random_values(std::mt19937& random, std::size_t n) {
 }
 
 template <int Dim>
-using Moment = Eigen::Matrix<double, Dim*(Dim - 1) / 2, 1>;
+using Moment = SmallMatrix<Dim*(Dim - 1) / 2, 1>;
 
 template <int Dim>
 Moment<Dim> moment(const Vector<Dim>& lever_arm, const Vector<Dim>& p) {
-    Eigen::Vector3d arm = Eigen::Vector3d::Zero(), momentum = Eigen::Vector3d::Zero();
-    arm.head<Dim>() = lever_arm;
-    momentum.head<Dim>() = p;
+    Vector<3> arm = Vector<3>::Zero(), momentum = Vector<3>::Zero();
+    std::ranges::copy(lever_arm, arm.begin());
+    std::ranges::copy(p, momentum.begin());
     return arm.cross(momentum).template tail<Dim*(Dim - 1) / 2>();
 }
 
@@ -124,9 +124,9 @@ struct Conserved {
             const Vector<Dim> p = 0.5 * (before[i] + after[i]), x = row.rest_positions()[i] + q[i];
             kinetic += 0.5 * before[i].dot(after[i]) / m;
             momentum += p;
-            rest += moment<Dim>(row.rest_positions()[i], p);
-            moved += moment<Dim>(x, p);
-            pseudo += moment<Dim>(x, p) - 0.25 * state.dt * moment<Dim>(before[i] / m, after[i]);
+            rest += test::moment<Dim>(row.rest_positions()[i], p);
+            moved += test::moment<Dim>(x, p);
+            pseudo += test::moment<Dim>(x, p) - 0.25 * state.dt * test::moment<Dim>(before[i] / m, after[i]);
         }
     }
 };

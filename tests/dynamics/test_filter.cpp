@@ -1,6 +1,7 @@
 // The filter takes any system of points that says what was in contact.
 #include "abut/dynamics/filter.hpp"
 
+#include <Eigen/Dense>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numeric>
@@ -40,8 +41,7 @@ std::vector<dynamics::Hold<Dim>> frame(int first) {
     std::vector<dynamics::Hold<Dim>> holds;
     for (int place = 0; place <= Dim; ++place)
         for (int d = first; d < Dim; ++d)
-            holds.push_back({place < Dim ? Vector<Dim>(Vector<Dim>::Unit(place)) : Vector<Dim>(Vector<Dim>::Zero()),
-                             Vector<Dim>::Unit(d)});
+            holds.push_back({place < Dim ? Vector<Dim>::Unit(place) : Vector<Dim>::Zero(), Vector<Dim>::Unit(d)});
     return holds;
 }
 

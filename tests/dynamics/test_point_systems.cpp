@@ -20,7 +20,7 @@ TEMPLATE_TEST_CASE_SIG("the ledger of free points has their energy, momentum and
     const auto p = random_values(random, row.size());
     dynamics::Memm memm(row, std::vector<double>(row.size(), 0.0), p, 0.1, dynamics::PathMean::gauss_1);
     Vector<Dim> momentum = Vector<Dim>::Zero();
-    Eigen::Matrix<double, dynamics::n_rotations<Dim>, 1> spin = Eigen::Matrix<double, dynamics::n_rotations<Dim>, 1>::Zero();
+    SmallMatrix<dynamics::n_rotations<Dim>, 1> spin = SmallMatrix<dynamics::n_rotations<Dim>, 1>::Zero();
     double kinetic = 0.0;
     const auto p_i = as_vectors<Dim>(std::span<const double>(p));
     for (std::size_t i = 0; i < p_i.size(); ++i) {

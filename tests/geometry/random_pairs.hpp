@@ -1,10 +1,10 @@
 #pragma once
-#include <Eigen/Geometry>
 #include <array>
 #include <cmath>
 #include <cstdint>
 #include <random>
 
+#include "abut/base/rotation.hpp"
 #include "abut/geometry/pair_potential/pair_potential.hpp"
 #include "geometry/polygons.hpp"
 
@@ -24,9 +24,9 @@ template <int Dim>
 Matrix<Dim> random_turn(std::mt19937& random, double largest_angle) {
     const double angle = uniform(random, -largest_angle, largest_angle);
     if constexpr (Dim == 2)
-        return Eigen::Rotation2Dd(angle).toRotationMatrix();
+        return rotation_in_plane(angle);
     else
-        return Eigen::AngleAxisd(angle, random_vector<3>(random, 1.0).normalized()).toRotationMatrix();
+        return rotation_about(random_vector<3>(random, 1.0).normalized(), angle);
 }
 
 /// Two faces of size about 1 that look at each other more or less, pressed into each other more or less.

@@ -68,8 +68,8 @@ Boxes<Dim> random_boxes(int count, unsigned seed, double largest) {
 template <int Dim>
 Boxes<Dim> placed(Boxes<Dim> boxes, double scale, double offset) {
     for (Box<Dim>& box : boxes) {
-        box.lower = (scale * box.lower).array() + offset;
-        box.upper = (scale * box.upper).array() + offset;
+        box.lower = scale * box.lower + Vector<Dim>::Constant(offset);
+        box.upper = scale * box.upper + Vector<Dim>::Constant(offset);
     }
     return boxes;
 }

@@ -83,7 +83,7 @@ TEST_CASE("touching cubes are neither apart nor interlocked", "[convex_distance]
     std::mt19937 random(2);
     for (int trial = 0; trial < 50; ++trial) {
         CAPTURE(trial);
-        const Matrix<3> turn = trial == 0 ? Matrix<3>(Matrix<3>::Identity()) : random_turn(random);
+        const Matrix<3> turn = trial == 0 ? Matrix<3>::Identity() : random_turn(random);
         for (const Vector<3>& corner :
              {Vector<3>(1, 0, 0), Vector<3>(1, 0.3, 0.4), Vector<3>(1, 1, 0.2), Vector<3>(1, 1, 1)}) {
             const ConvexProximity<3> result =

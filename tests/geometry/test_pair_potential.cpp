@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "abut/base/rotation.hpp"
 #include "abut/geometry/pair_potential/plane_overlap.hpp"
 #include "geometry/random_pairs.hpp"
 #include "support/worst.hpp"
@@ -21,8 +22,7 @@ double scale(const PairMeanGradient<Dim>& found, const PairCorners<Dim>& motion)
 
 /// Whether the line from a point meets a triangle, and how far along it.
 bool ray_hits(const Vector<3>& from, const Vector<3>& along, const Vector<3>* triangle, double& height) {
-    Eigen::Matrix3d system;
-    system << triangle[1] - triangle[0], triangle[2] - triangle[0], -along;
+    const auto system = Matrix<3>::from_columns(triangle[1] - triangle[0], triangle[2] - triangle[0], -along);
     const Vector<3> solution = system.inverse() * (from - triangle[0]);
     height = solution[2];
     return solution[0] >= 0.0 && solution[1] >= 0.0 && solution[0] + solution[1] <= 1.0;
@@ -452,7 +452,8 @@ TEMPLATE_TEST_CASE_SIG("a pressed pair that turns by half a turn in a step has n
         Matrix<Dim> turn = -Matrix<Dim>::Identity();  // 3D: about e_3
         if constexpr (Dim == 3) turn(2, 2) = 1.0;
         Matrix<Dim> nearly = turn;
-        nearly.template topLeftCorner<2, 2>() = Eigen::Rotation2Dd(3.0).toRotationMatrix();
+        for (int row = 0; row < 2; ++row)
+            for (int column = 0; column < 2; ++column) nearly(row, column) = rotation_in_plane(3.0)(row, column);
         for (std::size_t v = 0; v < x_0.size(); ++v) half[v] = turn * x_0[v], less[v] = nearly * x_0[v];
         if constexpr (Dim == 3) {  // about the normal of face 1, whose first edge then turns over
             const Vector<3> normal = (x_0[1] - x_0[0]).cross(x_0[2] - x_0[0]).normalized();

@@ -1,9 +1,9 @@
-#include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
 #include <vector>
 
+#include "abut/base/rotation.hpp"
 #include "abut/geometry/plane_frame.hpp"
 #include "abut/geometry/polygon.hpp"
 
@@ -15,7 +15,7 @@ namespace {
 using Face = std::vector<Vector<3>>;
 
 Face turned(const Face& face, const Vector<3>& by) {
-    const Matrix<3> turn = Eigen::AngleAxisd(1.1, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
+    const Matrix<3> turn = rotation_about(Vector<3>(1, 2, 3).normalized(), 1.1);
     Face result;
     for (const Vector<3>& vertex : face) result.push_back(turn * vertex + by);
     return result;
@@ -55,7 +55,8 @@ TEST_CASE("reversing the vertices reverses the normal and nothing else", "[polyg
 TEST_CASE("a distant origin costs no digits beyond those of the vertices", "[polygon]") {
     Face face = regular(6);
     const Vector<3> far(0x1p23, -0x1p23, 0x1p23);
-    for (Vector<3>& vertex : face) vertex = 0x1p-10 * (0x1p19 * vertex).array().round().matrix() * 0x1p-19 + far;
+    for (Vector<3>& vertex : face)
+        vertex = 0x1p-10 * vertex.unaryExpr([](double x) { return std::round(0x1p19 * x) * 0x1p-19; }) + far;
     const Face near = [&] {
         Face copy = face;
         for (Vector<3>& vertex : copy) vertex -= far;

@@ -1,4 +1,3 @@
-#include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 
 #include <tbb/global_control.h>

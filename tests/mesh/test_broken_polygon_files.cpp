@@ -5,8 +5,6 @@
 #include <limits>
 #include <string>
 
-#include <Eigen/Geometry>
-
 #include "mesh/meshes.hpp"
 #include "mesh/surfaces.hpp"
 

@@ -1,7 +1,5 @@
 #include <catch2/catch.hpp>
 
-#include <Eigen/Geometry>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "abut/base/rotation.hpp"
 #include "abut/mesh/interpenetration.hpp"
 #include "abut/mesh/quality.hpp"
 #include "abut/mesh/shapes/shapes.hpp"
@@ -155,9 +154,8 @@ TEST_CASE("cells that touch edge to edge, crossed, do not overlap, and a little 
         const double angle = trial == 0 ? 0.5 * std::numbers::pi : std::numbers::pi * (0.5 + 0.4 * number(random)),
                      along = 0.8 * number(random);
         const Vector<3> across(std::cos(angle), std::sin(angle), 0.0), middle(along, 0.0, gap);
-        const Matrix<3> turn = Eigen::AngleAxisd(trial == 0 ? 0.0 : 3.0 * number(random),
-                                                 Eigen::Vector3d(number(random), number(random), 1.0).normalized())
-                                   .toRotationMatrix();
+        const Matrix<3> turn = rotation_about(Vector<3>(number(random), number(random), 1.0).normalized(),
+                                              trial == 0 ? 0.0 : 3.0 * number(random));
         std::vector<Vector<3>> low = {{-1, 0, 0}, {1, 0, 0}, {0, 1, -1}, {0, -1, -1}};
         std::vector<Vector<3>> high = {middle - across, middle + across, middle + Vector<3>(-across.y(), across.x(), 1),
                                        middle + Vector<3>(across.y(), -across.x(), 1)};

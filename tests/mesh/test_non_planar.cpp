@@ -1,7 +1,5 @@
 #include "mesh/laws.hpp"
 
-#include <Eigen/Geometry>
-
 using namespace abut;
 using namespace abut::mesh;
 

@@ -1,10 +1,10 @@
-#include <Eigen/Geometry>
 #include <array>
 #include <catch2/catch.hpp>
 #include <limits>
 #include <numbers>
 
 #include "abut/base/error.hpp"
+#include "abut/base/rotation.hpp"
 #include "abut/mesh/place.hpp"
 #include "abut/mesh/shapes/shapes.hpp"
 #include "mesh/laws.hpp"
@@ -18,7 +18,7 @@ using namespace abut::mesh;
 
 TEST_CASE("a box that is turned by a quarter and moved is the box of the turned corners", "[mesh][place]") {
     auto placed = structured_box<2>({0.0, 0.0}, {2.0, 1.0}, {2, 1}, CellShape::quadrangle);
-    place<2>(placed, Eigen::Rotation2Dd(0.5 * std::numbers::pi).toRotationMatrix(), {3.0, 0.0});
+    place<2>(placed, rotation_in_plane(0.5 * std::numbers::pi), {3.0, 0.0});
     const auto expected = structured_box<2>({2.0, 0.0}, {3.0, 2.0}, {1, 2}, CellShape::quadrangle);
     REQUIRE(placed.n_cells() == expected.n_cells());
     for (const Vector<2>& x : expected.cell_centroid) {
@@ -33,8 +33,7 @@ TEST_CASE("a box that is turned by a quarter and moved is the box of the turned 
 
 TEST_CASE("a mesh that is turned about a skew axis keeps the laws of a mesh", "[mesh][place]") {
     auto mesh = structured_box<3>({0.0, 0.0, 0.0}, {1.0, 2.0, 3.0}, {2, 2, 2}, CellShape::tetrahedron);
-    place<3>(mesh, Eigen::AngleAxisd(0.7, Eigen::Vector3d(1.0, 2.0, -1.0).normalized()).toRotationMatrix(),
-             {5.0, -1.0, 2.0});
+    place<3>(mesh, rotation_about(Vector<3>(1.0, 2.0, -1.0).normalized(), 0.7), {5.0, -1.0, 2.0});
     test::check_closed_cells(mesh);
     test::check_two_sides(mesh);
 }

@@ -1,7 +1,5 @@
 #include "mesh/meshes.hpp"
 
-#include <Eigen/Geometry>
-
 #include <fstream>
 #include <locale>
 #include <regex>

@@ -32,7 +32,7 @@ struct Values {
             const double x = std::sin(1.0 + static_cast<double>(i));
             numbers.push_back(i == 3 ? std::numeric_limits<double>::denorm_min() : std::exp(300.0 * x));
             vectors.push_back(Vector<Dim>::Constant(x));
-            tensors.push_back(x * Matrix<Dim>::Random());
+            tensors.push_back(x * Matrix<Dim>::Constant(0.7) + Matrix<Dim>::Identity());
         }
     }
 };

@@ -2,7 +2,7 @@
 #
 # Fails, naming file and line, where a source file of a layer includes a layer that it must not know, where it reaches
 # another folder by a relative path, and where a public header includes what its user does not get: a back end (only the
-# standard library and Eigen may be seen) or a header that is not installed. Programs may include what is installed.
+# standard library may be seen) or a header that is not installed. Programs may include what is installed.
 cmake_minimum_required(VERSION 3.25)
 
 set(allowed_base base)
@@ -53,7 +53,7 @@ foreach(layer IN LISTS layers programs)
         continue()
       elseif(line MATCHES "\"" OR included MATCHES "^\\.")
         list(APPEND problems "${file}:${number}: write \"abut/<layer>/<file>\" for ${included}")
-      elseif(file IN_LIST PUBLIC_HEADERS AND included MATCHES "[/.]" AND NOT included MATCHES "^Eigen/")
+      elseif(file IN_LIST PUBLIC_HEADERS AND included MATCHES "[/.]")
         list(APPEND problems "${file}:${number}: a public header must not include ${included}: back ends stay in .cpp files")
       endif()
     endforeach()

@@ -137,8 +137,9 @@ TEMPLATE_TEST_CASE_SIG("forces on first copies add up to nothing over all ranks,
         const auto force = forces<Dim>(contact.step(1.0, x_0, x_1), part.rest.size());
         Vector<6> sum = Vector<6>::Zero();
         for (std::size_t k = 0; k < force.size(); ++k) {
-            sum.template head<Dim>() += force[k];
-            sum.template tail<Dim == 2 ? 1 : 3>() += moment<Dim>(0.5 * (x_0[k] + x_1[k]), force[k]);
+            const AxialVector<Dim> turning = moment<Dim>(0.5 * (x_0[k] + x_1[k]), force[k]);
+            for (int d = 0; d < Dim; ++d) sum[d] += force[k][d];
+            for (int d = 0; d < turning.size(); ++d) sum[6 - turning.size() + d] += turning[d];
             largest_force = std::max(largest_force, force[k].norm());
         }
         MPI_Allreduce(MPI_IN_PLACE, sum.data(), 6, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);

@@ -1,11 +1,11 @@
 #pragma once
 // Meshes and scenes for the tests of the solid layer.
-#include <Eigen/Dense>
 #include <array>
 #include <random>
 #include <string>
 #include <vector>
 
+#include "abut/base/rotation.hpp"
 #include "abut/dynamics/ledger.hpp"
 #include "abut/dynamics/memm.hpp"
 #include "abut/dynamics/stable_step.hpp"
@@ -20,9 +20,9 @@ namespace abut::test {
 template <int Dim>
 Matrix<Dim> turned_by(double angle) {
     if constexpr (Dim == 2)
-        return Eigen::Rotation2Dd(angle).toRotationMatrix();
+        return rotation_in_plane(angle);
     else
-        return Eigen::AngleAxisd(angle, Eigen::Vector3d(1.0, -0.4, 0.7).normalized()).toRotationMatrix();
+        return rotation_about(Vector<3>(1.0, -0.4, 0.7).normalized(), angle);
 }
 
 using mesh::CellShape;
@@ -114,30 +114,6 @@ std::span<const Vector<Dim>> vectors(const std::vector<double>& values) {
 template <int Dim>
 std::span<Vector<Dim>> vectors(std::vector<double>& values) {
     return as_vectors<Dim>(std::span<double>(values));
-}
-
-/// K, column by column.
-template <int Dim>
-Eigen::MatrixXd dense_stiffness(solid::Solid<Dim>& solid) {
-    const auto n = static_cast<Eigen::Index>(solid.size());
-    Eigen::MatrixXd k(n, n);
-    std::vector<double> unit(solid.size(), 0.0), column(solid.size());
-    for (Eigen::Index j = 0; j < n; ++j) {
-        unit[static_cast<std::size_t>(j)] = 1.0;
-        solid.stiffness_product(unit, column);
-        k.col(j) = Eigen::Map<const Eigen::VectorXd>(column.data(), n);
-        unit[static_cast<std::size_t>(j)] = 0.0;
-    }
-    return k;
-}
-
-/// omega_max of the dense eigenvalue problem K x = omega^2 M x.
-template <int Dim>
-double highest_frequency(solid::Solid<Dim>& solid) {
-    const auto n = static_cast<Eigen::Index>(solid.size());
-    const Eigen::VectorXd root = Eigen::Map<const Eigen::VectorXd>(solid.inverse_mass().data(), n).cwiseSqrt();
-    const Eigen::MatrixXd k = root.asDiagonal() * dense_stiffness(solid) * root.asDiagonal();
-    return std::sqrt(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(k, Eigen::EigenvaluesOnly).eigenvalues()[n - 1]);
 }
 
 /// A solid with its mesh and its integrator, at rest in its reference shape except for uniform velocities of its bodies.

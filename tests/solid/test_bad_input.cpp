@@ -116,9 +116,7 @@ TEMPLATE_TEST_CASE_SIG("loads that are not finite are refused with what they act
     const auto mesh = mesh::box<Dim>({.size = 0.5, .name = "block"});
     auto options = reconstructed_bodies<Dim>(1);
     const Vector<Dim> bad = Vector<Dim>::Constant(GENERATE(not_a_number, infinite));
-    const solid::Field<Dim> later = [bad](double t, const Vector<Dim>&) {
-        return t > 0.0 ? bad : Vector<Dim>(Vector<Dim>::Zero());
-    };
+    const solid::Field<Dim> later = [bad](double t, const Vector<Dim>&) { return t > 0.0 ? bad : Vector<Dim>::Zero(); };
     std::string says = "'xmin'";
     bool from_the_start = true;
     SECTION("a displacement") { options.boundary.dirichlet.push_back({.group = "xmin", .value = bad, .history = {}}); }

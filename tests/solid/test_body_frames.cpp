@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "abut/base/eigen.hpp"
 #include "abut/base/error.hpp"
 #include "abut/mesh/shapes/shapes.hpp"
 #include "abut/solid/body/bodies.hpp"
@@ -66,7 +67,9 @@ struct AnyBody {
 
     double any(double size) { return std::uniform_real_distribution<double>(-size, size)(random); }
     Vector<Dim> any_vector(double size) {
-        return Vector<Dim>::NullaryExpr([&] { return any(size); });
+        Vector<Dim> vector;
+        for (double& value : vector) value = any(size);
+        return vector;
     }
 
     /// Displacements of a body that has been turned, strained and shifted.
@@ -78,8 +81,9 @@ struct AnyBody {
         return q;
     }
     Matrix<Dim> turn_by(double angle) {
-        const AxialVector<Dim> axis = AxialVector<Dim>::NullaryExpr([&] { return any(1.0); }).normalized();
-        const Matrix<Dim> h = solid::hat<Dim>(axis);
+        AxialVector<Dim> axis;
+        for (double& value : axis) value = any(1.0);
+        const Matrix<Dim> h = solid::hat<Dim>(axis.normalized());
         return Matrix<Dim>::Identity() + std::sin(angle) * h + (1.0 - std::cos(angle)) * h * h;
     }
 
@@ -116,7 +120,7 @@ struct AnyBody {
         Eigen::VectorXd f = stiffness * (0.5 * (in_frame(q_0) + in_frame(q_1)));
         std::vector<BodyPush<Dim>> pushes(1);
         for (int v = 0; v < n_corners; ++v) {
-            f += reconstruction[v].transpose() * (step.force_turn().transpose() * push[v]);
+            f += reconstruction[v].transpose() * as_eigen(step.force_turn().transpose() * push[v]);
             const Vector<Dim> arm = 0.5 * (corner_at(v, q_0) - frames_0[0].centre + corner_at(v, q_1) - frames_1[0].centre);
             pushes[0].add(push[v], arm);
         }

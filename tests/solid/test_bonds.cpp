@@ -9,6 +9,7 @@
 #include "abut/solid/boundary/bond_places.hpp"
 #include "abut/solid/contact_view.hpp"
 #include "abut/solid/statics.hpp"
+#include "solid/dense_stiffness.hpp"
 #include "solid/turning_scenes.hpp"
 
 namespace abut::test {
@@ -64,7 +65,7 @@ mesh::Mesh<Dim> with_sides(mesh::Mesh<Dim> mesh) {
     for (const Vector<Dim>& vertex : mesh.vertices) box.extend(vertex);
     const std::vector<std::string> sides = box_sides(Dim);
     for (std::size_t i = 0; i < sides.size(); ++i) {
-        const auto axis = static_cast<Eigen::Index>(i / 2);
+        const auto axis = static_cast<std::ptrdiff_t>(i / 2);
         const double end = i % 2 == 0 ? box.lower[axis] : box.upper[axis];
         mesh::BoundaryGroup group{sides[i], {}};
         for (const std::int32_t f : mesh.boundary_faces)

@@ -94,7 +94,7 @@ TEMPLATE_TEST_CASE_SIG("a block on rollers under a uniform traction is in equili
         options.boundary.traction.push_back({.group = "xmax", .value = traction * Vector<Dim>::Unit(0), .history = {}});
         solid::Solid<Dim> solid(mesh, options);
         const auto exact = sampled(mesh, [&](const Vector<Dim>& x) {
-            Vector<Dim> u = across * (x.array() + 0.3).matrix();  // the lower corner of the boxes is at -0.3
+            Vector<Dim> u = across * (x + Vector<Dim>::Constant(0.3));  // the lower corner of the boxes is at -0.3
             u[0] = along * (x[0] + 0.3);
             return u;
         });
@@ -136,7 +136,7 @@ TEMPLATE_TEST_CASE_SIG("a body force is the mass times the acceleration, or the 
     const auto mesh = mesh::box<Dim>({.size = 0.4});
     auto options = one_body<Dim>();
     solid::Solid<Dim> bare(mesh, options);
-    const auto load = [](const Vector<Dim>& x) { return Vector<Dim>(x.array().square().matrix()); };
+    const auto load = [](const Vector<Dim>& x) { return x.cwiseProduct(x); };
     const Vector<Dim> acceleration = -9.81 * Vector<Dim>::Unit(Dim - 1);
     options.acceleration = {acceleration};
     options.body_load = load;

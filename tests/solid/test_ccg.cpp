@@ -3,6 +3,7 @@
 #include <cstring>
 
 #include "abut/solid/ccg/largest_motion.hpp"
+#include "solid/dense_stiffness.hpp"
 #include "solid/scenes.hpp"
 
 using namespace abut;
@@ -113,8 +114,8 @@ TEMPLATE_TEST_CASE_SIG(
     "[solid][ccg]", ((int Dim), Dim), 2, 3) {
     const FreeFaceRule neumann = GENERATE(from_range(neumann_choices));
     const auto values = random_state(Dim * Dim + Dim, 8, 0.1);
-    const Matrix<Dim> a = Eigen::Map<const Matrix<Dim>>(values.data());
-    const Vector<Dim> b = Eigen::Map<const Vector<Dim>>(values.data() + Dim * Dim);
+    const Matrix<Dim> a(values.data());
+    const Vector<Dim> b(values.data() + Dim * Dim);
     const auto affine = [&](const Vector<Dim>& x) { return Vector<Dim>(a * x + b); };
     const Matrix<Dim> strain = 0.5 * (a + a.transpose());
     const Matrix<Dim> stress = rubber.lambda() * strain.trace() * Matrix<Dim>::Identity() + 2.0 * rubber.mu() * strain;
@@ -371,7 +372,7 @@ TEMPLATE_TEST_CASE_SIG("face stiffnesses of a cell add up to its energy", "[soli
         Matrix<Dim> gradient = Matrix<Dim>::Zero();
         for (const std::int32_t f : mesh.cell_faces[c]) {
             area.push_back((mesh.face_cells[f][0] == c ? 1.0 : -1.0) * mesh.face_measure[f] * mesh.face_normal[f]);
-            u.push_back(Vector<Dim>::NullaryExpr([&](Eigen::Index) { return value(random); }));
+            for (double& component : u.emplace_back()) component = value(random);
             gradient += u.back() * area.back().transpose() / measure;
         }
         const Matrix<Dim> strain = 0.5 * (gradient + gradient.transpose());

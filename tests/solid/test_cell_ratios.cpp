@@ -47,6 +47,6 @@ TEMPLATE_TEST_CASE_SIG(
     const Vector<Dim> left = solid::body_motions<Dim>(scene.memm, scene.solid)[1].velocity / speed;
     CHECK(left[Dim - 1] > 0.0);
     CHECK(left[Dim - 1] < 1.0);
-    CHECK(left.head(Dim - 1).norm() < 0.01);
+    CHECK(left.template head<Dim - 1>().norm() < 0.01);
     CHECK(scene.ledger.pseudo_energy_drift() < 1e-12 * scene.kinetic_start());
 }

@@ -1,7 +1,6 @@
 // Free faces of a cell that answer where contact moves another of its faces.
 #include <catch2/catch.hpp>
 
-#include <Eigen/Geometry>
 #include <array>
 #include <utility>
 
@@ -161,7 +160,7 @@ TEST_CASE("the tip of a needle, whose cell would give way, has faces that do not
                                                       {m02, m03, m13, m23},
                                                       {m02, m12, m13, m23}}};
     for (auto& cell : cells) {
-        const auto x = [&](int i) { return Eigen::Vector3d(soup.vertices[static_cast<std::size_t>(cell[i])]); };
+        const auto x = [&](int i) { return Vector<3>(soup.vertices[static_cast<std::size_t>(cell[i])]); };
         if ((x(1) - x(0)).cross(x(2) - x(0)).dot(x(3) - x(0)) < 0.0) std::swap(cell[2], cell[3]);
         soup.cell_vertices.append(cell);
         soup.cell_shape.push_back(CellShape::tetrahedron);

@@ -7,6 +7,7 @@
 
 #include "abut/solid/cell_view.hpp"
 #include "abut/solid/kinematics/properties.hpp"
+#include "solid/dense_stiffness.hpp"
 #include "solid/scenes.hpp"
 
 // Free faces of curved boundaries that meet supports: a part of a ring that symmetry planes cut out is as the whole ring.

@@ -1,5 +1,4 @@
 // Rayleigh's damping and the viscosity of shocks, of bodies of all kinematics.
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <catch2/catch.hpp>
@@ -7,6 +6,7 @@
 #include <memory>
 #include <numbers>
 
+#include "abut/base/decompositions.hpp"
 #include "abut/base/error.hpp"
 #include "abut/contact/obstacle.hpp"
 #include "abut/solid/cell_view.hpp"
@@ -232,13 +232,12 @@ public:
     static double stress_of(double stretch) { return (1.0 - std::pow(stretch, -3.0)) / 3.0; }
     [[nodiscard]] solid::Response<2> at(const Matrix<2>& g) const override {
         const Matrix<2> f = Matrix<2>::Identity() + g;
-        const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(Eigen::Matrix2d(f.transpose() * f));
+        const SymmetricEigen<2> axes = symmetric_eigen(f.transpose() * f);
         solid::Response<2> response{.energy = 0.0, .stress = Matrix<2>::Zero()};
         for (int i = 0; i < 2; ++i) {
-            const double stretch = std::sqrt(axes.eigenvalues()[i]);
+            const double stretch = std::sqrt(axes.values[i]);
             response.energy += energy_of(stretch);
-            response.stress +=
-                stress_of(stretch) / stretch * f * axes.eigenvectors().col(i) * axes.eigenvectors().col(i).transpose();
+            response.stress += stress_of(stretch) / stretch * f * axes.vectors.col(i) * axes.vectors.col(i).transpose();
         }
         return response;
     }

@@ -68,7 +68,7 @@ TEMPLATE_TEST_CASE_SIG("steps on a device have the bits of those on the host: fo
             if (host.prescribed()[BoundaryFace{b}].isZero(0.0)) faces.push_back(BoundaryFace{b});
         const auto u = random_vectors<Dim>(static_cast<std::size_t>(mesh.n_cells()), 3);
         const auto moved = random_vectors<Dim>(faces.size(), 5), pushed = random_vectors<Dim>(faces.size(), 6);
-        const std::vector<Matrix<Dim>> moments(faces.size(), Matrix<Dim>::Random());
+        const std::vector<Matrix<Dim>> moments(faces.size(), Matrix<Dim>(random_state(Dim * Dim, 7).data()));
         const auto load = host.load_at(0.0, 0.0);
         const std::vector<solid::FaceCorrections<Dim>> corrections = {
             {}, {faces, moved, pushed}, {faces, {}, pushed, moments}, {}};  // the last: nothing stays of those before

@@ -1,6 +1,7 @@
 // Bodies of Kinematics::finite without contact: exact steps, patches, small limit, spins.
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <limits>
 
 #include "abut/base/error.hpp"
 #include "abut/solid/cell_view.hpp"
@@ -31,9 +32,11 @@ TEMPLATE_TEST_CASE_SIG("a step of a finite body does the work of its forces, and
             solid::Solid<Dim> solid(mesh, apart<Dim>({Kinematics::finite}));
             const auto q_0 = turned_state<Dim>(mesh, 0.7, 1, 0.01), q_1 = turned_state<Dim>(mesh, 0.7 + turn, 2, 0.01);
             const StepErrors<Dim> errors(solid, q_0, q_1);
-            CHECK(errors.energy <= 1e-14);
-            CHECK(errors.momentum <= 1e-15);
-            CHECK(errors.angular <= 1e-15);
+            // Displacements of about 1, which round at epsilon, and strains of 0.01: forces round at 100 epsilon, each twice.
+            constexpr double rounding = 100.0 * std::numeric_limits<double>::epsilon();
+            CHECK(errors.energy <= rounding);
+            CHECK(errors.momentum <= rounding / std::sqrt(static_cast<double>(mesh.n_cells())));
+            CHECK(errors.angular <= rounding / std::sqrt(static_cast<double>(mesh.n_cells())));
         }
 }
 
@@ -93,7 +96,7 @@ TEST_CASE("a patch under uniform stretch is in balance, and has the energy of a 
     const CellShape shape = GENERATE(CellShape::triangle, CellShape::quadrangle);
     CAPTURE(stretch, int(shape));
     const auto mesh = mesh::structured_box<2>({0.0, 0.0}, {1.0, 0.75}, {8, 6}, shape);
-    const Matrix<2> f = turned_by<2>(1.1) * Eigen::Vector2d(stretch, lateral).asDiagonal();
+    const Matrix<2> f = turned_by<2>(1.1) * Vector<2>(stretch, lateral).asDiagonal();
     const auto field = [&](const Vector<2>& x) -> Vector<2> { return f * x - x; };
     solid::BoundaryConditions<2> conditions;
     for (const char* side : {"xmin", "xmax"}) {

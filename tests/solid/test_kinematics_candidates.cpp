@@ -2,11 +2,11 @@
 // broad phase, or on how many threads.
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/task_arena.h>
-#include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstring>
 
+#include "abut/base/rotation.hpp"
 #include "abut/contact/obstacle.hpp"
 #include "abut/dynamics/filter.hpp"
 #include "abut/solid/contact_view.hpp"
@@ -34,9 +34,9 @@ struct State {
 template <int Dim>
 Matrix<Dim> turned_about_z(double angle) {
     if constexpr (Dim == 2)
-        return Eigen::Rotation2Dd(angle).toRotationMatrix();
+        return rotation_in_plane(angle);
     else
-        return Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+        return rotation_about(Vector<3>::UnitZ(), angle);
 }
 
 /// A row of bodies between walls that a long thin body and a bar that turns as an obstacle reach with their tips: floating and

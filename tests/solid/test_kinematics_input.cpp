@@ -1,11 +1,11 @@
 // What a solid of bodies that turn refuses, and what it makes of displacements and velocities of cells.
-#include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <functional>
 #include <limits>
 
 #include "abut/base/error.hpp"
+#include "abut/base/rotation.hpp"
 #include "abut/contact/obstacle.hpp"
 #include "abut/solid/cell_view.hpp"
 #include "abut/solid/contact_view.hpp"
@@ -119,7 +119,7 @@ TEST_CASE("a rigid body takes the turn of its cells, also where they are in a ro
     options.contact.reset();
     options.kinematics = {Kinematics::rigid};
     solid::Solid<3> solid(mesh, options);
-    const Matrix<3> turn = Eigen::AngleAxisd(0.3, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+    const Matrix<3> turn = rotation_about(Vector<3>::UnitZ(), 0.3);
     const Vector<3> shift = 0.2 * upper;
     std::vector<Vector<3>> of_cells;
     for (const Vector<3>& x : mesh.cell_centroid) of_cells.emplace_back(turn * x + shift - x);

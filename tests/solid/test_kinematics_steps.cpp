@@ -1,8 +1,8 @@
 // Rigid bodies under steps that change, and where restarts of other bodies are on.
-#include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "abut/base/rotation.hpp"
 #include "abut/dynamics/filter.hpp"
 #include "abut/dynamics/leapfrog.hpp"
 #include "abut/dynamics/neutral_restart.hpp"
@@ -48,7 +48,7 @@ struct TurnedStart {
 
     TurnedStart(const solid::Solid<3>& solid, double angle)
         : q(solid.size()), p(momentum_of<3>(solid, {{.spin = {0.3, 1.0, 0.2}}})) {
-        const Matrix<3> turn = Eigen::AngleAxisd(angle, Eigen::Vector3d(1.0, 2.0, 3.0).normalized()).toRotationMatrix();
+        const Matrix<3> turn = rotation_about(Vector<3>(1.0, 2.0, 3.0).normalized(), angle);
         for (std::size_t i = 0; i < solid.masses().size(); ++i) {
             vectors<3>(q)[i] = turn * solid.rest_positions()[i] - solid.rest_positions()[i];
             const Vector<3> momentum = turn * vectors<3>(p)[i];

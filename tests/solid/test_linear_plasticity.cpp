@@ -74,9 +74,8 @@ TEMPLATE_TEST_CASE_SIG("a body that is strained alike everywhere has the stress 
                     vectors<Dim>(q_1)[c] = strain_at(i * dt) * mesh.cell_centroid[c];
                 solid.mean_force(q_0, q_1, (i - 1) * dt, dt, force);
                 std::swap(q_0, q_1);
-                Matrix<3> strain = Matrix<3>::Zero();
                 const Matrix<Dim> now = strain_at(i * dt);
-                strain.template topLeftCorner<Dim, Dim>() = 0.5 * (now + now.transpose());
+                const Matrix<3> strain = in_3d<Dim>(0.5 * (now + now.transpose()));
                 const Matrix<3> expected = exact.step(strain);
                 (void)solid.potential(q_0);
                 for (std::int32_t c = 0; c < mesh.n_cells(); ++c) {

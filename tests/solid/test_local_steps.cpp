@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "abut/solid/local_steps.hpp"
+#include "solid/dense_stiffness.hpp"
 #include "solid/integrator_runs.hpp"
 #include "solid/scenes.hpp"
 

@@ -2,6 +2,7 @@
 
 #include <functional>
 
+#include "solid/dense_stiffness.hpp"
 #include "solid/scenes.hpp"
 
 using namespace abut;

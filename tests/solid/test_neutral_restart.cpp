@@ -33,9 +33,7 @@ std::array<Body<Dim>, 2> two_bodies(const Scene<Dim>& scene, std::span<const dou
     std::array<Body<Dim>, 2> bodies;
     const auto before = as_vectors<Dim>(p_before), after = as_vectors<Dim>(p_after);
     for (std::int32_t c = 0; c < scene.mesh.n_cells(); ++c) {
-        Vector<3> x = Vector<3>::Zero(), p = Vector<3>::Zero();
-        x.template head<Dim>() = scene.mesh.cell_centroid[c];
-        p.template head<Dim>() = 0.5 * (before[c] + after[c]);
+        const Vector<3> x = in_3d<Dim>(scene.mesh.cell_centroid[c]), p = in_3d<Dim>(0.5 * (before[c] + after[c]));
         Body<Dim>& body = bodies[static_cast<std::size_t>(scene.mesh.cell_body[c])];
         body.kinetic += 0.5 * before[c].dot(after[c]) / scene.solid.masses()[c];
         body.momentum += p.template head<Dim>();

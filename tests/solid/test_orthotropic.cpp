@@ -6,10 +6,14 @@
 #include <cmath>
 #include <numbers>
 
+#include "abut/base/decompositions.hpp"
+#include "abut/base/eigen.hpp"
 #include "abut/base/error.hpp"
+#include "abut/base/rotation.hpp"
 #include "abut/solid/ccg/ccg.hpp"
 #include "abut/solid/cell_view.hpp"
 #include "abut/solid/contact_view.hpp"
+#include "solid/dense_stiffness.hpp"
 #include "solid/finite_scenes.hpp"
 
 using namespace abut;
@@ -56,7 +60,7 @@ Material turned_ply(double angle) {
 template <int Dim>
 Matrix<3> axes_at(double angle) {
     if constexpr (Dim == 2)
-        return Eigen::AngleAxisd(angle, Vector<3>::UnitZ()).toRotationMatrix();
+        return rotation_about(Vector<3>::UnitZ(), angle);
     else
         return turned_by<3>(angle);
 }
@@ -86,8 +90,8 @@ Matrix<3> strain_of(const Material& m, const Matrix<3>& axes, const Matrix<3>& s
 /// sigma of eps: the inverse, by solving for six components.
 Matrix<3> stress_of(const Material& m, const Matrix<3>& axes, const Matrix<3>& strain) {
     const std::array<std::pair<int, int>, 6> components{{{0, 0}, {1, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}}};
-    Eigen::Matrix<double, 6, 6> compliance;
-    Eigen::Matrix<double, 6, 1> of_strain;
+    SmallMatrix<6, 6> compliance;
+    SmallMatrix<6, 1> of_strain;
     const auto unit = [&](int k) {
         const auto [i, j] = components[static_cast<std::size_t>(k)];
         Matrix<3> tensor = Matrix<3>::Zero();
@@ -99,7 +103,7 @@ Matrix<3> stress_of(const Material& m, const Matrix<3>& axes, const Matrix<3>& s
         of_strain[k] = strain(i, j);
         for (int l = 0; l < 6; ++l) compliance(k, l) = strain_of(m, axes, unit(l))(i, j);
     }
-    const Eigen::Matrix<double, 6, 1> of_stress = compliance.fullPivLu().solve(of_strain);
+    const SmallMatrix<6, 1> of_stress = as_eigen(compliance).fullPivLu().solve(as_eigen(of_strain));
     Matrix<3> stress = Matrix<3>::Zero();
     for (int k = 0; k < 6; ++k) stress += of_stress[k] * unit(k);
     return stress;
@@ -108,9 +112,7 @@ Matrix<3> stress_of(const Material& m, const Matrix<3>& axes, const Matrix<3>& s
 /// The stress in space of a strain in the plane or in space.
 template <int Dim>
 Matrix<3> stress_of(const Material& material, const Matrix<3>& axes, const Matrix<Dim>& g) {
-    Matrix<3> strain = Matrix<3>::Zero();
-    strain.topLeftCorner<Dim, Dim>() = 0.5 * (g + g.transpose());
-    return stress_of(material, axes, strain);
+    return stress_of(material, axes, in_3d<Dim>(0.5 * (g + g.transpose())));
 }
 
 /// Largest difference over the largest number.
@@ -259,10 +261,10 @@ TEMPLATE_TEST_CASE_SIG("plane waves run along the axes and across them with the 
                 stress_of<Dim>(ply(), axes_at<Dim>(angle), Matrix<Dim>(Vector<Dim>::Unit(j) * n.transpose()))
                     .template topLeftCorner<Dim, Dim>() *
                 n;
-        const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(0.5 * (christoffel + christoffel.transpose()));
+        const SymmetricEigen<Dim> modes = symmetric_eigen(Matrix<Dim>(0.5 * (christoffel + christoffel.transpose())));
         for (int mode = 0; mode < Dim; ++mode) {
-            const Vector<Dim> a = solver.eigenvectors().col(mode);
-            const double exact = std::sqrt(solver.eigenvalues()[mode] / material.density);
+            const Vector<Dim> a = modes.vectors.col(mode);
+            const double exact = std::sqrt(modes.values[mode] / material.density);
             std::array<double, 2> speed;
             for (const int level : {0, 1}) {
                 const int cells = (Dim == 2 ? 12 : 8) << level;

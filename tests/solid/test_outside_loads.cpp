@@ -321,7 +321,7 @@ TEST_CASE("conditions from outside that cannot be are refused", "[solid][outside
     auto options = blocks_loaded_from_outside<2>();
     std::string says = loaded;
     SECTION("with a history") {
-        options.boundary.traction[0].history = [](double, const Vector<2>&) { return Vector<2>::Zero().eval(); };
+        options.boundary.traction[0].history = [](double, const Vector<2>&) { return Vector<2>::Zero(); };
         says = "history";
     }
     SECTION("twice") {

@@ -28,16 +28,11 @@ struct Invariants {
     Vector<3> angular = Vector<3>::Zero();
 
     Invariants(const Scene<Dim>& scene, std::span<const double> p_before, std::span<const double> p_after) {
-        const auto in_space = [](const Vector<Dim>& v) {
-            Vector<3> lifted = Vector<3>::Zero();
-            lifted.template head<Dim>() = v;
-            return lifted;
-        };
         const auto before = as_vectors<Dim>(p_before), after = as_vectors<Dim>(p_after);
         for (std::int32_t c = 0; c < scene.mesh.n_cells(); ++c) {
             kinetic += 0.5 * before[c].dot(after[c]) / scene.solid.masses()[c];
             momentum += after[c];
-            angular += in_space(scene.mesh.cell_centroid[c]).cross(in_space(after[c]));
+            angular += in_3d<Dim>(scene.mesh.cell_centroid[c]).cross(in_3d<Dim>(after[c]));
         }
     }
 };

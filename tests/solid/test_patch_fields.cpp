@@ -3,7 +3,6 @@
 //
 // Not here: faces that contact or bonds act on, and temperatures (test_contact_field.cpp, test_bonds.cpp, test_thermal.cpp). Of what is
 // here `why_not` leaves out what no affine motion fills, or a kinematics does not have, and says why.
-#include <Eigen/Dense>
 #include <catch2/catch.hpp>
 #include <map>
 
@@ -137,7 +136,7 @@ public:
     explicit Filled(const Patch<Dim>& patch)
         : patch_(patch),
           gradient_(gradient_of(patch)),
-          turn_(patch.turn != 0.0 ? turned_by<Dim>(patch.turn) : Matrix<Dim>(Matrix<Dim>::Identity())),
+          turn_(patch.turn != 0.0 ? turned_by<Dim>(patch.turn) : Matrix<Dim>::Identity()),
           first_stress_(first_stress(patch, gradient_)) {
         options = bodies<Dim>(1);
         options.contact.reset();
@@ -313,7 +312,7 @@ TEST_CASE("a finite triangle bears a stretch along two free faces that turn by l
     for (std::int32_t c = 0; c < mesh.n_cells(); ++c) {
         if (mesh.cell_centroid[c][1] < 2.0) continue;
         ++n_roofs;
-        const Matrix<2> expected = degrees < 28.0 ? of_plane : Matrix<2>(Matrix<2>::Zero());
+        const Matrix<2> expected = degrees < 28.0 ? of_plane : Matrix<2>::Zero();
         CHECK((solid.cells().stress(c) - expected).norm() <= 1e-13);
     }
     CHECK(n_roofs == 4);
@@ -346,7 +345,7 @@ TEMPLATE_TEST_CASE_SIG("a bond of finite blocks bears a uniform tension, in thei
     const Vector<Dim> opening = 0.5 * depth / material.wave_modulus() * traction;
     std::vector<double> q, force(solid.size());
     for (const Vector<Dim>& x : solid.rest_positions()) {
-        const Vector<Dim> u = gradient * x + (x[0] > 0.0 ? opening : Vector<Dim>(Vector<Dim>::Zero()));
+        const Vector<Dim> u = gradient * x + (x[0] > 0.0 ? opening : Vector<Dim>::Zero());
         q.insert(q.end(), u.begin(), u.end());
     }
     solid.mean_force(q, q, 0.0, 0.01, force);

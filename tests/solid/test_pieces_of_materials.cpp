@@ -5,6 +5,7 @@
 
 #include "abut/mesh/split_body.hpp"
 #include "abut/solid/statics.hpp"
+#include "solid/dense_stiffness.hpp"
 #include "solid/turning_scenes.hpp"
 
 namespace abut::test {

@@ -63,8 +63,7 @@ private:
 template <int Dim>
 double deviator_size(const Matrix<Dim>& stress, const Matrix<Dim>& g, const Material& material) {
     const Matrix<Dim> f = Matrix<Dim>::Identity() + g;
-    Matrix<3> tau = Matrix<3>::Zero();
-    tau.template topLeftCorner<Dim, Dim>() = stress * f.transpose();
+    Matrix<3> tau = in_3d<Dim>(stress * f.transpose());
     if (Dim == 2) {
         const double bulk = material.lambda() + 2.0 / 3.0 * material.mu();
         tau(2, 2) = 3.0 * bulk * std::log(f.determinant()) - tau(0, 0) - tau(1, 1);  // flow keeps the volume

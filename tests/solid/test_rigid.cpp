@@ -4,6 +4,7 @@
 #include <memory>
 #include <numbers>
 
+#include "abut/base/rotation.hpp"
 #include "abut/contact/obstacle.hpp"
 #include "abut/dynamics/filter.hpp"
 #include "abut/dynamics/leapfrog.hpp"
@@ -27,7 +28,7 @@ struct Box {
         return mesh::structured_box<3>(-0.5 * sides, 0.5 * sides, {2, 3, 2}, CellShape::hexahedron);
     }
     [[nodiscard]] Vector<3> inertia() const {
-        const Vector<3> squares = sides.cwiseAbs2();
+        const Vector<3> squares = sides.cwiseProduct(sides);
         return sides.prod() / 12.0 * (squares.sum() * Vector<3>::Ones() - squares);
     }
 };
@@ -68,7 +69,7 @@ using FreeTop = Top<dynamics::Memm<solid::Solid<3>>>;
 
 Matrix<3> turned(const Vector<3>& rotation) {
     const double angle = rotation.norm();
-    return Eigen::AngleAxisd(angle, Eigen::Vector3d(rotation / angle)).toRotationMatrix();
+    return rotation_about(Vector<3>(rotation / angle), angle);
 }
 
 /// Of a body with I_1 = I_2 that starts unturned: it precesses about L and spins about its own axis.
@@ -160,6 +161,7 @@ TEST_CASE("a rigid box that falls on a plane bounces and tumbles with its energy
     auto options = bodies<3>(1);
     options.acceleration = {{0.0, 0.0, -0.01}};
     options.obstacles = {contact::plane_obstacle<3>({0.0, 0.0, -1.0}, {0.0, 0.0, 1.0}, 10.0)};
+    options.contact->compression_limit = 2.5;  // rounding decides how it lands, after some bounces: 2.03 at most in 20 runs
     TurningScene<3> scene(Box{{1.0, 0.7, 0.4}}.mesh(), options, {{.spin = {0.03, 0.05, 0.02}}}, 0.9, Kinematics::rigid);
     dynamics::NeutralFilter filter(scene.solid);
     scene.memm.set_after_step([&](auto q, double dt, auto before, auto after) { filter(q, dt, before, after); });

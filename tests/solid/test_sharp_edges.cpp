@@ -1,5 +1,4 @@
 // Sharp edges and corners of bodies in space.
-#include <Eigen/Geometry>  // cross()
 #include <array>
 #include <cmath>
 #include <map>
@@ -7,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "abut/base/rotation.hpp"
 #include "abut/contact/blind_corners.hpp"
 #include "abut/contact/unseen_edges.hpp"
 #include "abut/mesh/place.hpp"
@@ -54,7 +54,7 @@ mesh::Mesh<3> edged_beam(double angle, double height, int n, double length, int 
 }
 /// Turned by half a turn about y + x: along y, the sharp edge up, just below the origin.
 mesh::Mesh<3> crossed(mesh::Mesh<3> beam, double gap) {
-    mesh::place<3>(beam, (Matrix<3>() << 0, 1, 0, 1, 0, 0, 0, 0, -1).finished(), {0.0, 0.0, -gap});
+    mesh::place<3>(beam, {{0.0, 1.0, 0.0}, {1.0, 0.0, 0.0}, {0.0, 0.0, -1.0}}, {0.0, 0.0, -gap});
     return beam;
 }
 
@@ -120,8 +120,7 @@ TurningScene<3> crossing_beams(double lower, double upper, double across, double
     auto options = bodies<3>(2);
     options.law = solid::ContactLaw::pair_potential;
     mesh::Mesh<3> above = edged_beam(upper * degree, 0.5, 3, 2.0, 8);
-    mesh::place<3>(above, Eigen::AngleAxisd((90.0 - across) * degree, Vector<3>::UnitZ()).toRotationMatrix(),
-                   Vector<3>::Zero());
+    mesh::place<3>(above, rotation_about(Vector<3>::UnitZ(), (90.0 - across) * degree), Vector<3>::Zero());
     return TurningScene<3>(together(crossed(edged_beam(lower * degree, 0.5, 3, 2.0, 9), 0.2 * speed), above), options,
                            {moving<3>({0.0, 0.0, 0.0}), moving<3>({0.0, 0.0, -speed})}, cfl, kinematics);
 }

@@ -82,8 +82,7 @@ struct Corrections {
             return;
         }
         const auto values = random_state(faces.size() * Dim * Dim, 6, 0.1);
-        for (std::size_t i = 0; i < faces.size(); ++i)
-            moment.push_back(Eigen::Map<const Matrix<Dim>>(values.data() + i * Dim * Dim));
+        for (std::size_t i = 0; i < faces.size(); ++i) moment.push_back(Matrix<Dim>(values.data() + i * Dim * Dim));
     }
     [[nodiscard]] solid::FaceCorrections<Dim> view() const { return {faces, displacement, energy_gradient, moment}; }
 };
@@ -237,7 +236,7 @@ TEMPLATE_TEST_CASE_SIG("what bodies of simplices have on some cells and faces is
 TEMPLATE_TEST_CASE_SIG("simplices under the tractions of an affine field are in equilibrium in it, flat ones too",
                        "[solid][simplices]", ((int Dim), Dim), 2, 3) {
     const auto values = random_state(Dim * Dim, 8, 0.1);
-    const Matrix<Dim> a = Eigen::Map<const Matrix<Dim>>(values.data());
+    const Matrix<Dim> a(values.data());
     const bool flat = GENERATE(false, true);
     const auto mesh = simplex_body<Dim>(flat);
     const solid::Material material = materials[flat ? 2 : 0];

@@ -1,5 +1,6 @@
 #include <catch2/catch.hpp>
 
+#include "solid/dense_stiffness.hpp"
 #include "solid/scenes.hpp"
 
 using namespace abut;

@@ -4,6 +4,7 @@
 
 #include "abut/solid/contact_view.hpp"
 #include "abut/solid/statics.hpp"
+#include "solid/dense_stiffness.hpp"
 #include "solid/scenes.hpp"
 
 namespace abut::test {

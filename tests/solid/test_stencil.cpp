@@ -1,5 +1,7 @@
+#include <Eigen/LU>
 #include <catch2/catch.hpp>
 
+#include "abut/base/eigen.hpp"
 #include "abut/solid/ccg/stencil.hpp"
 #include "solid/scenes.hpp"
 
@@ -71,7 +73,7 @@ std::vector<Simplex<Dim>> all_simplices(const mesh::Mesh<Dim>& mesh, std::int32_
         int j = 0;
         for (std::size_t i = 0; i < cells.size(); ++i) {
             if (!taken[i]) continue;
-            corners.col(j) << 1.0, mesh.cell_centroid[cells[i]] - mesh.face_centroid[face];
+            corners.col(j) << 1.0, as_eigen(mesh.cell_centroid[cells[i]] - mesh.face_centroid[face]);
             simplex.distances += corners.col(j).template tail<Dim>().norm();
             simplex.stencil.cells[j++] = cells[i];
         }

@@ -1,8 +1,10 @@
 // Bodies of Kinematics::finite whose material is given by its stored energy.
+#include <Eigen/LU>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <memory>
 
+#include "abut/base/eigen.hpp"
 #include "abut/base/error.hpp"
 #include "abut/dynamics/neutral_restart.hpp"
 #include "abut/solid/cell_view.hpp"
@@ -37,7 +39,7 @@ const Material mooney_rivlin{
 template <int Dim>
 long double by_invariants(const Material& material, const Matrix<Dim>& g) {
     Eigen::Matrix<long double, 3, 3> f = Eigen::Matrix<long double, 3, 3>::Identity();
-    f.topLeftCorner(Dim, Dim) += g.template cast<long double>();
+    f.topLeftCorner(Dim, Dim) += as_eigen(g).template cast<long double>();
     const Eigen::Matrix<long double, 3, 3> c = f.transpose() * f;
     const long double first = c.trace(), second = (first * first - (c * c).trace()) / 2, log = std::log(f.determinant());
     const long double mu = material.mu(), s = material.second_share;
@@ -152,7 +154,7 @@ TEST_CASE("a neo-Hookean bar in plane strain takes the width at which nothing pu
     const CellShape shape = GENERATE(CellShape::triangle, CellShape::quadrangle);
     CAPTURE(stretch, width, int(shape));
     const auto mesh = mesh::structured_box<2>({0.0, 0.0}, {1.0, 0.75}, {8, 6}, shape);
-    const Matrix<2> f = turned_by<2>(1.1) * Eigen::Vector2d(stretch, width).asDiagonal();
+    const Matrix<2> f = turned_by<2>(1.1) * Vector<2>(stretch, width).asDiagonal();
     const auto field = [&](const Vector<2>& x) -> Vector<2> { return f * x - x; };
     solid::BoundaryConditions<2> conditions;
     for (const char* side : {"xmin", "xmax"}) {

@@ -54,15 +54,19 @@ TEMPLATE_TEST_CASE_SIG("a uniform strain of a body that turns has the energy of 
                                      : (simplices ? CellShape::tetrahedron : CellShape::hexahedron);
     std::array<int, Dim> counts;
     counts.fill(3);
-    const Vector<Dim> upper = Vector<Dim>::LinSpaced(0.4, 0.9);
+    const auto linear = [](double first, double last) {
+        Vector<Dim> values;
+        for (int i = 0; i < Dim; ++i) values[i] = first + (last - first) * i / (Dim - 1);
+        return values;
+    };
+    const Vector<Dim> upper = linear(0.4, 0.9);
     const auto mesh = mesh::structured_box<Dim>(-upper, upper, counts, shape);
     solid::SolidOptions<Dim> options;
     options.materials = {{.young = 1.0, .poisson = 0.3, .density = 1.0}};
     options.boundary.free_face_rule = solid::FreeFaceRule::extrapolate;
     options.kinematics = {Kinematics::floating};
     solid::Solid<Dim> body(mesh, options);
-    const Matrix<Dim> strain =
-        Vector<Dim>::LinSpaced(-0.01, 0.02).asDiagonal();  // along axes of inertia, which then only turn
+    const Matrix<Dim> strain = linear(-0.01, 0.02).asDiagonal();  // along axes of inertia, which then only turn
     const Matrix<Dim> turned = turned_by<Dim>(1.0) * (Matrix<Dim>::Identity() + strain);
     std::vector<double> u;
     for (const Vector<Dim>& x : body.rest_positions()) {

@@ -1,7 +1,6 @@
 // Bodies of Kinematics::finite whose temperature is given: laws behind a thermal stretch, and states of equal strain.
 #include <catch2/catch.hpp>
 
-#include <Eigen/Dense>
 #include <array>
 #include <cmath>
 #include <functional>
@@ -41,12 +40,15 @@ using PrincipalStretches = Vector<3>;
 /// W along principal axes.
 double law_energy(const Material& material, const PrincipalStretches& x) {
     const double lambda = material.lambda(), mu = material.mu(), log = std::log(x.prod()), s = material.second_share;
-    const Vector<3> squares = x.array().square();
+    const Vector<3> squares = x.cwiseProduct(x);
     if (material.law == MaterialLaw::st_venant_kirchhoff) {
-        const Vector<3> e = 0.5 * (squares.array() - 1.0);
+        const Vector<3> e = 0.5 * (squares - Vector<3>::Ones());
         return 0.5 * lambda * e.sum() * e.sum() + mu * e.squaredNorm();
     }
-    if (material.law == MaterialLaw::j2) return 0.5 * lambda * log * log + mu * Vector<3>(x.array().log()).squaredNorm();
+    if (material.law == MaterialLaw::j2) {
+        const Vector<3> logarithms = x.unaryExpr([](double stretch) { return std::log(stretch); });
+        return 0.5 * lambda * log * log + mu * logarithms.squaredNorm();
+    }
     const double first = squares.sum(), second = 0.5 * (first * first - squares.squaredNorm());
     return 0.5 * mu * (1.0 - s) * (first - 3.0 - 2.0 * log) + 0.5 * mu * s * (second - 3.0 - 4.0 * log) +
            0.5 * (lambda - 2.0 * mu * s) * log * log;
@@ -230,12 +232,13 @@ TEST_CASE("a warm orthotropic body of finite strains expands along its axes, and
         }
     }
     // Held in the plane, at an angle: S = C : E of 1/a_i along the axes, sigma = F_e S F_e^T/det F_e.
-    Matrix<3> compliance;
-    compliance << 1.0 / 10.0, -0.4 / 10.0, -0.45 / 10.0, -0.4 / 10.0, 1.0 / 0.8, -0.35 / 0.8, -0.45 / 10.0, -0.35 / 0.8,
-        1.0 / 0.5;
-    const Vector<3> elastic = a.cwiseInverse(), strain = 0.5 * (elastic.array().square() - 1.0);
+    const Matrix<3> compliance{{1.0 / 10.0, -0.4 / 10.0, -0.45 / 10.0},
+                               {-0.4 / 10.0, 1.0 / 0.8, -0.35 / 0.8},
+                               {-0.45 / 10.0, -0.35 / 0.8, 1.0 / 0.5}};
+    const Vector<3> elastic = Vector<3>::Ones().cwiseQuotient(a), squares = elastic.cwiseProduct(elastic);
+    const Vector<3> strain = 0.5 * (squares - Vector<3>::Ones());
     const Vector<3> second = compliance.inverse() * strain;
-    const Vector<3> stress = second.array() * elastic.array().square() / elastic.prod();
+    const Vector<3> stress = second.cwiseProduct(squares) / elastic.prod();
     wood.axis_angle = 0.6;
     const Matrix<2> turn = turned_by<2>(0.6);
     const Matrix<2> expected = turn * Vector<2>(stress[0], stress[1]).asDiagonal() * turn.transpose();

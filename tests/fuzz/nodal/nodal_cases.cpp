@@ -1,12 +1,12 @@
 #include "fuzz/nodal/nodal_cases.hpp"
 
-#include <Eigen/Geometry>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <map>
+
+#include "abut/base/rotation.hpp"
 
 namespace abut::fuzz {
 namespace {
@@ -24,10 +24,9 @@ template <int Dim>
 Matrix<Dim> any_turn(Dice& dice, double most) {
     const double angle = dice.uniform(-most, most);
     if constexpr (Dim == 2)
-        return Eigen::Rotation2Dd(angle).toRotationMatrix();
+        return rotation_in_plane(angle);
     else
-        return Eigen::AngleAxisd(angle, (any_vector<3>(dice, 1.0) + 1e-3 * Vector<3>::UnitX()).normalized())
-            .toRotationMatrix();
+        return rotation_about((any_vector<3>(dice, 1.0) + 1e-3 * Vector<3>::UnitX()).normalized(), angle);
 }
 
 /// Puts faces and nodes into a case.
@@ -198,8 +197,8 @@ NodalCase<Dim> make_case(Dice& dice) {
             make_sheets<Dim>(scene, dice);
     }
     if (!dice.one_in(2)) scene.size = dice.any_of({1e-3, 1e3, 1e-9, 1e9, 1e-30, 1e30, 1e-74, 1e74, dice.power(-20.0, 20.0)});
-    const Matrix<Dim> turn = dice.one_in(4) ? Matrix<Dim>(Matrix<Dim>::Identity()) : any_turn<Dim>(dice, 3.2);
-    const Vector<Dim> by = dice.one_in(2) ? Vector<Dim>(Vector<Dim>::Zero()) : any_vector<Dim>(dice, dice.power(-1.0, 4.0));
+    const Matrix<Dim> turn = dice.one_in(4) ? Matrix<Dim>::Identity() : any_turn<Dim>(dice, 3.2);
+    const Vector<Dim> by = dice.one_in(2) ? Vector<Dim>::Zero() : any_vector<Dim>(dice, dice.power(-1.0, 4.0));
     for (Vector<Dim>& corner : scene.rest) corner = scene.size * (turn * corner + by);
     for (double& depth : scene.faces.depth) depth *= scene.size;
     scene.options = any_options(dice, scene.size);
@@ -216,7 +215,7 @@ std::vector<Vector<Dim>> moved(const NodalCase<Dim>& scene, const std::vector<Ve
             break;
         case 1:  // one body, or half of it, as a whole
         case 2: {
-            const Matrix<Dim> turn = dice.one_in(2) ? Matrix<Dim>(Matrix<Dim>::Identity()) : any_turn<Dim>(dice, 3.2);
+            const Matrix<Dim> turn = dice.one_in(2) ? Matrix<Dim>::Identity() : any_turn<Dim>(dice, 3.2);
             const Vector<Dim> by = any_vector<Dim>(dice, motion), centre = x[any_node()];
             for (std::size_t i = x.size() / 2; i < x.size(); ++i) to[i] = centre + turn * (x[i] - centre) + by;
             break;

@@ -12,13 +12,13 @@
 
 namespace abut::solid {
 
-template <class Derived>
-void put(StateWriter& state, const Eigen::MatrixBase<Derived>& matrix) {
-    for (const double value : matrix.reshaped()) state.put(value);
+template <int Rows, int Cols>
+void put(StateWriter& state, const SmallMatrix<Rows, Cols>& matrix) {
+    for (const double value : matrix) state.put(value);
 }
-template <class Derived>
-void take(StateReader& state, Eigen::MatrixBase<Derived>& matrix) {
-    for (double& value : matrix.reshaped()) value = state.get<double>();
+template <int Rows, int Cols>
+void take(StateReader& state, SmallMatrix<Rows, Cols>& matrix) {
+    for (double& value : matrix) value = state.get<double>();
 }
 
 template <class Matrix>
