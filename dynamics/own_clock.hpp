@@ -1,13 +1,18 @@
 #pragma once
-#include <cmath>
 #include <span>
 #include <vector>
 
 #include "abut/base/error.hpp"
-#include "abut/base/messages.hpp"
 #include "abut/dynamics/memm.hpp"
 
 namespace abut::dynamics {
+
+namespace detail {
+/// Throws BadInput unless d [s] is > 0 and finite.
+void check_advance(double d);
+/// Throws BadInput for a time out of the step from `node` to `next` [s].
+void check_clock_time(double time, double node, double next);
+}  // namespace detail
 
 /// Times that a program outside dictates. MEMM keeps its constant step tau, and its nodes: inside a step the path is a
 /// straight line that is known before any force, so that q is there at any time. Without loads the nodes have the same
@@ -38,7 +43,7 @@ public:
     /// As above, where `step()` takes the step of the integrator.
     template <class Piece, class Node, class Step>
     void advance(double d, const Piece& piece, const Node& node, const Step& step) {
-        check(d);
+        detail::check_advance(d);
         meet_integrator();
         for (double rest = d; rest > 0.0;) {
             if (rest < left() - nearness * tau_) {
@@ -71,20 +76,13 @@ public:
     void restore(double time) {
         node_ = memm_.time();
         tau_ = memm_.dt();
-        if (!(time >= node_) || !(time < node_ + tau_))
-            throw BadInput("OwnClock: the time is " + number(time) + " s, and the step of the integrator lasts from " +
-                               number(node_) + " to " + number(node_ + tau_) + " s. Restore both from the same state.",
-                           {.value = time, .allowed = node_});
+        detail::check_clock_time(time, node_, node_ + tau_);
         time_ = time;
     }
 
 private:
     static constexpr double nearness = 1e-12;  // of tau: so near a node is at it
 
-    static void check(double d) {
-        if (!(d > 0.0) || !std::isfinite(d))
-            throw BadInput("OwnClock: it should go on by " + number(d) + " s; give a finite time > 0.", {.value = d});
-    }
     /// At a node the integrator may have gone on by itself, or have another step.
     void meet_integrator() {
         const bool same = memm_.time() == node_ && memm_.dt() == tau_;

@@ -85,14 +85,12 @@ public:
 
     [[nodiscard]] bool has_list() const { return list_is_valid_; }
     [[nodiscard]] bool has_searched() const { return has_searched_; }
-    [[nodiscard]] bool is_valid_for(double motion) const {
-        return list_is_valid_ && candidates_.is_valid_for(motion) && motion <= law_.list_reach();
-    }
+    [[nodiscard]] bool is_valid_for(double motion) const { return list_is_valid_ && candidates_.is_valid_for(motion); }
     /// False, too, where something is not finite: then a search says what it is.
     [[nodiscard]] bool is_valid_at(const State& state) const {
-        return list_is_valid_ && is_valid_for(std::sqrt(largest(law_.n_watched(), [&](std::ptrdiff_t i) {
-                   return (law_.position(state, i) - searched_at_[static_cast<std::size_t>(i)]).squaredNorm();
-               })));
+        return list_is_valid_ && candidates_.is_valid_for(std::sqrt(largest(law_.n_watched(), [&](std::ptrdiff_t i) {
+            return (law_.position(state, i) - searched_at_[static_cast<std::size_t>(i)]).squaredNorm();
+        }))) && !law_.has_turned(state);
     }
     void require_list() const {
         if (!list_is_valid_)

@@ -2,7 +2,6 @@
 // Private to the layer.
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <string>
 #include <vector>
@@ -46,7 +45,7 @@ public:
     }
 
     void search(CandidateSearch<Dim>& candidates, State u_0, State u_1) const { candidates.search(u_0, u_1); }
-    [[nodiscard]] double list_reach() const { return std::numeric_limits<double>::infinity(); }
+    [[nodiscard]] bool has_turned(State) const { return false; }  // its lists do not ask how faces look
     [[nodiscard]] bool is_wanted(FacetPair) const { return true; }
     void list(std::span<const FacetPair> pairs, std::span<const FacetPair> in_contact, State u_0, State u_1, double reach);
     void list_remembered(std::span<const FacetPair> pairs);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "abut/base/error.hpp"
 #include "abut/base/ids.hpp"
@@ -14,11 +13,12 @@
 namespace abut::contact {
 namespace {
 
-/// A list of a body that touches itself ends where its corners have moved by this share of the mean width of its
-/// facets, by which a facet of that width turns by 0.15 rad.
-constexpr double share_of_width = 0.065;
-/// Two facets of one body that may turn by more than this in all are judged by their distance alone [rad].
-constexpr double most_turn = 0.6;
+// Of two facets of one body: by how much n_1 . n_2 changes while a list is valid, and by how much n turns [rad].
+constexpr double turns_at_most = 0.1;
+constexpr double turns_in_all = 0.2;
+/// The turn of a facet of a body that touches itself at which a list ends [rad]: two of them change n_1 . n_2 by
+/// `turns_at_most`.
+constexpr double turn_of_list = 0.05;
 
 /// Tells for each body whether it may touch itself (n_bodies).
 template <int Dim>
@@ -42,13 +42,9 @@ NodeLaw<Dim>::NodeLaw(BevelledSurface<Dim> surface, const NodalOptions& options,
       inside_(acting().facets().view(), touches_itself(acting(), options_.search)),
       pairs_(options_.facing, options_.friction, options_.interference, sharing),
       ramps_(options_.interference),
-      weightless_angle_(std::acos(std::clamp(options_.facing.none, -1.0, 1.0))),
+      looks_away_(std::cos(std::acos(std::clamp(options_.facing.none, -1.0, 1.0)) - turns_in_all)),
       law_(options_.events, options_.friction, sharing) {
     const Surface<Dim>& facets = surface_.host().facets();
-    if (options_.search.self_contact && this->facets().size() > 0) {
-        place_facets(this->facets().vertices);
-        for (const PlacedFacet& facet : placed_) mean_width_ += facet.width / static_cast<double>(placed_.size());
-    }
     for (std::int32_t facet = 0; facet < facets.size(); ++facet)
         if (!surface_.host().is_rigid(facets.body[facet]))
             for (std::int32_t v = Dim * facet; v < Dim * (facet + 1); ++v)
@@ -65,16 +61,15 @@ std::string NodeLaw<Dim>::face_name(Face face) const {
 template <int Dim>
 void NodeLaw<Dim>::search(CandidateSearch<Dim>& candidates, State x_0, State x_1) {
     geometry::PairFilter within;
-    reach_ = std::numeric_limits<double>::infinity();
     if (options_.search.self_contact) {
-        place_facets(x_0);
-        reach_ = std::min(0.5 * candidates.next_skin(), share_of_width * mean_width_);
+        place_facets(x_0, at_start_);
+        place_facets(x_1, at_end_);
         const double in_step = std::sqrt(
             largest(n_watched(), [&](std::ptrdiff_t i) { return (position(x_1, i) - position(x_0, i)).squaredNorm(); }));
-        const double reach = std::max(reach_, in_step);
-        bound_turns(reach);
-        within = [this, reach](std::int32_t facet_1, std::int32_t facet_2) {
-            return may_come_together({Facet{std::min(facet_1, facet_2)}, Facet{std::max(facet_1, facet_2)}}, reach);
+        within = [this, reach = std::max(0.5 * candidates.next_skin(), in_step)](std::int32_t facet_1,
+                                                                                 std::int32_t facet_2) {
+            const FacetPair pair{Facet{std::min(facet_1, facet_2)}, Facet{std::max(facet_1, facet_2)}};
+            return may_come_together(pair, at_start_, reach) || may_come_together(pair, at_end_, reach);
         };
     }
     try {
@@ -92,60 +87,63 @@ void NodeLaw<Dim>::search(CandidateSearch<Dim>& candidates, State x_0, State x_1
 }
 
 template <int Dim>
-void NodeLaw<Dim>::place_facets(State x) {
+Vector<Dim> NodeLaw<Dim>::normal_of(std::int32_t facet, State x) const {
+    const auto corners = facets().vertices_of(facet);
+    const Vector<Dim> a = x[corners[1]] - x[corners[0]];
+    if constexpr (Dim == 2)
+        return Vector<2>(a[1], -a[0]).normalized();
+    else
+        return moment<3>(a, x[corners[2]] - x[corners[0]]).normalized();
+}
+
+template <int Dim>
+void NodeLaw<Dim>::place_facets(State x, PlacedFacets& placed) {
     const std::int32_t n = facets().size();
-    placed_.resize(static_cast<std::size_t>(n));
+    placed.middle.resize(static_cast<std::size_t>(n));
+    placed.normal.resize(placed.middle.size());
+    if (radius_.empty())
+        for (std::int32_t facet = 0; facet < n; ++facet) radius_.push_back(circumradius(facets(), facet));
     parallel_each(
         n,
         [&](std::ptrdiff_t facet) {
             const auto corners = facets().vertices_of(static_cast<std::int32_t>(facet));
-            PlacedFacet& placed = placed_[static_cast<std::size_t>(facet)];
-            placed.middle = Vector<Dim>::Zero();
-            for (const std::int32_t v : corners) placed.middle += x[v] / Dim;
-            double squared = 0.0;
-            for (const std::int32_t v : corners) squared = std::max(squared, (x[v] - placed.middle).squaredNorm());
-            placed.radius = std::sqrt(squared);
-            const Vector<Dim> a = x[corners[1]] - x[corners[0]];
-            if constexpr (Dim == 2) {
-                placed.width = a.norm();
-                placed.normal = Vector<2>(a[1], -a[0]) / placed.width;
-            } else {
-                const Vector<3> b = x[corners[2]] - x[corners[0]], area = moment<3>(a, b);
-                placed.width = area.norm() / std::sqrt(std::max({a.squaredNorm(), b.squaredNorm(), (b - a).squaredNorm()}));
-                placed.normal = area.normalized();
-            }
+            Vector<Dim> sum = Vector<Dim>::Zero();
+            for (const std::int32_t v : corners) sum += x[v];
+            placed.middle[facet] = sum / Dim;
+            placed.normal[facet] = normal_of(static_cast<std::int32_t>(facet), x);
         },
         1024);
 }
 
-/// A facet whose corners move by at most r stays at least as wide as its width - 2 r, and its corners differ by at most
-/// 2 r in height.
 template <int Dim>
-void NodeLaw<Dim>::bound_turns(double reach) {
-    for (PlacedFacet& facet : placed_)
-        facet.turn = facet.width > 2.0 * reach ? std::atan(2.0 * reach / (facet.width - 2.0 * reach)) : most_turn;
+bool NodeLaw<Dim>::has_turned(State x) const {
+    if (!options_.search.self_contact) return false;
+    const double turned = largest(facets().size(), [&](std::ptrdiff_t facet) {
+        return (normal_of(static_cast<std::int32_t>(facet), x) - at_start_.normal[static_cast<std::size_t>(facet)])
+            .squaredNorm();
+    });
+    return !(turned <= turn_of_list * turn_of_list);
 }
 
-/// Of two facets of one body, when no corner moves by more than `reach`. Those that look too much the same way, and
-/// those that are far above, behind or beside each other seen along n, come together after the next search at the
-/// earliest, however they turn by then. What has a mark comes out only if it is shallow.
+/// Two facets of one body, when no corner moves by more than `reach`. They are neighbours on its surface, and turn little
+/// against each other while a list is valid: those that look too much the same way, and those that are far above, behind
+/// or beside each other seen along n, come together after the next search at the earliest. What has a mark comes out only
+/// if it is shallow and the facets look at each other.
 template <int Dim>
-bool NodeLaw<Dim>::may_come_together(FacetPair pair, double reach) const {
-    const PlacedFacet& facet_1 = placed_[static_cast<std::size_t>(pair.facet_1)];
-    const PlacedFacet& facet_2 = placed_[static_cast<std::size_t>(pair.facet_2)];
-    const Vector<Dim> between = facet_2.middle - facet_1.middle;
-    const double distance = between.norm(), sizes = facet_1.radius + facet_2.radius, turn = facet_1.turn + facet_2.turn;
-    const double depths = inside_.has(pair) ? 0.0
-                                            : facets().cell_depth[static_cast<std::size_t>(pair.facet_1)] +
-                                                  facets().cell_depth[static_cast<std::size_t>(pair.facet_2)];
-    if (turn >= most_turn) return distance <= 2.0 * reach + sizes + depths;
-    const double facing = facet_1.normal.dot(facet_2.normal);
-    if (facing > std::cos(std::max(0.0, weightless_angle_ - turn))) return false;
-    const double height = between.dot((facet_1.normal - facet_2.normal).normalized()), turned = turn * distance;
-    const double tilt = std::sqrt(std::max(0.0, 0.5 * (1.0 + facing))), slack = 2.0 * reach + tilt * sizes + turned;
-    if (height > slack || height < -(slack + depths)) return false;
+bool NodeLaw<Dim>::may_come_together(FacetPair pair, const PlacedFacets& placed, double reach) const {
+    const auto& [middle, normal] = placed;
+    const auto facet_1 = static_cast<std::size_t>(pair.facet_1), facet_2 = static_cast<std::size_t>(pair.facet_2);
+    const double facing = normal[facet_1].dot(normal[facet_2]);
+    if (facing > looks_away_) return false;
+    const Vector<Dim> between = middle[facet_2] - middle[facet_1];
+    const double height = between.dot((normal[facet_1] - normal[facet_2]).normalized()), distance = between.norm();
+    const double sizes = radius_[facet_1] + radius_[facet_2], turned = turns_in_all * distance;
+    const double tilt = std::sqrt(std::max(0.0, 0.5 * (1.0 + facing))), slack = 2.0 * reach + tilt * sizes;
+    if (height > slack + turned) return false;
     const double aside = 2.0 * reach + sizes + turned;
-    return distance * distance - height * height <= aside * aside;
+    if (distance * distance - height * height > aside * aside) return false;
+    if (inside_.has(pair)) return height >= -slack && facing <= options_.facing.none + turns_at_most;
+    return height >= -(slack + turned + facets().cell_depth[facet_1] + facets().cell_depth[facet_2]);
 }
 
 /// Whether a pair has come out of its body: the facets look at each other, and none is behind the other one.

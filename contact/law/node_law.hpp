@@ -50,8 +50,8 @@ public:
     }
 
     void search(CandidateSearch<Dim>& candidates, State x_0, State x_1);
-    /// How far nodes may move before facets of one body that were left out for the way they look could come together [m].
-    [[nodiscard]] double list_reach() const { return reach_; }
+    /// Whether a facet of bodies that touch themselves has turned since the last search by more than lists allow for.
+    [[nodiscard]] bool has_turned(State x) const;
     [[nodiscard]] bool is_wanted(FacetPair pair) const {
         return surface_.may_meet(number_of(pair.facet_1), number_of(pair.facet_2)) &&
                (!options_.wanted || options_.wanted(acting().face_of(pair.facet_1), acting().face_of(pair.facet_2)));
@@ -92,15 +92,12 @@ private:
         if (step.nodes.size() != listed_nodes().size()) step.nodes = listed_nodes();
     }
     void fold(NodalStep<Dim>& step) const { surface_.fold(step.nodes, step.gradient); }
-    /// A facet where a search begins.
-    struct PlacedFacet {
-        Vector<Dim> middle, normal;
-        double radius, width;  // of the circle about `middle`; the least distance of two lines that hold it between them [m]
-        double turn = 0.0;     // bound on the turn of `normal` while the list is valid [rad]
+    struct PlacedFacets {
+        std::vector<Vector<Dim>> middle, normal;  // of each facet
     };
-    void place_facets(State x);
-    void bound_turns(double reach);
-    [[nodiscard]] bool may_come_together(FacetPair pair, double reach) const;
+    [[nodiscard]] Vector<Dim> normal_of(std::int32_t facet, State x) const;
+    void place_facets(State x, PlacedFacets& placed);
+    [[nodiscard]] bool may_come_together(FacetPair pair, const PlacedFacets& placed, double reach) const;
     [[nodiscard]] bool is_seen_from_outside(const NodalPair<Dim>& pair, State x) const;
     void set_inside_pairs_apart(std::vector<FacetPair>& pairs, State x_0);
     void begin_interference(State x_0);
@@ -113,12 +110,11 @@ private:
     SideOutlines<Dim> sides_;
     InsidePairs<Dim> inside_;
     std::vector<NodalPair<Dim>> watched_;  // of these, that may be seen from outside while the list is valid
-    std::vector<PlacedFacet> placed_;      // only where bodies touch themselves
-    double mean_width_ = 0.0;              // of facets at rest [m]; only there, too
-    double reach_ = 0.0;                   // see list_reach
+    PlacedFacets at_start_, at_end_;       // of the step of a search
+    std::vector<double> radius_;           // of facets at rest [m]
     NodalPairs<Dim> pairs_;
     InterferenceRamps ramps_;
-    double weightless_angle_;  // between the normals of two facets that have no weight, at most [rad]
+    double looks_away_;  // n_1 . n_2 of two facets of one body that have no weight for as long as a list is valid
     PairPotential<Dim> law_;
     std::int32_t least_force_size_ = 0;  // nodes up to the last one of a deformable face
 };

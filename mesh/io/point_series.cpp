@@ -31,7 +31,7 @@ OutputGrid grid_of(const PointFrame<Dim>& frame) {
 template <int Dim>
 PointSeries<Dim>::PointSeries(std::filesystem::path directory, std::string basename)
     : directory_(std::move(directory)), basename_(std::move(basename)) {
-    make_directory(directory_ / frames_folder);
+    make_folders(directory_);
 }
 
 template <int Dim>

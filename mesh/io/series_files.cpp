@@ -6,6 +6,11 @@
 
 namespace abut::mesh {
 
+void make_folders(const std::filesystem::path& directory) {
+    make_directory(directory);
+    make_directory(directory / frames_folder);
+}
+
 std::string frame_name(const std::string& basename, std::size_t frame, const char* extension) {
     const std::string number = std::to_string(frame);
     return basename + "_" + std::string(number.size() < 6 ? 6 - number.size() : 0, '0') + number + extension;

@@ -9,6 +9,8 @@
 
 namespace abut::mesh {
 
+/// Makes the folder of a series and that of its frames. Throws MeshError naming the one that cannot be made.
+void make_folders(const std::filesystem::path& directory);
 /// BASENAME_000012.vtp, with the extension given.
 [[nodiscard]] std::string frame_name(const std::string& basename, std::size_t frame, const char* extension);
 /// frames/BASENAME_000012.vtp

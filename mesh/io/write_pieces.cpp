@@ -88,7 +88,7 @@ void write_piece(const std::filesystem::path& directory, const std::string& base
     const auto path = [&](const std::string& name, const char* extension) {
         return directory / frame_path(name, frame_number, piece_extension(piece, extension).c_str());
     };
-    make_directory(directory / frames_folder);  // which another rank may not have made yet
+    make_folders(directory);  // which another rank may not have made yet
     auto of_cells = prepared_grid(cells, path(basename, ".vtu"));
     auto of_surface = prepared_grid(surface, path(surface_name(basename), ".vtp"));
     of_cells.move_into_place();
@@ -97,7 +97,7 @@ void write_piece(const std::filesystem::path& directory, const std::string& base
 
 PieceSeries::PieceSeries(std::filesystem::path directory, std::string basename)
     : directory_(std::move(directory)), basename_(std::move(basename)) {
-    make_directory(directory_ / frames_folder);
+    make_folders(directory_);
 }
 
 template <int Dim>

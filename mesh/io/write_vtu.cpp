@@ -76,7 +76,7 @@ void VtuSeries<Dim>::Files::add_vertex_displacement(std::span<const Vector<Dim>>
 
 template <int Dim>
 VtuSeries<Dim>::VtuSeries(const Path& directory, const std::string& basename, const Mesh<Dim>& mesh) {
-    make_directory(directory / frames_folder);
+    make_folders(directory);
     const std::vector<std::int32_t> boundary = all_of(mesh.boundary_faces.size());
     auto vertices = surface_vertices(mesh, boundary);
     auto surface = grid_of_surface(mesh, boundary, vertices);

@@ -31,7 +31,7 @@ def fields_in_fortran(body):
         if "::" in line:
             kind, names = line.split("::")
             for name in names.split(","):
-                yield name.strip(), kind.strip()
+                yield name.split("=")[0].strip(), kind.strip()
 
 
 def main():

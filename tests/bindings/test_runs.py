@@ -66,8 +66,10 @@ class Scenes(unittest.TestCase):
                 self.assertEqual((copied.verdict, copied.summary), (result.verdict, result.summary))
                 np.testing.assert_array_equal(copied.ledger, result.ledger)
                 np.testing.assert_array_equal(copied.frames.stress, result.frames.stress)
-                for name in ("points", "body", "label", "centroids", "measures", "surface_cells"):
+                for name in ("points", "body", "label", "surface_cells"):
                     np.testing.assert_array_equal(getattr(copied.mesh, name), getattr(result.mesh, name), name)
+                for name in ("centroids", "measures"):  # sums over corners that may be in another order
+                    np.testing.assert_allclose(getattr(copied.mesh, name), getattr(result.mesh, name), rtol=1e-12, atol=1e-15)
                 self.assertEqual((copied.mesh.name, copied.mesh.body_names), (result.mesh.name, result.mesh.body_names))
                 for name, rows in result.mesh.groups.items():
                     np.testing.assert_array_equal(copied.mesh.groups[name], rows)

@@ -380,7 +380,9 @@ TEST_CASE("contact within a body does not depend on how long its lists live, tho
           "[contact][nodal][self]") {
     // Two arms of one face a side stand on one foot, and close like a book by up to 1.35 rad.
     const auto turned = [](const Vector<2>& x, const Vector<2>& centre, double angle) {
-        return Vector<2>(centre + Eigen::Rotation2Dd(angle) * (x - centre));
+        const Vector<2> arm = x - centre;
+        const double c = std::cos(angle), s = std::sin(angle);
+        return Vector<2>(centre + Vector<2>(c * arm[0] - s * arm[1], s * arm[0] + c * arm[1]));
     };
     const auto arms = [&](double opening) {
         std::vector<Vector<2>> x{{0.0, -0.3}, {1.0, -0.3}};

@@ -359,6 +359,8 @@ density = 1
 
 TEST_CASE("a point of a probe may be that of its body before it is turned and placed", "[input][scenes]") {
     const WrittenScene written(R"toml(dim = 2
+[run]
+steps = 1
 [bodies.bar]
 shape = "structured_box"
 lower = [0, 0]

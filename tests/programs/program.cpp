@@ -115,8 +115,14 @@ int check_targets(const Outcome& outcome) {
 
 std::vector<std::string> files_in(const fs::path& directory) {
     std::vector<std::string> names;
-    for (const auto& entry : fs::directory_iterator(directory))
-        if (entry.path().filename() != ".abut.results") names.push_back(entry.path().filename().string());
+    for (const auto& entry : fs::directory_iterator(directory)) {
+        const std::string name = entry.path().filename().string();
+        if (name == "frames")
+            for (const auto& frame : fs::directory_iterator(entry))
+                names.push_back(name + "/" + frame.path().filename().string());
+        else if (name != ".abut.results")
+            names.push_back(name);
+    }
     std::ranges::sort(names);
     return names;
 }

@@ -269,13 +269,14 @@ TEST_CASE("a bad run leaves no results of an earlier good one, and nobody else's
                                  Refusal{"--set values.gap=10 --dt 0.1 --allow-unstable --frames 0", {"diverged"}});
     const auto good = run_well("abut", slip("--set values.size=0.25 --steps 4 --frames 2"), "twice");
     REQUIRE(fs::exists(good.directory / "frames/bodies_surface_000001.vtp"));
-    const std::vector<std::string> mine = {"bodies_2.vtu", "frames/bodies_new_000001.vtu", "notes.txt",
-                                           "frames/otherbodies_000001.vtu"};
+    const std::vector<std::string> mine = {"bodies_2.vtu", "frames/bodies_new_000001.vtu", "frames/otherbodies_000001.vtu",
+                                           "notes.txt"};
     for (const auto& name : mine) std::ofstream(good.directory / name) << "mine\n";
     check_refused(bad, run_into(good.directory, "abut", slip(bad.arguments)));
     auto left = files_in(good.directory);
     std::erase_if(left, [](const std::string& name) {  // of the bad run
-        return name == "energy.csv.partial" || name.starts_with("failed.") || name.starts_with("bodies_failed");
+        return name == "energy.csv.partial" || name.starts_with("failed.") ||
+               name.find("bodies_failed") != std::string::npos;
     });
     CHECK(left == mine);
 }

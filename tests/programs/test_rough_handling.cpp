@@ -96,6 +96,7 @@ TEST_CASE("a user's own file in the folder of --out stays, and the run is refuse
                                                                {"study trade", "--only bar --levels 1", "trade.csv"}}));
     CAPTURE(name, file);
     const Folder folder("own_files");
+    fs::create_directories((folder.path() / file).parent_path());
     write(folder.path() / file, "mine");
     const auto outcome = run_program(name, fmt::format("{} --out '{}'", arguments, folder.path().string()), "");
     CHECK(outcome.exit_code == 1);

@@ -142,7 +142,7 @@ TEST_CASE("files of a folder that no run has claimed are the user's: none is rem
     const Folder folder;
     const run::RunOptions options{.out = folder.path(), .frames = 0};
     for (const char* name : {"summary.json", "forces.csv", "frames/block_000007.vtu", "block_surface.pvd", "failed.svg"}) {
-        fs::create_directories(folder.path());
+        fs::create_directories((folder.path() / name).parent_path());
         std::ofstream(folder.path() / name) << "mine";
         CHECK_THROWS_WITH(run::ResultFiles<2>(options, "mine", "block"),
                           Catch::Contains(name) && Catch::Contains("--out") && Catch::Contains("is there"));

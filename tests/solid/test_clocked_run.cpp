@@ -68,14 +68,15 @@ struct Bar {
     mesh::Mesh<2> mesh;
     std::unique_ptr<solid::SteppedRun<2>> run;
 
-    Bar(int n, double courant, int restart)
+    Bar(int n, double courant, int restart, double velocity = 0.0)
         : mesh(mesh::structured_box<2>({0, 0}, {1, 2.0 / n}, {n, 2}, mesh::CellShape::quadrangle)) {
         solid::SolidOptions<2> options;
         options.materials = {{.young = 1.0, .poisson = 0.0, .density = 1.0}};
         options.boundary.traction = {{.group = "xmin", .from_outside = true}};
         auto solid = std::make_unique<solid::Solid<2>>(mesh, options);
-        const std::vector<double> rest(solid->size(), 0.0);
-        run = std::make_unique<solid::SteppedRun<2>>(std::move(solid), rest, rest, courant / n,
+        const std::vector<Vector<2>> moving{Vector<2>(velocity, 0.0)};
+        const std::vector<double> rest(solid->size(), 0.0), p = solid::uniform_momentum<2>(*solid, moving);
+        run = std::make_unique<solid::SteppedRun<2>>(std::move(solid), rest, p, courant / n,
                                                      solid::RunRemedies{.restart = restart});
     }
     void press(solid::ClockedRun<2>& clock, double pressure) const {
@@ -200,38 +201,43 @@ TEST_CASE("a pulse at dictated times runs through a bar with order 2, however it
         for (std::size_t i = 0; i < q.size(); ++i) sum += std::pow(q[i] - exact[i], 2), size += exact[i] * exact[i];
         return std::sqrt(sum / size);
     };
-    const double coarse = error(0.8), middle = error(0.4), fine = error(0.2);
-    CHECK(std::log2(coarse / middle) == Approx(2.0).margin(0.35));
-    CHECK(std::log2(middle / fine) == Approx(2.0).margin(0.35));
+    const double coarse = error(0.5), middle = error(0.25), fine = error(0.125);
+    CAPTURE(coarse, middle, fine);
+    CHECK(0.5 * std::log2(coarse / fine) == Approx(2.0).margin(0.3));  // the times are at random
+    CHECK(middle < coarse);
     CHECK(fine < 2e-3);
 }
 
 TEST_CASE("a load that answers to the motion is kept by neutral restarts or the trapezoid, and lost without",
           "[solid][clock]") {
-    // A dashpot p = -Z v at the end of the bar, sub-cycled by 0.2 of the step: it pumps the alternating mode (METHOD of loads).
+    // A bar that flies, and a dashpot p = -Z v at its end, in pieces of 0.2 of the step: it pumps the alternating mode.
     constexpr double dashpot = 0.3;  // of rho c
+    struct Energies {
+        double largest = 0.0, last = 0.0;  // kinetic, over that at the start
+    };
     const auto energies = [&](LoadImpulse impulse, int restart) {
-        const int n = 40;
-        Bar bar(n, 0.85, restart);
+        Bar bar(40, 0.6, restart, 1e-3);
+        auto& memm = bar.run->memm();
         solid::ClockedRun<2> clock(*bar.run, impulse);
-        const double d = 0.2 * bar.run->memm().dt();
-        bar.press(clock, 1e-3);
-        clock.advance(0.2);
-        double largest = 0.0;
-        while (clock.time() < 25.0) {
-            const double part = std::min(d, clock.time_to_node());
+        const double begin = memm.kinetic_energy();
+        Energies found;
+        while (clock.time() < 25.0 && found.largest < 1e3) {
+            const double part = std::min(0.2 * memm.dt(), clock.time_to_node());
             const auto motion = clock.motion("xmin", part);
             bar.press(clock, -dashpot * 0.5 * (motion[0][0] + motion[1][0]) / part);
             clock.advance(part);
-            if (!(bar.run->memm().energy_excess() < 1.0)) return std::numeric_limits<double>::infinity();
-            raise(largest, bar.run->memm().kinetic_energy());
+            raise(found.largest, memm.kinetic_energy() / begin);
         }
-        return largest;
+        found.last = memm.kinetic_energy() / begin;
+        return found;
     };
-    const double scale = 1e-6;  // of the first push
-    CHECK(energies(LoadImpulse::as_given, 3) < scale);
-    CHECK(energies(LoadImpulse::trapezoid, 0) < scale);
-    CHECK(energies(LoadImpulse::as_given, 0) > 10.0 * scale);
+    for (const auto& [impulse, restart] : {std::pair{LoadImpulse::as_given, 3}, std::pair{LoadImpulse::trapezoid, 0}}) {
+        const Energies kept = energies(impulse, restart);
+        CAPTURE(static_cast<int>(impulse), kept.largest, kept.last);
+        CHECK(kept.largest < 1.01);
+        CHECK(kept.last < 1e-3);  // the dashpot has it
+    }
+    CHECK(energies(LoadImpulse::as_given, 0).largest > 1e3);
 }
 
 TEST_CASE("the clock refuses what it cannot do, and nothing has changed", "[solid][clock]") {
