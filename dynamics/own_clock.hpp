@@ -74,9 +74,9 @@ public:
 
     /// Goes back to a time that it had, with the integrator at the node before it.
     void restore(double time) {
+        detail::check_clock_time(time, memm_.time(), memm_.time() + memm_.dt());
         node_ = memm_.time();
         tau_ = memm_.dt();
-        detail::check_clock_time(time, node_, node_ + tau_);
         time_ = time;
     }
 

@@ -72,21 +72,27 @@ std::vector<Vector<Dim>> ClockedRun<Dim>::motion(const std::string& group, doubl
         throw BadInput("the motion of '" + group + "' over " + number(d) + " s: it is known for " + number(time_to_node()) +
                            " s, until the next node of the solid. Ask for a time > 0 up to that (time_to_node).",
                        {.value = d, .allowed = time_to_node()});
-    std::vector<Vector<Dim>> motion = run_.solid().outside(group).motion(memm.q(), memm.next_q(), memm.time(), memm.dt());
+    std::vector<Vector<Dim>> motion = step_motion(group);
     for (Vector<Dim>& of_face : motion) of_face *= d / memm.dt();
     return motion;
 }
 
 template <int Dim>
-OutsideFaces<Dim> ClockedRun<Dim>::faces(const std::string& group) {
+std::vector<Vector<Dim>> ClockedRun<Dim>::step_motion(const std::string& group) {
     dynamics::Memm<Solid<Dim>>& memm = run_.memm();
-    OutsideFaces<Dim> faces = outside_faces<Dim>(memm, run_.solid(), group);
-    const std::vector<Vector<Dim>> motion =
-        run_.solid().outside(group).motion(memm.q(), memm.next_q(), memm.time(), memm.dt());
+    return run_.solid().outside(group).motion(memm.q(), memm.next_q(), memm.time(), memm.dt());
+}
+
+template <int Dim>
+OutsideFaces<Dim> ClockedRun<Dim>::faces(const std::string& group) {
+    const double tau = run_.memm().dt();
+    OutsideFaces<Dim> faces = outside_faces<Dim>(run_.memm(), run_.solid(), group);
+    const std::vector<Vector<Dim>> motion = step_motion(group);
     for (std::size_t face = 0; face < motion.size(); ++face) {
-        faces.position[face] += clock_.since() / memm.dt() * motion[face];
-        faces.velocity[face] = motion[face] / memm.dt();
+        faces.position[face] += clock_.since() / tau * motion[face];
+        faces.velocity[face] = motion[face] / tau;
     }
+    faces.traction = load_on(group).traction;  // the solid has the mean of the last step
     return faces;
 }
 
@@ -112,6 +118,8 @@ void ClockedRun<Dim>::restore(const State& state) {
         throw BadInput(
             "ClockedRun: the state has loads on other groups or faces than this run. Restore one that it has given.");
     for (std::size_t i = 0; i < state.loads.size(); ++i) *loads[i / 4].all()[i % 4] = state.loads[i];
+    const dynamics::IntegratorState& motion = state.run.motion;
+    dynamics::detail::check_clock_time(state.time, motion.time, motion.time + motion.dt);
     run_.restore(state.run, state.restarts);
     clock_.restore(state.time);
     loads_ = std::move(loads);

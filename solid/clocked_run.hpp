@@ -89,6 +89,8 @@ private:
     };
     [[nodiscard]] Load& load_on(const std::string& group);
     void set_mean(Load& load);
+    /// How far the centroids of a group move in the whole step that goes on (n_faces) [m].
+    [[nodiscard]] std::vector<Vector<Dim>> step_motion(const std::string& group);
 
     SteppedRun<Dim>& run_;
     LoadImpulse impulse_;
