@@ -56,6 +56,20 @@ class SmallMatrix {
     static constexpr int n_stored = n_items > 0 ? n_items : 1, n_in_row = Cols > 0 ? Cols : 1, n_rows = Rows > 0 ? Rows : 1;
     using RowValues = double[n_in_row];
 
+    /// The numbers, column after column.
+    [[nodiscard]] constexpr double& flat(int k) noexcept {
+        if constexpr (is_column)
+            return items_[k];
+        else
+            return items_[k / n_rows].items_[k % n_rows];
+    }
+    [[nodiscard]] constexpr double flat(int k) const noexcept {
+        if constexpr (is_column)
+            return items_[k];
+        else
+            return items_[k / n_rows].items_[k % n_rows];
+    }
+
 public:
     static constexpr int RowsAtCompileTime = Rows, ColsAtCompileTime = Cols, SizeAtCompileTime = Rows * Cols;
 
@@ -523,19 +537,6 @@ private:
 
     constexpr void set_row(int i, const RowValues& numbers) noexcept {
         for (int j = 0; j < Cols; ++j) (*this)(i, j) = numbers[j];
-    }
-    /// The numbers, column after column.
-    [[nodiscard]] constexpr double& flat(int k) noexcept {
-        if constexpr (is_column)
-            return items_[k];
-        else
-            return items_[k / n_rows].items_[k % n_rows];
-    }
-    [[nodiscard]] constexpr double flat(int k) const noexcept {
-        if constexpr (is_column)
-            return items_[k];
-        else
-            return items_[k / n_rows].items_[k % n_rows];
     }
 
     std::conditional_t<n_items == 0, detail::NoItems<Item>, Item[n_stored]> items_;

@@ -193,7 +193,7 @@ private:
     // The block of the higher level is taken apart, or both.
     template <class Use>
     void for_each_below(const Meeting& meeting, const Use& use) const {
-        const auto& [node_1, node_2] = meeting;
+        const auto &node_1 = meeting.node_1, &node_2 = meeting.node_2;  // no binding, which clang 14 cannot capture
         if (node_1.level > node_2.level) {
             for_each_lane(tree_1_[node_1].overlapping(tree_2_.bounds(node_2)), [&](int lane) {
                 use(Meeting{PackedTree::child(node_1, lane), node_2});
