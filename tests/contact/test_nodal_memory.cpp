@@ -182,10 +182,10 @@ TEST_CASE("faces of bodies that have become one, or rigid, press on each other n
     const TwoFaces faces;
     const Corners apart = faces.at(0.0, 0.01), closed = faces.at(0.0, -0.05);
     const std::vector<std::int32_t> old_face_of{0, 1};
-    NodalScene<2> one_body = faces.scene, rigid = faces.scene;
+    NodalScene<2> one_body = faces.scene, both_rigid = faces.scene;
     one_body.faces.body = {0, 0};
-    rigid.faces.stiffness.assign(2, std::numeric_limits<double>::infinity());
-    for (const NodalScene<2>& next : {one_body, rigid}) {
+    both_rigid.faces.stiffness.assign(2, std::numeric_limits<double>::infinity());
+    for (const NodalScene<2>& next : {one_body, both_rigid}) {
         NodalContact<2> contact(faces.scene.surface());
         contact.step(1.0, apart, apart);
         REQUIRE(contact.step(1.0, apart, closed).is_active());

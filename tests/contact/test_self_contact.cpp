@@ -393,8 +393,13 @@ TEST_CASE("contact within a body does not depend on how long its lists live, tho
         return x;
     };
     const double ends_at = -0.45;
-    for (const auto& [begins_at, n_steps] :
-         {std::pair{0.9, 30}, std::pair{0.9, 300}, std::pair{0.5, 100}, std::pair{0.2, 100}}) {
+    struct Closing {
+        double begins_at;
+        int n_steps;
+    };
+    for (const Closing closing : {Closing{0.9, 30}, Closing{0.9, 300}, Closing{0.5, 100}, Closing{0.2, 100}}) {
+        const double begins_at = closing.begins_at;
+        const int n_steps = closing.n_steps;
         NodalScene<2> scene;
         scene.faces.stiffness.push_back(1.0);
         scene.rest = arms(begins_at);
