@@ -27,7 +27,8 @@ struct NodalOptions {
     /// How pairs fade out as faces turn away from each other. A `none` nearer to 0 lets sharper edges meet that cross, and
     /// faces around a corner act that look past the other body.
     geometry::FacingFade facing;
-    bool events = true;                ///< follow what begins and ends inside a step (geometry::PairPathOptions)
+    bool events = true;                ///< look closer at a step where that is needed (geometry::PairPathOptions)
+    bool gauss = false;                ///< integrate the forces of all pairs by Gauss's rule (geometry::PairPathOptions)
     double compression_warning = 0.3;  ///< |g|/D above which a step is counted as strongly compressed
     double compression_limit = 2.0;    ///< |g|/D above which the step is refused with an error
     FrictionOptions friction;          ///< needs `NodalFaces::shear_stiffness`

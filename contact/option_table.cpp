@@ -193,6 +193,7 @@ OptionList<NodalOptions> make_nodal_options() {
     for (const Option<Of>& option : within(&Of::facing, facing_options())) options.push_back(option);
     for (const Option<Friction>& option : friction_options()) options.push_back(of_first_law(option));
     options.push_back(events<Of>());
+    for (const Option<Of>& option : path_options<Of>()) options.push_back(option);
     options.push_back(of_search("self_contact"));
     return options;
 }

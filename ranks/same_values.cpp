@@ -47,6 +47,7 @@ std::vector<NamedValue> named_values(const contact::NodalOptions& options) {
         {"the option facing.full", options.facing.full},
         {"the option facing.none", options.facing.none},
         {"the option events", options.events ? 1.0 : 0.0},
+        {"the option gauss", options.gauss ? 1.0 : 0.0},
         {"the option compression_warning", options.compression_warning},
         {"the option compression_limit", options.compression_limit},
         {"the number of functions `wanted`", options.wanted ? 1.0 : 0.0},

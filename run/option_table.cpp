@@ -139,6 +139,7 @@ List of_contact() {
     append(within(&Of::contact, contact::contact_options()));
     append(within(&Of::friction, contact::friction_options()));
     append(within(&Of::facing, contact::facing_options()));
+    append(contact::path_options<Of>());
     append(
         {choice("free_faces", &Of::free_faces, solid::free_face_words,
                 {.help = "displacement of free faces; extrapolate and adjacent are there for comparison",

@@ -45,6 +45,7 @@ struct RunOptions {
     contact::ContactOptions contact;
     contact::Friction friction;   ///< between all bodies and obstacles for which the scene has no law
     geometry::FacingFade facing;  ///< of the pair potential: how pairs fade out as faces turn away from each other
+    bool gauss = false;           ///< of the pair potential: Gauss's rule for the force of every pair over a step
     solid::FreeFaceRule free_faces = solid::FreeFaceRule::local_equilibrium;
     solid::CornerRule corners = solid::CornerRule::relaxed;
     SolidIntegrator integrator = SolidIntegrator::memm;

@@ -151,9 +151,11 @@ RunOptions of_one_kind(RunOptions options, BodyKinematics kinematics) {
     solid::SolidOptions<2> choices;  // of contact, whatever the dimension
     choices.contact = options.contact;
     choices.facing = options.facing;
+    choices.gauss = options.gauss;
     solid::take_back_choices_of_one_law(choices);
     options.contact = *choices.contact;
     options.facing = choices.facing;
+    options.gauss = choices.gauss;
     return options;
 }
 

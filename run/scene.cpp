@@ -82,6 +82,7 @@ solid::SolidOptions<Dim> solid_options(const Scene<Dim>& scene, const RunOptions
         solid.law = solid::ContactLaw::automatic;
     constexpr geometry::FacingFade plain;
     if (options.facing.full != plain.full || options.facing.none != plain.none) solid.facing = options.facing;
+    solid.gauss = solid.gauss || options.gauss;
     solid.contact = scene.contact ? std::optional(options.contact) : std::nullopt;
     solid.friction = options.friction;
     return solid;

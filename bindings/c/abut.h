@@ -126,7 +126,8 @@ typedef struct abut_options {
     double decay_slip;          /* path of sliding after which it is there [m] */
     double shear_strength;      /* stress that faces in contact bear beside it, whatever presses them [Pa] (Tresca) */
     double relaxation_time;     /* in which a force that sticks falls by 1/e [s]: damps rigid bodies that flutter */
-    int32_t events;             /* not 0: follow what begins and ends inside a step */
+    int32_t events;             /* not 0: look closer at a step where the mean of its ends is not enough */
+    int32_t gauss;              /* not 0: integrate the forces of all pairs over a step by Gauss's rule */
     int32_t self_contact;       /* not 0: also faces of one body touch each other */
     /* Whether two faces may touch; NULL: all. Asked at searches, by the thread that calls. */
     int (*wanted)(int32_t face_1, int32_t face_2, void* user);

@@ -28,6 +28,7 @@ inline constexpr OptionField option_fields[] = {{"skin", &abut_options::skin},
                                                 {"shear_strength", &abut_options::shear_strength},
                                                 {"relaxation_time", &abut_options::relaxation_time},
                                                 {"events", &abut_options::events},
+                                                {"gauss", &abut_options::gauss},
                                                 {"self_contact", &abut_options::self_contact}};
 
 }  // namespace abut::c_layer

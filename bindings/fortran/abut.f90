@@ -56,7 +56,7 @@ module abut
     integer(c_int64_t) :: max_pairs
     real(c_double) :: compression_warning, compression_limit, facing_full, facing_none
     real(c_double) :: friction, sliding_friction, decay_speed, decay_slip, shear_strength, relaxation_time
-    integer(c_int32_t) :: events, self_contact
+    integer(c_int32_t) :: events, gauss, self_contact
     type(c_funptr) :: wanted, law_of
     type(c_ptr) :: laws
     integer(c_int64_t) :: n_laws

@@ -43,7 +43,7 @@ NodeLaw<Dim>::NodeLaw(BevelledSurface<Dim> surface, const NodalOptions& options,
       pairs_(options_.facing, options_.friction, options_.interference, sharing),
       ramps_(options_.interference),
       looks_away_(std::cos(std::acos(std::clamp(options_.facing.none, -1.0, 1.0)) - turns_in_all)),
-      law_(options_.events, options_.friction, sharing) {
+      law_({.events = options_.events, .gauss = options_.gauss}, options_.friction, sharing) {
     const Surface<Dim>& facets = surface_.host().facets();
     for (std::int32_t facet = 0; facet < facets.size(); ++facet)
         if (!surface_.host().is_rigid(facets.body[facet]))

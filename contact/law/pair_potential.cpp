@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <type_traits>
 
@@ -14,7 +15,7 @@ namespace {
 using geometry::PairPlace;
 using geometry::PairRest;
 
-constexpr std::ptrdiff_t grain = 64;                 // pairs that are worth a task
+constexpr std::ptrdiff_t grain = 64;                 // pairs that are worth a task, and that go through lanes together
 constexpr double far_tilted = -0.76604444311897803;  // n_1 . n_2 of faces that are 20 degrees away from n: -cos(40 degrees)
 
 /// visit(value) for all that a mean gradient has.
@@ -69,57 +70,77 @@ void clear_step(const NodalPairs<Dim>& listed, NodalStep<Dim>& step) {
 }
 
 template <int Dim>
-void PairPotential<Dim>::follow(const NodalPair<Dim>& pair, const SideOutlines<Dim>& sides, bool admitted,
-                                PointsView<Dim> x_0, PointsView<Dim> x_1, TakenForce take, Outcome& outcome) const {
-    outcome.admitted = admitted;
-    outcome.inadmissible = outcome.active = false;
+typename PairPotential<Dim>::Glance PairPotential<Dim>::glance_at_step(const NodalPair<Dim>& pair,
+                                                                       const SideOutlines<Dim>& sides, bool admitted,
+                                                                       PointsView<Dim> x_0, PointsView<Dim> x_1) {
+    Glance glance{.admitted = admitted};
     const geometry::PairCorners<Dim> start = pair.at(x_0), end = pair.at(x_1);
     // Where nothing can act before the next step it is enough to decide then.
     const PairRest rest = geometry::rests<Dim>(pair.outlook, start);
-    if (rest == PairRest::apart) outcome.admitted = true;
-    if (rest != PairRest::no && geometry::rests<Dim>(pair.outlook, end) == rest) return;
+    if (rest == PairRest::apart) glance.admitted = true;
+    if (rest != PairRest::no && geometry::rests<Dim>(pair.outlook, end) == rest) return glance;
     const auto at_start = geometry::pair_placement<Dim>(start, pair.law);
     const auto at_end = geometry::pair_placement<Dim>(end, pair.law);
-    if (at_start.place == PairPlace::apart) outcome.admitted = true;
-    if (geometry::stays_inactive<Dim>(at_start, at_end, end)) return;
+    if (at_start.place == PairPlace::apart) glance.admitted = true;
+    if (geometry::stays_inactive<Dim>(at_start, at_end, end)) return glance;
 
-    outcome.facing = std::max(at_start.facing, at_end.facing);
-    outcome.normal = at_start.normal + at_end.normal;
-    const bool may_rest_on_flag = admitted && at_start.place == PairPlace::unclear;
-    if (at_start.place != PairPlace::apart && !may_rest_on_flag) {
+    glance.facing = std::max(at_start.facing, at_end.facing);
+    glance.normal = at_start.normal + at_end.normal;
+    glance.rests_on_flag = admitted && at_start.place == PairPlace::unclear;
+    if (at_start.place != PairPlace::apart && !glance.rests_on_flag) {
         const auto state = geometry::pair_state<Dim>(start, pair.law);
-        outcome.admitted = state.energy == 0.0 && may_touch<Dim>(pair, start, state, sides);
-        outcome.inadmissible = state.energy > 0.0;
+        glance.admitted = state.energy == 0.0 && may_touch<Dim>(pair, start, state, sides);
+        glance.inadmissible = state.energy > 0.0;
     }
-    if (!outcome.admitted) return;
-    take_force(pair, start, end, take, outcome);
-    if (may_rest_on_flag && outcome.found.energy_0 == 0.0 &&
-        !may_touch<Dim>(pair, start, geometry::pair_state<Dim>(start, pair.law), sides))
-        outcome.admitted = outcome.active = false;
+    glance.may_act = glance.admitted;
+    return glance;
 }
 
 template <int Dim>
-void PairPotential<Dim>::take_force(const NodalPair<Dim>& pair, const geometry::PairCorners<Dim>& start,
-                                    const geometry::PairCorners<Dim>& end, TakenForce take, Outcome& outcome) const {
-    auto& found = outcome.found;
-    if (take == TakenForce::mean) {
-        found = geometry::pair_mean_gradient<Dim>(start, end, pair.law, {.events = events_});
-    } else {
-        const auto at_end = geometry::pair_gradient<Dim>(end, pair.law);
-        const auto at_start = geometry::pair_state<Dim>(start, pair.law);
-        found = {};
-        found.energy_0 = at_start.energy;
-        found.energy_1 = at_end.energy;
-        found.gap_0 = at_start.energy > 0.0 ? at_start.gap : 0.0;
-        found.gap_1 = at_end.gap;
-        found.gradient = at_end.gradient;
-        found.area = at_end.area;
-        found.active_share = at_end.energy > 0.0 ? 1.0 : 0.0;
-        found.pressure = at_end.pressure;
+void PairPotential<Dim>::take_forces(const IndexRange& range, Pairs pairs, PointsView<Dim> x_0, PointsView<Dim> x_1,
+                                     TakenForce take) {
+    constexpr std::size_t most = grain;
+    std::array<geometry::PairCorners<Dim>, most> starts;
+    std::array<geometry::PairStep<Dim>, most> steps;
+    for (std::size_t first = range.begin; first < range.end; first += most) {
+        const std::size_t n = std::min(most, range.end - first);
+        const auto facets_of = [&](std::size_t i) {
+            const NodalPair<Dim>& pair = pairs[outcomes_[first + i].pair];
+            return FacetPair{Facet{pair.facet_1}, Facet{pair.facet_2}};
+        };
+        auto before = std::ranges::lower_bound(kept_, facets_of(0), {}, &Kept::facets);
+        for (std::size_t i = 0; i < n; ++i) {
+            const NodalPair<Dim>& pair = pairs[outcomes_[first + i].pair];
+            Kept& ending = ending_[first + i];
+            ending.facets = facets_of(i);
+            ending.x = pair.at(x_1);
+            ending.law = pair.law;
+            starts[i] = pair.at(x_0);
+            while (before != kept_.end() && before->facets < ending.facets) ++before;
+            const bool is_known = before != kept_.end() && before->facets == ending.facets &&
+                                  std::memcmp(&before->x, &starts[i], sizeof(starts[i])) == 0 &&
+                                  std::memcmp(&before->law, &pair.law, sizeof(pair.law)) == 0;
+            steps[i] = {&starts[i], &ending.x, &pair.law, is_known ? &before->end : nullptr, &ending.end,
+                        &outcomes_[first + i].found};
+        }
+        const std::span<const geometry::PairStep<Dim>> of_steps(steps.data(), n);
+        take == TakenForce::mean ? geometry::integrate_pairs<Dim>(of_steps, path_) : geometry::evaluate_pairs<Dim>(of_steps);
     }
+}
+
+template <int Dim>
+void PairPotential<Dim>::conclude(const NodalPair<Dim>& pair, const SideOutlines<Dim>* sides, PointsView<Dim> x_0,
+                                  PointsView<Dim> x_1, TakenForce take, Outcome& outcome) {
+    const auto& found = outcome.found;
     const auto is_none = [](double energy) { return energy <= 0.0; };  // false for what is no number
     outcome.active = found.active_share > 0.0 || !is_none(found.energy_0) || !is_none(found.energy_1);
-    outcome.interference_work = pair.interference < 0 ? 0.0 : interference_work(pair, start, end, take);
+    if (Glance& glance = glances_[outcome.pair]; glance.rests_on_flag && found.energy_0 == 0.0) {
+        const geometry::PairCorners<Dim> start = pair.at(x_0);
+        if (!may_touch<Dim>(pair, start, geometry::pair_state<Dim>(start, pair.law), *sides))
+            glance.admitted = outcome.active = false;
+    }
+    if (outcome.active && pair.interference >= 0)
+        outcome.interference_work = interference_work(pair, pair.at(x_0), pair.at(x_1), take);
 }
 
 /// The interference grows before the step, while nothing moves.
@@ -136,55 +157,82 @@ double PairPotential<Dim>::interference_work(const NodalPair<Dim>& pair, const g
 }
 
 template <int Dim>
-template <class Find, class Keep>
-void PairPotential<Dim>::find_outcomes(std::size_t n, const Find& find, const Keep& keep) {
-    outcomes_.resize(n);
-    const auto for_each = [](const IndexRange& range, const auto& body) {
-        parallel_each(
-            static_cast<std::ptrdiff_t>(range.size()),
-            [&](std::ptrdiff_t i) { body(range.begin + static_cast<std::size_t>(i)); }, grain);
-    };
-    if (!shared_.is_worth(n))
-        return for_each({0, n}, [&](std::size_t p) {
-            find(p);
-            keep(p);
-        });
-    shared_.run(
-        n,
-        [&](const IndexRange& mine, ShareWriter& out) {
-            for_each(mine, find);
-            for (std::size_t p = mine.begin; p < mine.end; ++p) write(outcomes_[p], out);
+template <class GlanceAt>
+void PairPotential<Dim>::find_part(const IndexRange& range, Pairs pairs, const SideOutlines<Dim>* sides, PointsView<Dim> x_0,
+                                   PointsView<Dim> x_1, TakenForce take, const GlanceAt& glance) {
+    parallel_each(
+        static_cast<std::ptrdiff_t>(range.size()),
+        [&](std::ptrdiff_t i) {
+            const std::size_t p = range.begin + static_cast<std::size_t>(i);
+            glances_[p] = glance(p);
         },
-        [&](const IndexRange& range, ShareReader& in) {
-            for (std::size_t p = range.begin; p < range.end; ++p) {
-                read(in, outcomes_[p]);
-                keep(p);
-            }
-        });
+        grain);
+    outcomes_.clear();
+    for (std::size_t p = range.begin; p < range.end; ++p)
+        if (const Glance& seen = glances_[p]; seen.may_act)
+            outcomes_.push_back({.pair = p, .normal = seen.normal, .facing = seen.facing});
+    ending_.resize(outcomes_.size());
+    parallel_ranges(
+        std::ssize(outcomes_),
+        [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+            const IndexRange some{static_cast<std::size_t>(begin), static_cast<std::size_t>(end)};
+            take_forces(some, pairs, x_0, x_1, take);
+            for (std::size_t i = some.begin; i < some.end; ++i)
+                conclude(pairs[outcomes_[i].pair], sides, x_0, x_1, take, outcomes_[i]);
+        },
+        grain);
 }
 
 template <int Dim>
-void PairPotential<Dim>::write(const Outcome& outcome, ShareWriter& out) {
-    out.put(outcome.admitted);
-    out.put(outcome.inadmissible);
-    out.put(outcome.active);
-    if (!outcome.active) return;
-    out.put(outcome.normal);
-    out.put(outcome.facing);
-    out.put(outcome.interference_work);
-    for_each_value(outcome.found, [&](const auto& value) { out.put(value); });
+template <class GlanceAt>
+void PairPotential<Dim>::find_outcomes(Pairs pairs, const SideOutlines<Dim>* sides, PointsView<Dim> x_0, PointsView<Dim> x_1,
+                                       TakenForce take, const GlanceAt& glance) {
+    glances_.resize(pairs.size());
+    if (!shared_.is_worth(pairs.size())) return find_part({0, pairs.size()}, pairs, sides, x_0, x_1, take, glance);
+    std::vector<Outcome> all;
+    shared_.run(
+        pairs.size(),
+        [&](const IndexRange& mine, ShareWriter& out) {
+            find_part(mine, pairs, sides, x_0, x_1, take, glance);
+            write(mine, out);
+        },
+        [&](const IndexRange& range, ShareReader& in) { read(range, in, all); });
+    outcomes_ = std::move(all);
 }
 
 template <int Dim>
-void PairPotential<Dim>::read(ShareReader& in, Outcome& outcome) {
-    outcome.admitted = in.get<bool>();
-    outcome.inadmissible = in.get<bool>();
-    outcome.active = in.get<bool>();
-    if (!outcome.active) return;
-    outcome.normal = in.get<Vector<Dim>>();
-    outcome.facing = in.get<double>();
-    outcome.interference_work = in.get<double>();
-    for_each_value(outcome.found, [&](auto& value) { value = in.get<std::remove_reference_t<decltype(value)>>(); });
+void PairPotential<Dim>::write(const IndexRange& range, ShareWriter& out) const {
+    for (std::size_t p = range.begin; p < range.end; ++p) {
+        out.put(glances_[p].admitted);
+        out.put(glances_[p].inadmissible);
+    }
+    out.put(static_cast<std::size_t>(std::ranges::count_if(outcomes_, &Outcome::active)));
+    for (const Outcome& outcome : outcomes_) {
+        if (!outcome.active) continue;
+        out.put(outcome.pair);
+        out.put(outcome.normal);
+        out.put(outcome.facing);
+        out.put(outcome.interference_work);
+        for_each_value(outcome.found, [&](const auto& value) { out.put(value); });
+    }
+}
+
+template <int Dim>
+void PairPotential<Dim>::read(const IndexRange& range, ShareReader& in, std::vector<Outcome>& outcomes) {
+    for (std::size_t p = range.begin; p < range.end; ++p) {
+        glances_[p].admitted = in.get<bool>();
+        glances_[p].inadmissible = in.get<bool>();
+    }
+    const auto n_active = in.get<std::size_t>();
+    for (std::size_t i = 0; i < n_active; ++i) {
+        Outcome& outcome = outcomes.emplace_back();
+        outcome.pair = in.get<std::size_t>();
+        outcome.normal = in.get<Vector<Dim>>();
+        outcome.facing = in.get<double>();
+        outcome.active = true;
+        outcome.interference_work = in.get<double>();
+        for_each_value(outcome.found, [&](auto& value) { value = in.get<std::remove_reference_t<decltype(value)>>(); });
+    }
 }
 
 template <int Dim>
@@ -192,14 +240,15 @@ std::int64_t PairPotential<Dim>::apply(const NodalSurface<Dim>& surface, const S
                                        NodalPairs<Dim>& listed, std::span<PairMemory> memory, FacetStore& facets, double dt,
                                        PointsView<Dim> x_0, PointsView<Dim> x_1, TakenForce take, NodalStep<Dim>& step) {
     const auto pairs = listed.in_reach(x_0, x_1, memory);
-    const auto admitted = [&](std::size_t p) -> bool& { return memory[pairs[p].memory].admitted; };
-    find_outcomes(
-        pairs.size(), [&](std::size_t p) { follow(pairs[p], sides, admitted(p), x_0, x_1, take, outcomes_[p]); },
-        [&](std::size_t p) { admitted(p) = outcomes_[p].admitted; });
+    find_outcomes(pairs, &sides, x_0, x_1, take, [&](std::size_t p) {
+        return glance_at_step(pairs[p], sides, memory[pairs[p].memory].admitted, x_0, x_1);
+    });
+    std::swap(kept_, ending_);
+    for (std::size_t p = 0; p < pairs.size(); ++p) memory[pairs[p].memory].admitted = glances_[p].admitted;
     add_up(surface, listed, pairs, x_0, x_1, step);
     if (friction_.any()) add_friction(surface, pairs, facets, dt, x_0, x_1, take, step);
     finish(surface, step);
-    return std::ranges::count_if(outcomes_, [](const Outcome& outcome) { return outcome.inadmissible; });
+    return std::ranges::count_if(glances_, &Glance::inadmissible);
 }
 
 template <int Dim>
@@ -207,19 +256,15 @@ void PairPotential<Dim>::evaluate(const NodalSurface<Dim>& surface, const NodalP
                                   std::span<const PairMemory> memory, const FacetStore& facets, PointsView<Dim> x,
                                   NodalStep<Dim>& step) {
     const auto pairs = listed.in_reach(x);
-    find_outcomes(
-        pairs.size(),
-        [&](std::size_t p) {
-            outcomes_[p].inadmissible = outcomes_[p].active = false;
-            if (!memory[pairs[p].memory].admitted) return;
-            const geometry::PairCorners<Dim> corners = pairs[p].at(x);
-            const auto place = geometry::pair_placement<Dim>(corners, pairs[p].law);
-            if (place.place != PairPlace::unclear) return;
-            outcomes_[p].facing = place.facing;
-            outcomes_[p].normal = place.normal;
-            take_force(pairs[p], corners, corners, TakenForce::end, outcomes_[p]);
-        },
-        [](std::size_t) {});
+    find_outcomes(pairs, nullptr, x, x, TakenForce::end, [&](std::size_t p) {
+        Glance glance{.admitted = memory[pairs[p].memory].admitted};
+        if (!glance.admitted) return glance;
+        const auto place = geometry::pair_placement<Dim>(pairs[p].at(x), pairs[p].law);
+        glance.may_act = place.place == PairPlace::unclear;
+        glance.facing = place.facing;
+        glance.normal = place.normal;
+        return glance;
+    });
     add_up(surface, listed, pairs, x, x, step);
     if (friction_.any()) {
         friction_.begin(0.0, x, x, TakenForce::end);
@@ -231,29 +276,29 @@ void PairPotential<Dim>::evaluate(const NodalSurface<Dim>& surface, const NodalP
 
 template <int Dim>
 void PairPotential<Dim>::add_up(const NodalSurface<Dim>& surface, const NodalPairs<Dim>& listed,
-                                std::span<const NodalPair<Dim>> pairs, PointsView<Dim> x_0, PointsView<Dim> x_1,
+                                Pairs pairs, PointsView<Dim> x_0, PointsView<Dim> x_1,
                                 NodalStep<Dim>& step) const {
     clear_step(listed, step);
     double forces = 0.0;
-    for (std::size_t p = 0; p < outcomes_.size(); ++p) {
-        if (!outcomes_[p].active) continue;
-        const NodalPair<Dim>& pair = pairs[p];
-        const auto& found = outcomes_[p].found;
+    for (const Outcome& outcome : outcomes_) {
+        if (!outcome.active) continue;
+        const NodalPair<Dim>& pair = pairs[outcome.pair];
+        const auto& found = outcome.found;
         if (!is_usable(magnitudes<Dim>(found))) refuse_pair<Dim>(surface, pair, found, x_0, x_1);
         for (std::size_t v = 0; v < pair.listed.size(); ++v) step.gradient[pair.listed[v]] += found.gradient[v];
         step.energy_0 += found.energy_0;
         step.energy += found.energy_1;
-        step.interference_work += outcomes_[p].interference_work;
+        step.interference_work += outcome.interference_work;
         add_to_body(pair, 0, found.gradient, x_0, x_1, step.bodies[pair.body_1]);
         add_to_body(pair, Dim, found.gradient, x_0, x_1, step.bodies[pair.body_2]);
-        add_pair(surface, pair, outcomes_[p], step);
+        add_pair(surface, pair, outcome, step);
         forces += step.pairs.back().force.norm();
     }
     if (forces > 0.0) step.report.correction /= forces;
 }
 
 template <int Dim>
-void PairPotential<Dim>::add_friction(const NodalSurface<Dim>& surface, std::span<const NodalPair<Dim>> pairs,
+void PairPotential<Dim>::add_friction(const NodalSurface<Dim>& surface, Pairs pairs,
                                       FacetStore& facets, double dt, PointsView<Dim> x_0, PointsView<Dim> x_1,
                                       TakenForce take, NodalStep<Dim>& step) {
     friction_.begin(dt, x_0, x_1, take);
@@ -262,10 +307,10 @@ void PairPotential<Dim>::add_friction(const NodalSurface<Dim>& surface, std::spa
 }
 
 template <int Dim>
-void PairPotential<Dim>::add_pairs(const NodalSurface<Dim>& surface, std::span<const NodalPair<Dim>> pairs) {
-    for (std::size_t p = 0; p < outcomes_.size(); ++p)
-        if (const auto& found = outcomes_[p].found; outcomes_[p].active)
-            friction_.add(surface, pairs[p], found.pressure, found.area, found.active_share);
+void PairPotential<Dim>::add_pairs(const NodalSurface<Dim>& surface, Pairs pairs) {
+    for (const Outcome& outcome : outcomes_)
+        if (const auto& found = outcome.found; outcome.active)
+            friction_.add(surface, pairs[outcome.pair], found.pressure, found.area, found.active_share);
 }
 
 template <int Dim>

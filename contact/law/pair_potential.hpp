@@ -21,8 +21,8 @@ void clear_step(const NodalPairs<Dim>& listed, NodalStep<Dim>& step);
 template <int Dim>
 class PairPotential {
 public:
-    explicit PairPotential(bool events, FrictionOptions friction = {}, Sharing* sharing = nullptr)
-        : events_(events), friction_(std::move(friction)), shared_(sharing) {}
+    explicit PairPotential(const geometry::PairPathOptions& path, FrictionOptions friction = {}, Sharing* sharing = nullptr)
+        : path_(path), friction_(std::move(friction)), shared_(sharing) {}
 
     [[nodiscard]] const NodeFriction<Dim>& friction() const { return friction_; }
 
@@ -37,47 +37,74 @@ public:
                   const FacetStore& facets, PointsView<Dim> x, NodalStep<Dim>& step);
 
 private:
-    struct Outcome {
-        geometry::PairMeanGradient<Dim> found;
-        Vector<Dim> normal = Vector<Dim>::Zero();  ///< of both ends together, of any length
-        double facing = 1.0;
-        double interference_work = 0.0;  ///< NodalStep::interference_work
+    using Pairs = std::span<const NodalPair<Dim>>;
+
+    /// What is seen of a pair at both ends of a step before its force is asked for.
+    struct Glance {
+        Vector<Dim> normal;  ///< of both ends together, of any length
+        double facing;       ///< the larger n_1 . n_2 of both ends
         bool admitted = false;
         bool inadmissible = false;
+        bool may_act = false;        ///< its force is asked for
+        bool rests_on_flag = false;  ///< it was admitted, and shares nothing with its partner at the start if W = 0
+    };
+    /// What a pair that may act does.
+    struct Outcome {
+        std::size_t pair;
+        Vector<Dim> normal;
+        double facing;
         bool active = false;
+        double interference_work = 0.0;  ///< NodalStep::interference_work
+        geometry::PairMeanGradient<Dim> found;
+    };
+    /// The end of the last step of a pair: the start of the next one where corners and law are the same to the bit.
+    struct Kept {
+        FacetPair facets;
+        geometry::PairCorners<Dim> x;
+        geometry::PairLaw<Dim> law;
+        geometry::PairEnd<Dim> end;
     };
 
-    /// Calls find(p), which fills outcome p, for all p < n; then keep(p) for all of which nothing went wrong anywhere. Parts
-    /// that share contact call `find` for as many pairs each.
-    template <class Find, class Keep>
-    void find_outcomes(std::size_t n, const Find& find, const Keep& keep);
-    static void write(const Outcome& outcome, ShareWriter& out);
-    static void read(ShareReader& in, Outcome& outcome);
+    /// Fills `glances_` by glance(p) and `outcomes_` by the forces of the step, for all pairs; parts that share contact do
+    /// so for as many pairs each.
+    template <class GlanceAt>
+    void find_outcomes(Pairs pairs, const SideOutlines<Dim>* sides, PointsView<Dim> x_0, PointsView<Dim> x_1, TakenForce take,
+                       const GlanceAt& glance);
+    /// For some of the pairs.
+    template <class GlanceAt>
+    void find_part(const IndexRange& range, Pairs pairs, const SideOutlines<Dim>* sides, PointsView<Dim> x_0,
+                   PointsView<Dim> x_1, TakenForce take, const GlanceAt& glance);
+    void write(const IndexRange& range, ShareWriter& out) const;
+    /// Appends to `outcomes`.
+    void read(const IndexRange& range, ShareReader& in, std::vector<Outcome>& outcomes);
 
-    /// A pair that is not active leaves `found` as it was.
-    void follow(const NodalPair<Dim>& pair, const SideOutlines<Dim>& sides, bool admitted, PointsView<Dim> x_0,
-                PointsView<Dim> x_1, TakenForce take, Outcome& outcome) const;
-    void take_force(const NodalPair<Dim>& pair, const geometry::PairCorners<Dim>& start,
-                    const geometry::PairCorners<Dim>& end, TakenForce take, Outcome& outcome) const;
+    static Glance glance_at_step(const NodalPair<Dim>& pair, const SideOutlines<Dim>& sides, bool admitted,
+                                 PointsView<Dim> x_0, PointsView<Dim> x_1);
+    /// Finds the forces of these outcomes, and what the next step may begin with.
+    void take_forces(const IndexRange& range, Pairs pairs, PointsView<Dim> x_0, PointsView<Dim> x_1, TakenForce take);
+    /// Decides what the force alone can tell.
+    void conclude(const NodalPair<Dim>& pair, const SideOutlines<Dim>* sides, PointsView<Dim> x_0, PointsView<Dim> x_1,
+                  TakenForce take, Outcome& outcome);
     static double interference_work(const NodalPair<Dim>& pair, const geometry::PairCorners<Dim>& start,
                                     const geometry::PairCorners<Dim>& end, TakenForce take);
     /// Adds up what these of the listed pairs do, in their order.
-    void add_up(const NodalSurface<Dim>& surface, const NodalPairs<Dim>& listed, std::span<const NodalPair<Dim>> pairs,
-                PointsView<Dim> x_0, PointsView<Dim> x_1, NodalStep<Dim>& step) const;
+    void add_up(const NodalSurface<Dim>& surface, const NodalPairs<Dim>& listed, Pairs pairs, PointsView<Dim> x_0, PointsView<Dim> x_1, NodalStep<Dim>& step) const;
 
-    void add_friction(const NodalSurface<Dim>& surface, std::span<const NodalPair<Dim>> pairs, FacetStore& facets, double dt,
-                      PointsView<Dim> x_0, PointsView<Dim> x_1, TakenForce take, NodalStep<Dim>& step);
-    void add_pairs(const NodalSurface<Dim>& surface, std::span<const NodalPair<Dim>> pairs);
+    void add_friction(const NodalSurface<Dim>& surface, Pairs pairs, FacetStore& facets, double dt, PointsView<Dim> x_0,
+                      PointsView<Dim> x_1, TakenForce take, NodalStep<Dim>& step);
+    void add_pairs(const NodalSurface<Dim>& surface, Pairs pairs);
     /// Checks the sums of bodies, and adds up the work of rigid ones.
     static void finish(const NodalSurface<Dim>& surface, NodalStep<Dim>& step);
 
     static void add_pair(const NodalSurface<Dim>& surface, const NodalPair<Dim>& pair, const Outcome& outcome,
                          NodalStep<Dim>& step);
 
-    bool events_;
+    geometry::PairPathOptions path_;
     NodeFriction<Dim> friction_;
     SharedWork shared_;
-    std::vector<Outcome> outcomes_;  // of the pairs in reach
+    std::vector<Glance> glances_;      // of the pairs in reach
+    std::vector<Outcome> outcomes_;    // of those that may act, in their order
+    std::vector<Kept> kept_, ending_;  // of the last step and the present one, by facets
 };
 
 }  // namespace abut::contact

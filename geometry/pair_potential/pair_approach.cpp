@@ -5,8 +5,7 @@
 #include <limits>
 #include <numbers>
 
-#include "abut/geometry/pair_potential/kernel.hpp"
-#include "abut/geometry/pair_potential/pair_frame.hpp"
+#include "abut/geometry/pair_potential/lanes/lane_pair.hpp"
 
 namespace abut::geometry {
 namespace {
@@ -65,18 +64,18 @@ OutlinePart at_corner(const PlanePair& plane, int corner, const Vector<2>& to) {
 
 template <>
 std::array<OutlinePart, 2> pair_approach(const PairCorners<2>& corners, const PairLaw<2>& law) {
-    const PairCorners<2> z = PairFrame<2>(corners, law).z;
+    const lanes::LaneFrame<double, 2> frame(lanes::corners_of<2>(corners), lanes::law_of<2>(law));
     // xi falls along face 1 and rises along face 2
-    const int end = z[0][0] <= z[2][0] ? 0 : 1;
+    const int end = frame.z.at[0].c[0] <= frame.z.at[2].c[0] ? 0 : 1;
     return {OutlinePart{.corner = end}, OutlinePart{.corner = end}};
 }
 
 template <>
 std::array<OutlinePart, 2> pair_approach(const PairCorners<3>& corners, const PairLaw<3>& law) {
-    const PairCorners<3> z = PairFrame<3>(corners, law).z;
-    const PairNormals<3> normals(z);
+    const lanes::LaneFrame<double, 3> frame(lanes::corners_of<3>(corners), lanes::law_of<3>(law));
+    const lanes::SeenPair<double> seen(frame.z, law.offset);
     PlanePair plane;
-    for (std::size_t v = 0; v < z.size(); ++v) plane[v] = {normals.tangent[0].dot(z[v]), normals.tangent[1].dot(z[v])};
+    for (std::size_t v = 0; v < plane.size(); ++v) plane[v] = lanes::vector_of(seen.plane[v]);
 
     const Nearest nearest = nearest_of(plane);
     const Vector<2> on_edge = plane[nearest.start] + nearest.along * (plane[nearest.end] - plane[nearest.start]);

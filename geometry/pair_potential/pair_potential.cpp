@@ -3,207 +3,177 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
+#include <cstring>
+#include <limits>
 
-#include "abut/geometry/pair_potential/kernel.hpp"
-#include "abut/geometry/pair_potential/pair_frame.hpp"
+#include "abut/geometry/pair_potential/lanes/lane_pair.hpp"
+#include "abut/geometry/pair_potential/lanes/lane_task.hpp"
+#include "abut/geometry/pair_potential/pair_normal.hpp"
 
 namespace abut::geometry {
 namespace {
 
-Vector<2> common_normal(const PairNormals<2>&, const PairFrame<2>& frame) { return frame.normal; }
-Vector<3> common_normal(const PairNormals<3>& normals, const PairFrame<3>& frame) {
-    return normals.common[0] * frame.e[0] + normals.common[1] * frame.e[1] + normals.common[2] * frame.e[2];
-}
+using lanes::Integral;
+using lanes::LaneTask;
 
-/// Normals of both faces, of any length in 2D and for n with its lengths at rest.
-std::array<Vector<2>, 2> weighed_normals(const PairCorners<2>& x, const PairLaw<2>& law) {
-    const Vector<2> d_1 = (x[1] - x[0]) / law.length[0], d_2 = (x[3] - x[2]) / law.length[1];
-    return {Vector<2>(d_1[1], -d_1[0]), Vector<2>(d_2[1], -d_2[0])};
-}
-std::array<Vector<3>, 2> weighed_normals(const PairCorners<3>& x, const PairLaw<3>&) {
-    return {(x[1] - x[0]).cross(x[2] - x[0]).normalized(), (x[4] - x[3]).cross(x[5] - x[3]).normalized()};
-}
+static_assert(sizeof(PairCorners<2>) == 8 * sizeof(double) && sizeof(PairCorners<3>) == 18 * sizeof(double));
+static_assert(PairEnd<2>().size() == lanes::end_size<2> && PairEnd<3>().size() == lanes::end_size<3>);
 
-/// From the highest corner of face 1 to the lowest one of face 2 along a direction, without the digits that a position far
-/// from the origin would cost.
 template <int Dim>
-double clearance(const PairCorners<Dim>& x, const Vector<Dim>& direction) {
-    double highest = 0.0, lowest = direction.dot(x[Dim] - x[0]);
-    for (int v = 1; v < Dim; ++v) {
-        highest = std::max(highest, direction.dot(x[v] - x[0]));
-        lowest = std::min(lowest, direction.dot(x[Dim + v] - x[0]));
+using Integrate = void (*)(LaneTask<Dim>*, int, Integral);
+
+/// As many lanes as this processor has.
+template <int Dim>
+Integrate<Dim> integrate_by_most() {
+#ifdef ABUT_WIDE_LANES
+    if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl"))
+        return &lanes::integrate_by_8;
+    if (__builtin_cpu_supports("avx2")) return &lanes::integrate_by_4;
+#endif
+    return &lanes::integrate_by_2;
+}
+
+template <int Dim>
+LaneTask<Dim> task_of(const PairStep<Dim>& step) {
+    const bool stays = std::memcmp(step.x_0, step.x_1, sizeof(PairCorners<Dim>)) == 0;
+    const PairLaw<Dim>& law = *step.law;
+    PairMeanGradient<Dim>& mean = *step.mean;
+    return {.x_0 = (*step.x_0)[0].data(),
+            .x_1 = (stays ? *step.x_0 : *step.x_1)[0].data(),
+            .start = step.start ? step.start->data() : nullptr,
+            .stiffness = law.stiffness,
+            .length = {law.length[0], law.length[1]},
+            .full = law.facing.full,
+            .none = law.facing.none,
+            .offset = law.offset,
+            .end = step.end->data(),
+            .gradient = mean.gradient[0].data(),
+            .pressure = mean.pressure.data()};
+}
+
+template <int Dim>
+void take(const LaneTask<Dim>& task, PairMeanGradient<Dim>& mean) {
+    mean.energy_0 = task.energy_0, mean.energy_1 = task.energy_1;
+    mean.gap_0 = task.gap_0, mean.gap_1 = task.gap_1;
+    mean.area = task.area;
+    mean.active_share = task.active_share;
+    mean.correction = task.correction;
+    mean.events = task.pieces;
+}
+
+template <int Dim>
+void integrate(std::span<const PairStep<Dim>> steps, Integral integral) {
+    static const Integrate<Dim> integrate_tasks = integrate_by_most<Dim>();
+    std::array<LaneTask<Dim>, lanes::most_tasks> tasks;
+    for (std::size_t first = 0; first < steps.size(); first += tasks.size()) {
+        const auto part = steps.subspan(first, std::min(tasks.size(), steps.size() - first));
+        for (std::size_t i = 0; i < part.size(); ++i) tasks[i] = task_of<Dim>(part[i]);
+        integrate_tasks(tasks.data(), static_cast<int>(part.size()), integral);
+        for (std::size_t i = 0; i < part.size(); ++i) take<Dim>(tasks[i], *part[i].mean);
     }
-    return lowest - highest;
 }
 
-/// From the middle of face 1 to that of face 2, times Dim.
-template <int Dim>
-Vector<Dim> between_middles(const PairCorners<Dim>& x) {
-    Vector<Dim> between = x[Dim] - x[0];
-    for (int v = 1; v < Dim; ++v) between += x[Dim + v] - x[v];
-    return between;
+Integral integral_of(const PairPathOptions& options) {
+    if (options.gauss) return options.events ? Integral::pieces : Integral::whole;
+    return options.events ? Integral::checked : Integral::ends;
 }
 
-/// Largest turn of the normal of a face while no corner moves by more than `reach` [rad]; pi / 2 where no bound is known.
-double largest_turn(const Vector<2>& edge, double reach) {
-    const double ratio = 2.0 * reach / edge.norm();
-    return ratio < 1.0 ? std::asin(ratio) : 0.5 * std::numbers::pi;
-}
-/// About the longest edge, and with it.
-double largest_turn(const Vector<3>& u, const Vector<3>& w, double reach) {
-    const double longest = std::sqrt(std::max({u.squaredNorm(), w.squaredNorm(), (w - u).squaredNorm()}));
-    const double height = u.cross(w).norm() / longest, ratio = 2.0 * reach / height;
-    return ratio < 1.0 ? std::asin(ratio) + std::asin(2.0 * reach / longest) : 0.5 * std::numbers::pi;
-}
-/// The larger one of both faces.
-double largest_turn(const PairCorners<2>& x, double reach) {
-    return std::max(largest_turn(x[1] - x[0], reach), largest_turn(x[3] - x[2], reach));
-}
-double largest_turn(const PairCorners<3>& x, double reach) {
-    return std::max(largest_turn(x[1] - x[0], x[2] - x[0], reach), largest_turn(x[4] - x[3], x[5] - x[3], reach));
+Vector<2> normal_of(const lanes::LaneFrame<double, 2>& frame) { return lanes::vector_of(frame.normal); }
+Vector<3> normal_of(const lanes::LaneFrame<double, 3>& frame) {
+    const lanes::SeenPair<double> seen(frame.z, 0.0);
+    const auto& n = seen.common.c;
+    return lanes::vector_of(n[0] * frame.e[0] + n[1] * frame.e[1] + n[2] * frame.e[2]);
 }
 
-/// Largest change of the difference of both normals in n.
-double largest_change(const PairCorners<2>&, const PairLaw<2>& law, double, double reach) {
-    return 2.0 * reach * (1.0 / law.length[0] + 1.0 / law.length[1]);
+/// g of faces that share nothing, halfway between the nearest points of both.
+double gap_between(const lanes::LaneCorners<double, 2>& z, double offset) {
+    const lanes::Strip<double> strip(z);
+    return strip.gap(0.5 * (strip.low + strip.high)) + offset;
 }
-double largest_change(const PairCorners<3>&, const PairLaw<3>&, double turn, double) { return 4.0 * std::sin(0.5 * turn); }
 
-/// Face 2 before face 1: its clearance along n is how far all of face 2 is behind face 1.
-template <int Dim>
-PairCorners<Dim> behind(const PairCorners<Dim>& corners) {
-    PairCorners<Dim> result;
-    for (int v = 0; v < Dim; ++v) {
-        result[v] = corners[Dim + v];
-        result[Dim + v] = corners[v];
-    }
-    return result;
+/// The point of a segment that is nearest to another point.
+Vector<2> nearest_on(const Vector<2>& a, const Vector<2>& b, const Vector<2>& point) {
+    const Vector<2> along = b - a;
+    return a + std::clamp(along.dot(point - a) / along.squaredNorm(), 0.0, 1.0) * along;
+}
+
+double gap_between(const lanes::LaneCorners<double, 3>& z, double offset) {
+    const lanes::SeenPair<double> seen(z, offset);
+    std::array<Vector<2>, 6> corner;
+    for (std::size_t v = 0; v < corner.size(); ++v) corner[v] = lanes::vector_of(seen.plane[v]);
+    double least = std::numeric_limits<double>::infinity();
+    Vector<2> halfway = corner[0];
+    const auto offer = [&](const Vector<2>& a, const Vector<2>& b) {
+        if (const double distance = (a - b).squaredNorm(); distance < least) {
+            least = distance;
+            halfway = 0.5 * (a + b);
+        }
+    };
+    for (std::size_t v = 0; v < corner.size(); ++v)
+        for (std::size_t edge = 0; edge < 3; ++edge) {
+            const std::size_t other = v < 3 ? 3 : 0;
+            offer(corner[v], nearest_on(corner[other + edge], corner[other + (edge + 1) % 3], corner[v]));
+        }
+    return seen.gap({halfway[0], halfway[1]});
 }
 
 }  // namespace
 
 template <int Dim>
-PairOutlook<Dim> pair_outlook(const PairCorners<Dim>& corners, const PairLaw<Dim>& law, double reach, double depth) {
-    PairOutlook<Dim> outlook;
-    const double facing = std::clamp(facing_cosine<Dim>(corners), -1.0, 1.0), turn = largest_turn(corners, reach);
-    if (std::acos(facing) + 2.0 * turn < std::acos(law.facing.none)) {
-        outlook.may_act = false;
-        return outlook;
-    }
-    if (facing > no_normal_cosine) return outlook;
-    // the sine of the angle by which n can turn; short of a right angle what is apart along n stays apart
-    const auto normals = weighed_normals(corners, law);
-    const Vector<Dim> difference = normals[0] - normals[1];
-    const double sine = largest_change(corners, law, turn, reach) / difference.norm();
-    if (!(sine < 1.0)) return outlook;
-    const Vector<Dim> n = difference.normalized(), between = between_middles<Dim>(corners);
-    const Vector<Dim> aside = between - between.dot(n) * n;
-    outlook.normal = n;
-    outlook.aside_allowance = depth * sine;
-    if (const double length = aside.norm(); length > 1e-6 * between.norm()) outlook.aside = aside / length;
-    const double above = clearance<Dim>(corners, n);
-    outlook.is_apart = above > 0.0;
-    outlook.may_act = above <= 2.0 * reach && clearance<Dim>(behind<Dim>(corners), n) <= depth + law.offset + 2.0 * reach &&
-                      clearance<Dim>(corners, outlook.aside) <= 2.0 * reach + outlook.aside_allowance;
-    return outlook;
+void integrate_pairs(std::span<const PairStep<Dim>> steps, const PairPathOptions& options) {
+    integrate<Dim>(steps, integral_of(options));
 }
 
 template <int Dim>
-PairRest rests(const PairOutlook<Dim>& outlook, const PairCorners<Dim>& corners) {
-    if (clearance<Dim>(corners, outlook.normal) > 0.0) return PairRest::apart;
-    return clearance<Dim>(corners, outlook.aside) > outlook.aside_allowance ? PairRest::beside : PairRest::no;
+void evaluate_pairs(std::span<const PairStep<Dim>> steps) {
+    integrate<Dim>(steps, Integral::end);
 }
 
 template <int Dim>
-PairPlacement<Dim> pair_placement(const PairCorners<Dim>& corners, const PairLaw<Dim>& law) {
-    const auto normals = weighed_normals(corners, law);
-    PairPlacement<Dim> found{
-        PairPlace::unclear, normals[0].dot(normals[1]), normals[0] - normals[1], 0.0, Vector<Dim>::Zero(), 0.0};
-    if constexpr (Dim == 2) found.facing /= normals[0].norm() * normals[1].norm();
-    if (found.facing >= law.facing.none) {
-        found.place = PairPlace::turned_away;
-        return found;
-    }
-    found.normal.normalize();
-    found.above = clearance<Dim>(corners, found.normal);
-    if (found.above + law.offset >= 0.0) {
-        found.place = PairPlace::apart;
-        return found;
-    }
-    const Vector<Dim> between = between_middles<Dim>(corners);
-    found.aside = between - between.dot(found.normal) * found.normal;
-    found.beside = clearance<Dim>(corners, found.aside);
-    if (found.beside > 1e-14 * between.squaredNorm()) found.place = PairPlace::beside;
-    return found;
+PairMeanGradient<Dim> pair_mean_gradient(const PairCorners<Dim>& x_0, const PairCorners<Dim>& x_1, const PairLaw<Dim>& law,
+                                         const PairPathOptions& options) {
+    PairEnd<Dim> end;
+    PairMeanGradient<Dim> mean;
+    const PairStep<Dim> step{&x_0, &x_1, &law, nullptr, &end, &mean};
+    integrate_pairs<Dim>({&step, 1}, options);
+    return mean;
 }
 
-// Clearance along one direction is a concave function along straight paths: what is clear along it at both ends stays so.
-// Points that lie over each other along an n that has turned are apart along `aside` by no more than their height times the
-// cosine between both; twice that at the end allows for n that turns unevenly.
 template <int Dim>
-bool stays_inactive(const PairPlacement<Dim>& at_start, const PairPlacement<Dim>& at_end, const PairCorners<Dim>& end) {
-    if (at_start.place != at_end.place) return false;
-    switch (at_start.place) {
-        case PairPlace::apart:
-            return clearance<Dim>(end, at_start.normal) >= 0.0;
-        case PairPlace::beside: {
-            const double turned = 2.0 * std::abs(at_start.aside.dot(at_end.normal));
-            return std::min(at_start.beside, clearance<Dim>(end, at_start.aside)) >
-                   -turned * std::min(at_start.above, at_end.above);
-        }
-        case PairPlace::turned_away:
-            return true;
-        case PairPlace::unclear:
-            return false;
-    }
-    return false;
+PairGradient<Dim> pair_gradient(const PairCorners<Dim>& corners, const PairLaw<Dim>& law) {
+    PairEnd<Dim> end;
+    PairMeanGradient<Dim> found;
+    const PairStep<Dim> step{&corners, &corners, &law, nullptr, &end, &found};
+    evaluate_pairs<Dim>({&step, 1});
+    return {found.energy_1, found.gap_1, found.gradient, found.area, found.pressure};
 }
 
 template <int Dim>
 PairState<Dim> pair_state(const PairCorners<Dim>& corners, const PairLaw<Dim>& law) {
     PairState<Dim> state;
-    state.facing = facing_cosine<Dim>(corners);
+    state.facing = facing_cosine(corners);
     state.gap = std::numeric_limits<double>::infinity();
     if (state.facing > no_normal_cosine) return state;
-    const PairFrame<Dim> frame(corners, law);
-    const PairNormals<Dim> normals(frame.z);
-    const PairEnergy<Dim> energy = pair_energy<Dim>(normals, frame.z, law, false);
-    const PairView view = pair_view<Dim>(normals, frame.z, law.offset);
-    state.energy = energy.energy;
-    state.area = energy.area;
-    state.overlap = view.overlap;
-    state.gap = view.gap;
-    state.normal = common_normal(normals, frame);
+    const lanes::LaneLaw<double> of_lane = lanes::law_of<Dim>(law);
+    const lanes::LaneFrame<double, Dim> frame(lanes::corners_of<Dim>(corners), of_lane);
+    const lanes::LaneEnergy<double, Dim> found = lanes::energy_of(frame.z, of_lane);
+    state.energy = found.energy;
+    state.area = found.area;
+    state.overlap = found.overlap;
+    state.gap = found.overlap > 0.0 ? found.view_gap : gap_between(frame.z, law.offset);
+    state.normal = normal_of(frame);
     return state;
 }
 
-template <int Dim>
-PairGradient<Dim> pair_gradient(const PairCorners<Dim>& corners, const PairLaw<Dim>& law) {
-    PairGradient<Dim> result;
-    result.gradient.fill(Vector<Dim>::Zero());
-    if (facing_cosine<Dim>(corners) >= law.facing.none) return result;
-    const PairFrame<Dim> frame(corners, law);
-    const PairEnergy<Dim> energy = pair_energy<Dim>(PairNormals<Dim>(frame.z), frame.z, law, true);
-    result.energy = energy.energy;
-    result.area = energy.area;
-    result.gap = energy.gap;
-    result.pressure = energy.pressure;
-    if (energy.energy != 0.0) result.gradient = in_mean_frame<Dim>(frame, frame, law, energy.gradient);
-    return result;
-}
-
-template PairOutlook<2> pair_outlook(const PairCorners<2>&, const PairLaw<2>&, double, double);
-template PairOutlook<3> pair_outlook(const PairCorners<3>&, const PairLaw<3>&, double, double);
-template PairRest rests(const PairOutlook<2>&, const PairCorners<2>&);
-template PairRest rests(const PairOutlook<3>&, const PairCorners<3>&);
-template PairPlacement<2> pair_placement(const PairCorners<2>&, const PairLaw<2>&);
-template PairPlacement<3> pair_placement(const PairCorners<3>&, const PairLaw<3>&);
-template bool stays_inactive(const PairPlacement<2>&, const PairPlacement<2>&, const PairCorners<2>&);
-template bool stays_inactive(const PairPlacement<3>&, const PairPlacement<3>&, const PairCorners<3>&);
-template PairState<2> pair_state(const PairCorners<2>&, const PairLaw<2>&);
-template PairState<3> pair_state(const PairCorners<3>&, const PairLaw<3>&);
-template PairGradient<2> pair_gradient(const PairCorners<2>&, const PairLaw<2>&);
-template PairGradient<3> pair_gradient(const PairCorners<3>&, const PairLaw<3>&);
+#define ABUT_INSTANTIATE(Dim)                                                                                           \
+    template void integrate_pairs(std::span<const PairStep<Dim>>, const PairPathOptions&);                                    \
+    template void evaluate_pairs(std::span<const PairStep<Dim>>);                                                             \
+    template PairMeanGradient<Dim> pair_mean_gradient(const PairCorners<Dim>&, const PairCorners<Dim>&,                 \
+                                                      const PairLaw<Dim>&, const PairPathOptions&);                     \
+    template PairGradient<Dim> pair_gradient(const PairCorners<Dim>&, const PairLaw<Dim>&);                             \
+    template PairState<Dim> pair_state(const PairCorners<Dim>&, const PairLaw<Dim>&);
+ABUT_INSTANTIATE(2)
+ABUT_INSTANTIATE(3)
+#undef ABUT_INSTANTIATE
 
 }  // namespace abut::geometry

@@ -73,6 +73,7 @@ contact::NodalOptions nodal_options(const Bodies<Dim>& bodies, const CornerSurfa
     return {.search = std::move(search),
             .facing = options.facing,
             .events = contact.events,
+            .gauss = options.gauss,
             .compression_warning = contact.compression_warning,
             .compression_limit = contact.compression_limit,
             .friction = friction_between(options, bodies.mesh().n_bodies(), corners.bodies_of_faces(), faces_of),

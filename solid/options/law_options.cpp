@@ -42,6 +42,7 @@ std::string made(ContactLaw law, const SolidOptions<Dim>& options) {
     std::vector<std::string> keys;
     append_made(keys, law, contact::contact_options(), *options.contact, {}, with_exact_number);
     append_made(keys, law, contact::facing_options(), options.facing, {}, {});
+    append_made(keys, law, contact::path_options<SolidOptions<Dim>>(), options, {}, {});
     std::string text;
     for (const std::string& key : keys) text += (text.empty() ? "" : " and ") + key;
     return text;
@@ -67,6 +68,7 @@ void take_back_choices_of_one_law(SolidOptions<Dim>& options) {
     if (!options.contact) return;
     take_back(contact::contact_options(), *options.contact);
     take_back(contact::facing_options(), options.facing);
+    take_back(contact::path_options<SolidOptions<Dim>>(), options);
 }
 
 #define ABUT_INSTANTIATE(Dim)                                                             \

@@ -55,6 +55,7 @@ struct SolidOptions {
     std::optional<contact::ContactOptions> contact;  ///< empty: bodies pass through each other, at no cost
     ContactLaw law = ContactLaw::automatic;
     geometry::FacingFade facing;                         ///< of `pair_potential` (contact::NodalOptions)
+    bool gauss = false;                                  ///< the same
     std::vector<contact::RigidObstacle<Dim>> obstacles;  ///< with contact only
     /// Pairs of bodies, in either order, that pass through each other; obstacle i is body n_bodies + i
     std::vector<std::array<std::int32_t, 2>> ignored_pairs = {};
