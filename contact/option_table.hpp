@@ -27,13 +27,14 @@ inline constexpr std::array<Word<geometry::AreaMethod>, 2> area_words{
 /// What the pair potential alone has beside `facing_options`, of the options of a contact or of a run.
 template <class Owner>
 [[nodiscard]] OptionList<Owner> path_options() {
-    return {option("gauss", &Owner::gauss,
-                   {.help = "of the pair potential: Gauss's rule for the force of every pair over a step; else the mean of its "
-                            "ends where that is enough",
-                    .laws = {"pair_potential"},
-                    .named = Named::changed,
-                    .is_switch = true,
-                    .depth = OptionDepth::laboratory})};
+    return {
+        option("gauss", &Owner::gauss,
+               {.help = "of the pair potential: Gauss's rule for the force of every pair over a step; else the mean of its "
+                        "ends where that is enough",
+                .laws = {"pair_potential"},
+                .named = Named::changed,
+                .is_switch = true,
+                .depth = OptionDepth::laboratory})};
 }
 
 }  // namespace abut::contact

@@ -120,8 +120,9 @@ void PairPotential<Dim>::take_forces(const IndexRange& range, Pairs pairs, Point
             const bool is_known = before != kept_.end() && before->facets == ending.facets &&
                                   std::memcmp(&before->x, &starts[i], sizeof(starts[i])) == 0 &&
                                   std::memcmp(&before->law, &pair.law, sizeof(pair.law)) == 0;
-            steps[i] = {&starts[i], &ending.x, &pair.law, is_known ? &before->end : nullptr, &ending.end,
-                        &outcomes_[first + i].found};
+            steps[i] = {&starts[i],  &ending.x,
+                        &pair.law,   is_known ? &before->end : nullptr,
+                        &ending.end, &outcomes_[first + i].found};
         }
         const std::span<const geometry::PairStep<Dim>> of_steps(steps.data(), n);
         take == TakenForce::mean ? geometry::integrate_pairs<Dim>(of_steps, path_) : geometry::evaluate_pairs<Dim>(of_steps);
@@ -275,9 +276,8 @@ void PairPotential<Dim>::evaluate(const NodalSurface<Dim>& surface, const NodalP
 }
 
 template <int Dim>
-void PairPotential<Dim>::add_up(const NodalSurface<Dim>& surface, const NodalPairs<Dim>& listed,
-                                Pairs pairs, PointsView<Dim> x_0, PointsView<Dim> x_1,
-                                NodalStep<Dim>& step) const {
+void PairPotential<Dim>::add_up(const NodalSurface<Dim>& surface, const NodalPairs<Dim>& listed, Pairs pairs,
+                                PointsView<Dim> x_0, PointsView<Dim> x_1, NodalStep<Dim>& step) const {
     clear_step(listed, step);
     double forces = 0.0;
     for (const Outcome& outcome : outcomes_) {
@@ -298,9 +298,8 @@ void PairPotential<Dim>::add_up(const NodalSurface<Dim>& surface, const NodalPai
 }
 
 template <int Dim>
-void PairPotential<Dim>::add_friction(const NodalSurface<Dim>& surface, Pairs pairs,
-                                      FacetStore& facets, double dt, PointsView<Dim> x_0, PointsView<Dim> x_1,
-                                      TakenForce take, NodalStep<Dim>& step) {
+void PairPotential<Dim>::add_friction(const NodalSurface<Dim>& surface, Pairs pairs, FacetStore& facets, double dt,
+                                      PointsView<Dim> x_0, PointsView<Dim> x_1, TakenForce take, NodalStep<Dim>& step) {
     friction_.begin(dt, x_0, x_1, take);
     add_pairs(surface, pairs);
     friction_.apply(surface, facets, step);

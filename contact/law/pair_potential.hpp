@@ -68,8 +68,8 @@ private:
     /// Fills `glances_` by glance(p) and `outcomes_` by the forces of the step, for all pairs; parts that share contact do
     /// so for as many pairs each.
     template <class GlanceAt>
-    void find_outcomes(Pairs pairs, const SideOutlines<Dim>* sides, PointsView<Dim> x_0, PointsView<Dim> x_1, TakenForce take,
-                       const GlanceAt& glance);
+    void find_outcomes(Pairs pairs, const SideOutlines<Dim>* sides, PointsView<Dim> x_0, PointsView<Dim> x_1,
+                       TakenForce take, const GlanceAt& glance);
     /// For some of the pairs.
     template <class GlanceAt>
     void find_part(const IndexRange& range, Pairs pairs, const SideOutlines<Dim>* sides, PointsView<Dim> x_0,
@@ -88,7 +88,8 @@ private:
     static double interference_work(const NodalPair<Dim>& pair, const geometry::PairCorners<Dim>& start,
                                     const geometry::PairCorners<Dim>& end, TakenForce take);
     /// Adds up what these of the listed pairs do, in their order.
-    void add_up(const NodalSurface<Dim>& surface, const NodalPairs<Dim>& listed, Pairs pairs, PointsView<Dim> x_0, PointsView<Dim> x_1, NodalStep<Dim>& step) const;
+    void add_up(const NodalSurface<Dim>& surface, const NodalPairs<Dim>& listed, Pairs pairs, PointsView<Dim> x_0,
+                PointsView<Dim> x_1, NodalStep<Dim>& step) const;
 
     void add_friction(const NodalSurface<Dim>& surface, Pairs pairs, FacetStore& facets, double dt, PointsView<Dim> x_0,
                       PointsView<Dim> x_1, TakenForce take, NodalStep<Dim>& step);

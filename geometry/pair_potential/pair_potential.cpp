@@ -165,12 +165,12 @@ PairState<Dim> pair_state(const PairCorners<Dim>& corners, const PairLaw<Dim>& l
     return state;
 }
 
-#define ABUT_INSTANTIATE(Dim)                                                                                           \
-    template void integrate_pairs(std::span<const PairStep<Dim>>, const PairPathOptions&);                                    \
-    template void evaluate_pairs(std::span<const PairStep<Dim>>);                                                             \
-    template PairMeanGradient<Dim> pair_mean_gradient(const PairCorners<Dim>&, const PairCorners<Dim>&,                 \
-                                                      const PairLaw<Dim>&, const PairPathOptions&);                     \
-    template PairGradient<Dim> pair_gradient(const PairCorners<Dim>&, const PairLaw<Dim>&);                             \
+#define ABUT_INSTANTIATE(Dim)                                                                           \
+    template void integrate_pairs(std::span<const PairStep<Dim>>, const PairPathOptions&);              \
+    template void evaluate_pairs(std::span<const PairStep<Dim>>);                                       \
+    template PairMeanGradient<Dim> pair_mean_gradient(const PairCorners<Dim>&, const PairCorners<Dim>&, \
+                                                      const PairLaw<Dim>&, const PairPathOptions&);     \
+    template PairGradient<Dim> pair_gradient(const PairCorners<Dim>&, const PairLaw<Dim>&);             \
     template PairState<Dim> pair_state(const PairCorners<Dim>&, const PairLaw<Dim>&);
 ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)

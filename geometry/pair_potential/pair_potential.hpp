@@ -167,8 +167,8 @@ struct PairStep {
     const PairCorners<Dim>* x_0;
     const PairCorners<Dim>* x_1;
     const PairLaw<Dim>* law;
-    const PairEnd<Dim>* start;     ///< at x_0, under this law; null: it is found
-    PairEnd<Dim>* end;             ///< result, at x_1
+    const PairEnd<Dim>* start;    ///< at x_0, under this law; null: it is found
+    PairEnd<Dim>* end;            ///< result, at x_1
     PairMeanGradient<Dim>* mean;  ///< result
 };
 

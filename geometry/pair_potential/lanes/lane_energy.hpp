@@ -8,13 +8,13 @@ namespace abut::geometry::lanes {
 template <class T, int Dim>
 struct LaneEnergy {
     T energy;
-    T gap;                       // the least g over the part of the overlap where g < 0, 0 without one
-    T area;                      // of that part
+    T gap;                         // the least g over the part of the overlap where g < 0, 0 without one
+    T area;                        // of that part
     LaneCorners<T, Dim> gradient;  // dW/dz
-    T pressure[2 * Dim];         // int k |g| N_v
-    T facing;                    // n_1 . n_2
-    T overlap;                   // |P|
-    T view_gap;                  // the least g over P; meaningless where P is empty
+    T pressure[2 * Dim];           // int k |g| N_v
+    T facing;                      // n_1 . n_2
+    T overlap;                     // |P|
+    T view_gap;                    // the least g over P; meaningless where P is empty
 };
 
 /// chi and dchi/dc.
@@ -28,6 +28,36 @@ struct LaneFacing {
     }
     T chi, slope;
 };
+
+/// One lane of all.
+template <class T, int Dim>
+LaneCorners<double, Dim> lane(const LaneCorners<T, Dim>& x, int i) {
+    LaneCorners<double, Dim> of;
+    for (int v = 0; v < 2 * Dim; ++v)
+        for (int d = 0; d < Dim; ++d) of.at[v].c[d] = lane(x.at[v].c[d], i);
+    return of;
+}
+template <class T>
+LaneLaw<double> lane(const LaneLaw<T>& law, int i) {
+    return {lane(law.stiffness, i),
+            {lane(law.length[0], i), lane(law.length[1], i)},
+            lane(law.full, i),
+            lane(law.none, i),
+            lane(law.offset, i)};
+}
+template <class T, int Dim>
+void set_lane(LaneEnergy<T, Dim>& all, int i, const LaneEnergy<double, Dim>& of) {
+    set_lane(all.energy, i, of.energy);
+    set_lane(all.gap, i, of.gap);
+    set_lane(all.area, i, of.area);
+    for (int v = 0; v < 2 * Dim; ++v) {
+        for (int d = 0; d < Dim; ++d) set_lane(all.gradient.at[v].c[d], i, of.gradient.at[v].c[d]);
+        set_lane(all.pressure[v], i, of.pressure[v]);
+    }
+    set_lane(all.facing, i, of.facing);
+    set_lane(all.overlap, i, of.overlap);
+    set_lane(all.view_gap, i, of.view_gap);
+}
 
 /// Sets all to 0 where W does not act.
 template <class T, int Dim>

@@ -4,7 +4,8 @@
 
 namespace abut::geometry::lanes {
 
-inline constexpr double tie_2d = 1e-12;  // of the lengths: ends this near to each other share what the end of the overlap does
+inline constexpr double tie_2d =
+    1e-12;  // of the lengths: ends this near to each other share what the end of the overlap does
 
 /// The faces over the line along which both are seen: xi falls from corner 0 to 1 of face 1 and rises from 2 to 3 of face 2.
 template <class T>
@@ -22,9 +23,7 @@ struct Strip {
         low_of_1 = share(z.at[1].c[0] > z.at[2].c[0], z.at[1].c[0] - z.at[2].c[0], tolerance);
         for (int face = 0; face < 2; ++face) start[face] = z.at[2 * face];
     }
-    [[nodiscard]] T height(int face, const T& xi) const {
-        return start[face].c[1] + slope[face] * (xi - start[face].c[0]);
-    }
+    [[nodiscard]] T height(int face, const T& xi) const { return start[face].c[1] + slope[face] * (xi - start[face].c[0]); }
     [[nodiscard]] T gap(const T& xi) const { return height(1, xi) - height(0, xi); }
     /// Linear shape function of the second corner of a face.
     [[nodiscard]] T shape(int face, const T& xi) const { return (xi - start[face].c[0]) / edge[face].c[0]; }

@@ -36,14 +36,23 @@ struct SeenPair {
         gap_at_0 = height[3] - height[0] - dot(slope, plane[3] + plane[0]) + offset;
     }
     [[nodiscard]] T gap(const Plane& q) const { return gap_at_0 + dot(gap_slope, q); }
+    /// Squares of two edges of a face, of the smaller one.
+    [[nodiscard]] T double_least_edges() const {
+        T squares[2];
+        for (int face = 0; face < 2; ++face) {
+            const Plane b = plane[3 * face + 1] - plane[3 * face], c = plane[3 * face + 2] - plane[3 * face];
+            squares[face] = dot(b, b) + dot(c, c);
+        }
+        return lower(squares[0], squares[1]);
+    }
 
     Space edge_b, edge_c;  // of face 2
     Space normal_2;
     T over_twice_area_2;
     T facing;
-    Space common;    // n
+    Space common;       // n
     T over_difference;  // 1/|n_1 - n_2|
-    Space tangent[2];  // with n right-handed
+    Space tangent[2];   // with n right-handed
     Plane plane[6];
     T height[6];  // along n
     Plane slope;  // of the height of face 2 over the plane
@@ -79,25 +88,86 @@ struct EdgePart {
     T gap_from, gap_to;
 };
 
+/// What is measured of an outline before g < 0 is asked for.
+template <class T>
+struct OutlineMeasures {
+    LaneVector<T, 2> middle;  // a mean point of P
+    T squared_size;           // of the square of its perimeter, and more
+    T overlap;                // |P|
+    T gap;                    // least over P; infinite without it
+};
+
+/// Where a line that is a at the start and b at the end is 0.
+template <class T>
+T root_between(const T& a, const T& b, const FlagsOf<T>& crosses) {
+    return select(crosses, a, T(0.0)) / select(crosses, a - b, T(1.0));
+}
+
+/// Sets the gaps at both ends of each part. `Outline`: `part`, and their number `n`.
+template <class T, class Outline>
+OutlineMeasures<T> measure(const SeenPair<T>& seen, Outline& outline) {
+    OutlineMeasures<T> of{no_vector<T, 2>(), T(0.0), T(0.0), T(__builtin_inf())};
+    T count(0.0);
+    for (int k = 0; k < outline.n; ++k) {
+        EdgePart<T>& part = outline.part[k];
+        part.gap_from = seen.gap(part.from);
+        part.gap_to = seen.gap(part.to);
+        const T counts = select(part.is_outside, T(0.0), T(1.0));
+        of.middle += counts * (part.from + part.to);
+        count = count + counts + counts;
+        const LaneVector<T, 2> along = part.to - part.from;
+        of.squared_size = of.squared_size + T(6.0) * counts * dot(along, along);
+        of.gap = select(part.is_outside, of.gap, lower(of.gap, lower(part.gap_from, part.gap_to)));
+    }
+    of.middle = (T(1.0) / higher(count, T(1.0))) * of.middle;
+    for (int k = 0; k < outline.n; ++k) {
+        const EdgePart<T>& part = outline.part[k];
+        const T twice_area = part.weight * cross(part.from - of.middle, part.to - of.middle);
+        of.overlap = of.overlap + select(part.is_outside, T(0.0), T(0.5) * twice_area);
+    }
+    return of;
+}
+
+/// Cuts away what has g >= 0.
+template <class T, class Outline>
+void keep_negative_gap(Outline& outline) {
+    for (int k = 0; k < outline.n; ++k) {
+        EdgePart<T>& part = outline.part[k];
+        const FlagsOf<T> from_counts = part.gap_from < T(0.0), to_counts = part.gap_to < T(0.0);
+        part.is_outside = part.is_outside | negated(from_counts | to_counts);
+        const T at = root_between<T>(part.gap_from, part.gap_to, from_counts ^ to_counts);
+        const LaneVector<T, 2> root = part.from + at * (part.to - part.from);
+        const T at_root = part.low + at * (part.high - part.low);
+        const FlagsOf<T> moves_from = without(to_counts, from_counts), moves_to = without(from_counts, to_counts);
+        part.from = select<T, 2>(moves_from, root, part.from);
+        part.to = select<T, 2>(moves_to, root, part.to);
+        part.low = select(moves_from, at_root, part.low);
+        part.high = select(moves_to, at_root, part.high);
+        part.gap_from = select(from_counts, part.gap_from, T(0.0));
+        part.gap_to = select(to_counts, part.gap_to, T(0.0));
+    }
+}
+
 /// The outline of the overlap P, without a polygon: the parts of the six edges, counter-clockwise. Where two edges cross is
-/// computed once for both, so that the outline closes even where they are nearly parallel.
+/// computed once for both, so that the outline closes where they are nearly parallel. Where corners lie on each other
+/// besides, it may not.
 template <class T>
 struct Outline {
     using Plane = LaneVector<T, 2>;
+    static constexpr int n = 6;
+    static constexpr int corners[n][2] = {{0, 1}, {1, 2}, {2, 0}, {3, 5}, {5, 4}, {4, 3}};  // face 2 runs clockwise
 
     explicit Outline(const SeenPair<T>& seen) {
-        // face 2 runs clockwise
-        constexpr int order[2][4] = {{0, 1, 2, 0}, {3, 5, 4, 3}};
-        Plane corner[2][4], edge[2][3];
+        Plane corner[2][3], edge[2][3];
         T squared_length[2][3];
-        for (int face = 0; face < 2; ++face) {
-            for (int i = 0; i < 4; ++i) corner[face][i] = seen.plane[order[face][i]];
+        for (int face = 0; face < 2; ++face)
             for (int i = 0; i < 3; ++i) {
-                edge[face][i] = corner[face][i + 1] - corner[face][i];
+                const Plane &start = seen.plane[corners[3 * face + i][0]], &end = seen.plane[corners[3 * face + i][1]];
+                corner[face][i] = start;
+                edge[face][i] = end - start;
                 squared_length[face][i] = dot(edge[face][i], edge[face][i]);
-                part[face][i] = {corner[face][i], corner[face][i + 1]};
+                part[3 * face + i] = {start, end};
             }
-        }
         // beside[face][line][i]: corner i of a face from a line of the other one, > 0 inside
         T beside[2][3][4];
         FlagsOf<T> on_line[2][3][4], inside[2][3][4];
@@ -124,75 +194,34 @@ struct Outline {
                                  crosses_2 = inside[1][i][j] ^ inside[1][i][j + 1];
                 const T from = select(crosses_1, beside[0][j][i], beside[1][i][j]);
                 const T to = select(crosses_1, beside[0][j][i + 1], beside[1][i][j + 1]);
-                const T at = from / select(crosses_1 | crosses_2, from - to, T(1.0));
+                const T at = root_between<T>(from, to, crosses_1 | crosses_2);
                 const Plane crossing = select<T, 2>(crosses_1, corner[0][i], corner[1][j]) +
                                        at * select<T, 2>(crosses_1, edge[0][i], edge[1][j]);
                 const T at_2 = select(crosses_1, over_squared_length[j] * dot(crossing - corner[1][j], edge[1][j]), at);
-                part[0][i].cut(inside[0][j][i], inside[0][j][i + 1], is_shared, crossing, at);
-                part[1][j].cut(inside[1][i][j], inside[1][i][j + 1], is_shared, crossing, at_2);
-                part[0][i].weight = select(is_shared, T(0.5), part[0][i].weight);
-                part[1][j].weight = select(is_shared, T(0.5), part[1][j].weight);
+                EdgePart<T>&part_1 = part[i], &part_2 = part[3 + j];
+                part_1.cut(inside[0][j][i], inside[0][j][i + 1], is_shared, crossing, at);
+                part_2.cut(inside[1][i][j], inside[1][i][j + 1], is_shared, crossing, at_2);
+                part_1.weight = select(is_shared, T(0.5), part_1.weight);
+                part_2.weight = select(is_shared, T(0.5), part_2.weight);
             }
-        measure(seen);
-        double_least_edges = lower(squared_length[0][0] + squared_length[0][2], squared_length[1][0] + squared_length[1][2]);
+        close(squared_length);
     }
+    [[nodiscard]] int start(int k) const { return corners[k][0]; }
+    [[nodiscard]] int end(int k) const { return corners[k][1]; }
 
-    /// Cuts away what has g >= 0.
-    void keep_negative_gap() {
-        for (auto& of_face : part)
-            for (EdgePart<T>& edge : of_face) {
-                const FlagsOf<T> from_counts = edge.gap_from < T(0.0), to_counts = edge.gap_to < T(0.0);
-                edge.is_outside = edge.is_outside | negated(from_counts | to_counts);
-                const T at = crossing(edge.gap_from, edge.gap_to, from_counts ^ to_counts);
-                const Plane root = edge.from + at * (edge.to - edge.from);
-                const T at_root = edge.low + at * (edge.high - edge.low);
-                const FlagsOf<T> moves_from = without(to_counts, from_counts), moves_to = without(from_counts, to_counts);
-                edge.from = select<T, 2>(moves_from, root, edge.from);
-                edge.to = select<T, 2>(moves_to, root, edge.to);
-                edge.low = select(moves_from, at_root, edge.low);
-                edge.high = select(moves_to, at_root, edge.high);
-                edge.gap_from = select(from_counts, edge.gap_from, T(0.0));
-                edge.gap_to = select(to_counts, edge.gap_to, T(0.0));
-            }
-    }
-
-    EdgePart<T> part[2][3];
-    Plane middle;          // a mean point of P
-    T squared_size;        // of the square of its perimeter, and more
-    T overlap;             // |P|
-    T gap;                 // least over P
-    T double_least_edges;  // squares of two edges of a face, of the smaller one
+    EdgePart<T> part[n];
+    FlagsOf<T> is_open;
 
 private:
-    /// Where a line that is a at the start and b at the end is 0.
-    static T crossing(const T& a, const T& b, const FlagsOf<T>& crosses) {
-        return select(crosses, a, T(0.0)) / select(crosses, a - b, T(1.0));
-    }
-
-    void measure(const SeenPair<T>& seen) {
-        Plane sum = no_vector<T, 2>();
-        T count(0.0);
-        squared_size = T(0.0);
-        gap = T(__builtin_inf());
-        for (auto& of_face : part)
-            for (EdgePart<T>& edge : of_face) {
-                edge.close();
-                edge.gap_from = seen.gap(edge.from);
-                edge.gap_to = seen.gap(edge.to);
-                const T counts = select(edge.is_outside, T(0.0), T(1.0));
-                sum += counts * (edge.from + edge.to);
-                count = count + counts + counts;
-                const Plane along = edge.to - edge.from;
-                squared_size = squared_size + T(6.0) * counts * dot(along, along);
-                gap = select(edge.is_outside, gap, lower(gap, lower(edge.gap_from, edge.gap_to)));
-            }
-        middle = (T(1.0) / higher(count, T(1.0))) * sum;
-        overlap = T(0.0);
-        for (const auto& of_face : part)
-            for (const EdgePart<T>& edge : of_face) {
-                const T twice_area = edge.weight * cross(edge.from - middle, edge.to - middle);
-                overlap = overlap + select(edge.is_outside, T(0.0), T(0.5) * twice_area);
-            }
+    void close(const T (&squared_length)[2][3]) {
+        Plane gap = no_vector<T, 2>();
+        T size(0.0);
+        for (int k = 0; k < n; ++k) {
+            part[k].close();
+            gap += select(part[k].is_outside, T(0.0), part[k].weight) * (part[k].to - part[k].from);
+            size = size + squared_length[k / 3][k % 3];
+        }
+        is_open = dot(gap, gap) > T(1e-24) * size;
     }
 };
 
@@ -202,24 +231,26 @@ template <class T>
 struct Moments {
     using Plane = LaneVector<T, 2>;
 
-    Moments(const SeenPair<T>& seen, const Outline<T>& outline) : gap_slope(seen.gap_slope) {
-        const T at_middle = seen.gap(outline.middle), squared_slope = dot(gap_slope, gap_slope);
-        const FlagsOf<T> may_cross = at_middle * at_middle < outline.squared_size * squared_slope;
+    template <class Outline>
+    Moments(const SeenPair<T>& seen, const OutlineMeasures<T>& measures, const Outline& outline)
+        : gap_slope(seen.gap_slope) {
+        const T at_middle = seen.gap(measures.middle), squared_slope = dot(gap_slope, gap_slope);
+        const FlagsOf<T> may_cross = at_middle * at_middle < measures.squared_size * squared_slope;
         const T back = at_middle / select(may_cross, squared_slope, T(1.0));
-        origin = select<T, 2>(may_cross, outline.middle - back * gap_slope, outline.middle);
+        origin = select<T, 2>(may_cross, measures.middle - back * gap_slope, measures.middle);
         gap_at_origin = select(may_cross, T(0.0), at_middle);
         area = gap = T(0.0);
         first = no_vector<T, 2>();
-        for (const auto& of_face : outline.part)
-            for (const EdgePart<T>& edge : of_face) {
-                const Plane r_0 = edge.from - origin, r_1 = edge.to - origin;
-                const T of_edge = select(edge.is_outside, T(0.0), T(0.5) * edge.weight * cross(r_0, r_1));
-                const T sum = gap_at_origin + edge.gap_from + edge.gap_to;
-                area = area + of_edge;
-                gap = gap + T(1.0 / 3.0) * of_edge * sum;
-                const T twelfth = T(1.0 / 12.0) * of_edge;
-                first += (twelfth * (sum + edge.gap_from)) * r_0 + (twelfth * (sum + edge.gap_to)) * r_1;
-            }
+        for (int k = 0; k < outline.n; ++k) {
+            const EdgePart<T>& part = outline.part[k];
+            const Plane r_0 = part.from - origin, r_1 = part.to - origin;
+            const T of_part = select(part.is_outside, T(0.0), T(0.5) * part.weight * cross(r_0, r_1));
+            const T sum = gap_at_origin + part.gap_from + part.gap_to;
+            area = area + of_part;
+            gap = gap + T(1.0 / 3.0) * of_part * sum;
+            const T twelfth = T(1.0 / 12.0) * of_part;
+            first += (twelfth * (sum + part.gap_from)) * r_0 + (twelfth * (sum + part.gap_to)) * r_1;
+        }
     }
     [[nodiscard]] T gap_squared() const { return gap_at_origin * gap + dot(gap_slope, first); }
 
@@ -235,12 +266,11 @@ template <class T>
 struct PlaneGradient {
     using Plane = LaneVector<T, 2>;
 
-    PlaneGradient(const SeenPair<T>& seen, const Outline<T>& outline, const Moments<T>& moments, const T& stiffness) {
+    template <class Outline>
+    PlaneGradient(const SeenPair<T>& seen, const Outline& outline, const Moments<T>& moments, const T& stiffness) {
         add_inside(seen, moments, stiffness);
-        constexpr int order[2][4] = {{0, 1, 2, 0}, {3, 5, 4, 3}};
-        for (int face = 0; face < 2; ++face)
-            for (int i = 0; i < 3; ++i)
-                add_edge(outline.part[face][i], stiffness, plane[order[face][i]], plane[order[face][i + 1]]);
+        for (int k = 0; k < outline.n; ++k)
+            add_edge(outline.part[k], stiffness, plane[outline.start(k)], plane[outline.end(k)]);
     }
 
     T height[6];
@@ -297,8 +327,7 @@ LaneCorners<T, 3> in_frame(const SeenPair<T>& seen, const PlaneGradient<T>& plan
     LaneVector<T, 3> of_normal =
         (-weight.chi * seen.over_difference) * (turn.c[0] * seen.tangent[0] + turn.c[1] * seen.tangent[1]);
     of_normal.c[2] = of_normal.c[2] + energy * weight.slope;
-    const LaneVector<T, 3> of_area =
-        seen.over_twice_area_2 * (of_normal - dot(seen.normal_2, of_normal) * seen.normal_2);
+    const LaneVector<T, 3> of_area = seen.over_twice_area_2 * (of_normal - dot(seen.normal_2, of_normal) * seen.normal_2);
     const LaneVector<T, 3> of_b = cross(seen.edge_c, of_area), of_c = cross(of_area, seen.edge_b);
     gradient.at[3] -= of_b + of_c;
     gradient.at[4] += of_b;
@@ -306,16 +335,16 @@ LaneCorners<T, 3> in_frame(const SeenPair<T>& seen, const PlaneGradient<T>& plan
     return gradient;
 }
 
-template <class T>
-LaneEnergy<T, 3> energy_of(const LaneCorners<T, 3>& z, const LaneLaw<T>& law) {
-    const SeenPair<T> seen(z, law.offset);
-    Outline<T> outline(seen);
+template <class T, class Outline>
+LaneEnergy<T, 3> energy_in(Outline& outline, const SeenPair<T>& seen, const LaneLaw<T>& law) {
+    const OutlineMeasures<T> measures = measure(seen, outline);
+    const T least_area = T(no_area) * seen.double_least_edges();
     LaneEnergy<T, 3> result;
     result.facing = seen.facing;
-    result.overlap = select(outline.overlap > T(no_area) * outline.double_least_edges, outline.overlap, T(0.0));
-    result.view_gap = result.gap = outline.gap;
-    outline.keep_negative_gap();
-    const Moments<T> moments(seen, outline);
+    result.overlap = select(measures.overlap > least_area, measures.overlap, T(0.0));
+    result.view_gap = result.gap = measures.gap;
+    keep_negative_gap<T>(outline);
+    const Moments<T> moments(seen, measures, outline);
     const T integral = T(0.5) * law.stiffness * moments.gap_squared();
     const T energy = select(integral < T(0.0), T(0.0), integral);  // rounding may take it below
     const LaneFacing<T> weight(seen.facing, law);
@@ -324,8 +353,20 @@ LaneEnergy<T, 3> energy_of(const LaneCorners<T, 3>& z, const LaneLaw<T>& law) {
     result.area = moments.area;
     result.gradient = in_frame(seen, plane, energy, weight);
     for (int v = 0; v < 6; ++v) result.pressure[v] = weight.chi * plane.pressure[v];
-    keep_where<T, 3>(
-        (seen.facing < law.none) & (T(2.0) * moments.area > T(no_area) * outline.double_least_edges), result);
+    keep_where<T, 3>((seen.facing < law.none) & (T(2.0) * moments.area > least_area), result);
+    return result;
+}
+
+/// The same by a polygon, whose outline always closes, at several times the cost.
+LaneEnergy<double, 3> energy_by_polygon(const LaneCorners<double, 3>& z, const LaneLaw<double>& law);
+
+template <class T>
+LaneEnergy<T, 3> energy_of(const LaneCorners<T, 3>& z, const LaneLaw<T>& law) {
+    const SeenPair<T> seen(z, law.offset);
+    Outline<T> outline(seen);
+    LaneEnergy<T, 3> result = energy_in(outline, seen, law);
+    for (int i = 0; i < LanesOf<T>::count; ++i)
+        if (lane(outline.is_open, i)) set_lane(result, i, energy_by_polygon(lane(z, i), lane(law, i)));
     return result;
 }
 

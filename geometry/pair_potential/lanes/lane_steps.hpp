@@ -58,8 +58,7 @@ struct LaneStep {
         T change(0.0);
         for (int first = 0; first < 2 * Dim; first += Dim)
             for (int v = first + 1; v < first + Dim; ++v)
-                for (int d = 0; d < Dim; ++d)
-                    change = higher(change, magnitude(motion.at[v].c[d] - motion.at[first].c[d]));
+                for (int d = 0; d < Dim; ++d) change = higher(change, magnitude(motion.at[v].c[d] - motion.at[first].c[d]));
         return change <= T(8.0 * eps) * size();
     }
 
@@ -104,8 +103,7 @@ LaneClosed<T, Dim> closed(const LaneStep<T, Dim>& step, const LaneMean<T, Dim>& 
     for (int d = 1; d < Dim; ++d) of_overlap = of_overlap * size;
     const FlagsOf<T> is_round_off =
         (magnitude(open) <= of_energies) |
-        ((distance <= T(1e-9) * size) &
-         (magnitude(open) <= of_energies + of_overlap + T(8.0 * eps) * force * size));
+        ((distance <= T(1e-9) * size) & (magnitude(open) <= of_energies + of_overlap + T(8.0 * eps) * force * size));
     const T factor = select(is_round_off, T(0.0), open) / select(is_round_off, T(1.0), squared_motion);
     result.gradient = sum(result.gradient, factor, in_mean_frame(step.start, step.end, step.law, step.motion));
     result.correction = magnitude(factor) * distance;

@@ -14,13 +14,13 @@ enum class Integral {
 
 /// Numbers of a PairEnd: W, the least gap, the area, then the gradient and the pressures.
 template <int Dim>
-inline constexpr int end_size = 3 + 2 * Dim * Dim + 2 * Dim;
+inline constexpr int end_size = 3 + 2 * Dim* Dim + 2 * Dim;
 
 /// A pair along one step, as numbers alone.
 template <int Dim>
 struct LaneTask {
     // given
-    const double* x_0;    // (2 Dim, Dim)
+    const double* x_0;  // (2 Dim, Dim)
     const double* x_1;
     const double* start;  // PairEnd at x_0; null: not known
     double stiffness;
