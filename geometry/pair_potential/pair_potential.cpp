@@ -58,7 +58,7 @@ void take(const LaneTask<Dim>& task, PairMeanGradient<Dim>& mean) {
     mean.area = task.area;
     mean.active_share = task.active_share;
     mean.correction = task.correction;
-    mean.events = task.pieces;
+    mean.events = task.cuts;
 }
 
 template <int Dim>

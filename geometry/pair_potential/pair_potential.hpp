@@ -142,7 +142,7 @@ struct PairMeanGradient {
     /// The part of the gradient that closes the balance of energy, as a force [N]. Large ones say that the step is too long
     /// to follow the pair.
     double correction = 0.0;
-    int events = 0;  ///< pieces by which the step was integrated beyond its ends; 0: the ends are enough
+    int events = 0;  ///< cuts of the step, where it was integrated by pieces
 };
 
 /// A discrete gradient along the straight paths of the corners from x_0 to x_1:

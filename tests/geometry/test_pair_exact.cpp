@@ -240,7 +240,7 @@ TEMPLATE_TEST_CASE_SIG("a pair has the same bits by itself, with others, on any 
         REQUIRE(end[i] == same_end[i]);
     }
     CHECK(active > 50);
-    if (options.events) CHECK(finer > 10);
+    if (options.events) CHECK(finer > 3);
 
     std::vector<lanes::LaneTask<Dim>> tasks(lanes::most_tasks);
     std::vector<PairMeanGradient<Dim>> found(tasks.size());

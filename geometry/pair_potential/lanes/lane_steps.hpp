@@ -210,14 +210,14 @@ struct LaneGroup {
         for (int v = 0; v < 2 * Dim; ++v) end[3 + 2 * Dim * Dim + v] = lane(of.pressure[v], i);
     }
     /// Writes what a step makes of lane `i`, beside the energies and gaps of its ends.
-    static void write(const LaneMean<T, Dim>& mean, const LaneClosed<T, Dim>& of, int i, int pieces, LaneTask<Dim>& task) {
+    static void write(const LaneMean<T, Dim>& mean, const LaneClosed<T, Dim>& of, int i, int cuts, LaneTask<Dim>& task) {
         for (int v = 0; v < 2 * Dim; ++v)
             for (int d = 0; d < Dim; ++d) task.gradient[v * Dim + d] = lane(of.gradient.at[v].c[d], i);
         for (int v = 0; v < 2 * Dim; ++v) task.pressure[v] = lane(mean.pressure[v], i);
         task.area = lane(mean.area, i);
         task.active_share = lane(mean.active_share, i);
         task.correction = lane(of.correction, i);
-        task.pieces = pieces;
+        task.cuts = cuts;
     }
 
     LaneTask<Dim>* task[count];
@@ -368,7 +368,7 @@ void integrate_pieces(LaneTask<Dim>& task) {
         const LaneEnergy<T, Dim> states = energy_of(step.at(s), step.law);
         for (int i = 0; i < used; ++i) add(states, i, points.weight[first + i], mean);
     }
-    group.write(mean, closed(step, mean), 0, cuts.pieces, task);
+    group.write(mean, closed(step, mean), 0, cuts.pieces - 1, task);
 }
 
 /// Gauss's rule, of these tasks; those that have events are cut there, if they are to be.
@@ -396,7 +396,7 @@ void integrate_by_gauss(LaneTask<Dim>* tasks, const int* which, int n, bool at_e
             if (at_events && lane(is_cut, i))
                 integrate_pieces<T>(*group.task[i]);
             else
-                group.write(mean, result, i, 1, *group.task[i]);
+                group.write(mean, result, i, 0, *group.task[i]);
         }
     });
 }
@@ -470,7 +470,7 @@ int integrate_with_middle(LaneTask<Dim>* tasks, int* which, int n, double (*star
         mean.depth = -lower(states[0].gap, states[2].gap);
         const LaneClosed<T, Dim> result = closed(step, mean);
         for (int i = 0; i < group.n; ++i) {
-            group.write(mean, result, i, 1, *group.task[i]);
+            group.write(mean, result, i, 0, *group.task[i]);
             if (lane(result.is_rough, i)) which[n_rough++] = which[first + i];
         }
     });

@@ -36,7 +36,7 @@ struct LaneTask {
     double area;
     double active_share;
     double correction;
-    int pieces;  // that the step was integrated by; 0: its ends alone
+    int cuts;  // of the step
 };
 
 /// Tasks that one call takes at most.
