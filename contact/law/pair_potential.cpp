@@ -70,8 +70,7 @@ void clear_step(const NodalPairs<Dim>& listed, NodalStep<Dim>& step) {
 }
 
 template <int Dim>
-typename PairPotential<Dim>::Glance PairPotential<Dim>::glance_at_step(const NodalPair<Dim>& pair,
-                                                                       const SideOutlines<Dim>& sides, bool admitted,
+typename PairPotential<Dim>::Glance PairPotential<Dim>::glance_at_step(const NodalPair<Dim>& pair, bool admitted,
                                                                        PointsView<Dim> x_0, PointsView<Dim> x_1) {
     Glance glance{.admitted = admitted};
     const geometry::PairCorners<Dim> start = pair.at(x_0), end = pair.at(x_1);
@@ -86,13 +85,9 @@ typename PairPotential<Dim>::Glance PairPotential<Dim>::glance_at_step(const Nod
 
     glance.facing = std::max(at_start.facing, at_end.facing);
     glance.normal = at_start.normal + at_end.normal;
-    glance.rests_on_flag = admitted && at_start.place == PairPlace::unclear;
-    if (at_start.place != PairPlace::apart && !glance.rests_on_flag) {
-        const auto state = geometry::pair_state<Dim>(start, pair.law);
-        glance.admitted = state.energy == 0.0 && may_touch<Dim>(pair, start, state, sides);
-        glance.inadmissible = state.energy > 0.0;
-    }
-    glance.may_act = glance.admitted;
+    glance.may_act = true;
+    glance.is_decided = at_start.place == PairPlace::apart;
+    glance.may_be_pressed_in = admitted && at_start.place == PairPlace::unclear;
     return glance;
 }
 
@@ -129,17 +124,29 @@ void PairPotential<Dim>::take_forces(const IndexRange& range, Pairs pairs, Point
     }
 }
 
+/// Admission where W = 0 at the start; where it is not, the flag counts.
+template <int Dim>
+void PairPotential<Dim>::decide(const NodalPair<Dim>& pair, const SideOutlines<Dim>& sides, PointsView<Dim> x_0,
+                                Glance& glance, Outcome& outcome) {
+    if (outcome.found.energy_0 > 0.0) {
+        glance.inadmissible = !glance.may_be_pressed_in;
+        glance.admitted = glance.may_be_pressed_in;
+    } else {
+        const geometry::PairCorners<Dim> start = pair.at(x_0);
+        glance.admitted = may_touch<Dim>(pair, start, geometry::pair_state<Dim>(start, pair.law), sides);
+    }
+    outcome.active = glance.admitted;
+}
+
 template <int Dim>
 void PairPotential<Dim>::conclude(const NodalPair<Dim>& pair, const SideOutlines<Dim>* sides, PointsView<Dim> x_0,
                                   PointsView<Dim> x_1, TakenForce take, Outcome& outcome) {
     const auto& found = outcome.found;
     const auto is_none = [](double energy) { return energy <= 0.0; };  // false for what is no number
     outcome.active = found.active_share > 0.0 || !is_none(found.energy_0) || !is_none(found.energy_1);
-    if (Glance& glance = glances_[outcome.pair]; glance.rests_on_flag && found.energy_0 == 0.0) {
-        const geometry::PairCorners<Dim> start = pair.at(x_0);
-        if (!may_touch<Dim>(pair, start, geometry::pair_state<Dim>(start, pair.law), *sides))
-            glance.admitted = outcome.active = false;
-    }
+    // A pair without force waits for its decision until it has one.
+    if (Glance& glance = glances_[outcome.pair]; outcome.active && !glance.is_decided)
+        decide(pair, *sides, x_0, glance, outcome);
     if (outcome.active && pair.interference >= 0)
         outcome.interference_work = interference_work(pair, pair.at(x_0), pair.at(x_1), take);
 }
@@ -241,9 +248,8 @@ std::int64_t PairPotential<Dim>::apply(const NodalSurface<Dim>& surface, const S
                                        NodalPairs<Dim>& listed, std::span<PairMemory> memory, FacetStore& facets, double dt,
                                        PointsView<Dim> x_0, PointsView<Dim> x_1, TakenForce take, NodalStep<Dim>& step) {
     const auto pairs = listed.in_reach(x_0, x_1, memory);
-    find_outcomes(pairs, &sides, x_0, x_1, take, [&](std::size_t p) {
-        return glance_at_step(pairs[p], sides, memory[pairs[p].memory].admitted, x_0, x_1);
-    });
+    find_outcomes(pairs, &sides, x_0, x_1, take,
+                  [&](std::size_t p) { return glance_at_step(pairs[p], memory[pairs[p].memory].admitted, x_0, x_1); });
     std::swap(kept_, ending_);
     for (std::size_t p = 0; p < pairs.size(); ++p) memory[pairs[p].memory].admitted = glances_[p].admitted;
     add_up(surface, listed, pairs, x_0, x_1, step);
@@ -258,7 +264,7 @@ void PairPotential<Dim>::evaluate(const NodalSurface<Dim>& surface, const NodalP
                                   NodalStep<Dim>& step) {
     const auto pairs = listed.in_reach(x);
     find_outcomes(pairs, nullptr, x, x, TakenForce::end, [&](std::size_t p) {
-        Glance glance{.admitted = memory[pairs[p].memory].admitted};
+        Glance glance{.admitted = memory[pairs[p].memory].admitted, .is_decided = true};
         if (!glance.admitted) return glance;
         const auto place = geometry::pair_placement<Dim>(pairs[p].at(x), pairs[p].law);
         glance.may_act = place.place == PairPlace::unclear;

@@ -45,8 +45,9 @@ private:
         double facing;       ///< the larger n_1 . n_2 of both ends
         bool admitted = false;
         bool inadmissible = false;
-        bool may_act = false;        ///< its force is asked for
-        bool rests_on_flag = false;  ///< it was admitted, and shares nothing with its partner at the start if W = 0
+        bool may_act = false;            ///< its force is asked for
+        bool is_decided = false;         ///< it is admitted, whatever its force
+        bool may_be_pressed_in = false;  ///< it was admitted, and may be pressed in at the start
     };
     /// What a pair that may act does.
     struct Outcome {
@@ -78,10 +79,11 @@ private:
     /// Appends to `outcomes`.
     void read(const IndexRange& range, ShareReader& in, std::vector<Outcome>& outcomes);
 
-    static Glance glance_at_step(const NodalPair<Dim>& pair, const SideOutlines<Dim>& sides, bool admitted,
-                                 PointsView<Dim> x_0, PointsView<Dim> x_1);
+    static Glance glance_at_step(const NodalPair<Dim>& pair, bool admitted, PointsView<Dim> x_0, PointsView<Dim> x_1);
     /// Finds the forces of these outcomes, and what the next step may begin with.
     void take_forces(const IndexRange& range, Pairs pairs, PointsView<Dim> x_0, PointsView<Dim> x_1, TakenForce take);
+    static void decide(const NodalPair<Dim>& pair, const SideOutlines<Dim>& sides, PointsView<Dim> x_0, Glance& glance,
+                       Outcome& outcome);
     /// Decides what the force alone can tell.
     void conclude(const NodalPair<Dim>& pair, const SideOutlines<Dim>* sides, PointsView<Dim> x_0, PointsView<Dim> x_1,
                   TakenForce take, Outcome& outcome);
