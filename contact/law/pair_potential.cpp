@@ -21,7 +21,8 @@ constexpr double far_tilted = -0.76604444311897803;  // n_1 . n_2 of faces that 
 /// visit(value) for all that a mean gradient has.
 template <class MeanGradient, class Visit>
 void for_each_value(MeanGradient& found, const Visit& visit) {
-    auto& [energy_0, energy_1, gap_0, gap_1, gradient, area, active_share, pressure, correction, events] = found;
+    auto& [energy_0, energy_1, gap_0, gap_1, gradient, area, active_share, pressure, correction, events, facing, normal] =
+        found;
     visit(energy_0);
     visit(energy_1);
     visit(gap_0);
@@ -32,6 +33,8 @@ void for_each_value(MeanGradient& found, const Visit& visit) {
     visit(pressure);
     visit(correction);
     visit(events);
+    visit(facing);
+    visit(normal);
 }
 
 template <int Dim>
@@ -39,6 +42,11 @@ Vector<Dim> force_on_second(const geometry::PairCorners<Dim>& gradient) {
     Vector<Dim> force = Vector<Dim>::Zero();
     for (int v = Dim; v < 2 * Dim; ++v) force -= gradient[v];
     return force;
+}
+
+template <int Dim>
+FacetPair facets_of(const NodalPair<Dim>& pair) {
+    return {Facet{pair.facet_1}, Facet{pair.facet_2}};
 }
 
 /// Adds what the corners of one facet of a pair, from `first` on, do to its body.
@@ -71,7 +79,9 @@ void clear_step(const NodalPairs<Dim>& listed, NodalStep<Dim>& step) {
 
 template <int Dim>
 typename PairPotential<Dim>::Glance PairPotential<Dim>::glance_at_step(const NodalPair<Dim>& pair, bool admitted,
-                                                                       PointsView<Dim> x_0, PointsView<Dim> x_1) {
+                                                                       bool is_pressed_in, PointsView<Dim> x_0,
+                                                                       PointsView<Dim> x_1) {
+    if (is_pressed_in) return {.admitted = admitted, .may_act = true, .may_be_pressed_in = admitted};
     Glance glance{.admitted = admitted};
     const geometry::PairCorners<Dim> start = pair.at(x_0), end = pair.at(x_1);
     // Where nothing can act before the next step it is enough to decide then.
@@ -83,8 +93,6 @@ typename PairPotential<Dim>::Glance PairPotential<Dim>::glance_at_step(const Nod
     if (at_start.place == PairPlace::apart) glance.admitted = true;
     if (geometry::stays_inactive<Dim>(at_start, at_end, end)) return glance;
 
-    glance.facing = std::max(at_start.facing, at_end.facing);
-    glance.normal = at_start.normal + at_end.normal;
     glance.may_act = true;
     glance.is_decided = at_start.place == PairPlace::apart;
     glance.may_be_pressed_in = admitted && at_start.place == PairPlace::unclear;
@@ -92,32 +100,55 @@ typename PairPotential<Dim>::Glance PairPotential<Dim>::glance_at_step(const Nod
 }
 
 template <int Dim>
+void PairPotential<Dim>::find_resting_nodes(std::span<const std::int32_t> nodes, PointsView<Dim> x) {
+    rests_.resize(nodes.size());
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+        const auto node = static_cast<std::size_t>(nodes[i]);
+        const Vector<Dim> at = x[nodes[i]];
+        rests_[i] = node < left_at_.size() && std::memcmp(&left_at_[node], &at, sizeof(at)) == 0 ? 1 : 0;
+    }
+}
+
+template <int Dim>
+void PairPotential<Dim>::leave_nodes(std::span<const std::int32_t> nodes, PointsView<Dim> x) {
+    if (nodes.empty()) return;
+    if (const auto n = static_cast<std::size_t>(nodes.back()) + 1; left_at_.size() < n)
+        left_at_.resize(n, Vector<Dim>::Constant(std::numeric_limits<double>::quiet_NaN()));
+    for (const std::int32_t node : nodes) left_at_[static_cast<std::size_t>(node)] = x[node];
+}
+
+template <int Dim>
+std::int32_t PairPotential<Dim>::find_start(const NodalPair<Dim>& pair, std::size_t& from) const {
+    const FacetPair facets = facets_of(pair);
+    while (from < kept_.size() && kept_[from].facets < facets) ++from;
+    if (from == kept_.size() || kept_[from].facets != facets || kept_[from].offset != pair.law.offset) return -1;
+    const auto rests = [&](std::int32_t i) { return rests_[static_cast<std::size_t>(i)] != 0; };
+    return std::ranges::all_of(pair.listed, rests) ? static_cast<std::int32_t>(from) : -1;
+}
+
+template <int Dim>
 void PairPotential<Dim>::take_forces(const IndexRange& range, Pairs pairs, PointsView<Dim> x_0, PointsView<Dim> x_1,
                                      TakenForce take) {
     constexpr std::size_t most = grain;
-    std::array<geometry::PairCorners<Dim>, most> starts;
+    std::array<geometry::PairCorners<Dim>, most> starts, ends;
     std::array<geometry::PairStep<Dim>, most> steps;
     for (std::size_t first = range.begin; first < range.end; first += most) {
         const std::size_t n = std::min(most, range.end - first);
-        const auto facets_of = [&](std::size_t i) {
-            const NodalPair<Dim>& pair = pairs[outcomes_[first + i].pair];
-            return FacetPair{Facet{pair.facet_1}, Facet{pair.facet_2}};
-        };
-        auto before = std::ranges::lower_bound(kept_, facets_of(0), {}, &Kept::facets);
         for (std::size_t i = 0; i < n; ++i) {
-            const NodalPair<Dim>& pair = pairs[outcomes_[first + i].pair];
+            Outcome& outcome = outcomes_[first + i];
             Kept& ending = ending_[first + i];
-            ending.facets = facets_of(i);
-            ending.x = pair.at(x_1);
-            ending.law = pair.law;
+            const NodalPair<Dim>& pair = pairs[outcome.pair];
+            const std::int32_t start = glances_[outcome.pair].start;
             starts[i] = pair.at(x_0);
-            while (before != kept_.end() && before->facets < ending.facets) ++before;
-            const bool is_known = before != kept_.end() && before->facets == ending.facets &&
-                                  std::memcmp(&before->x, &starts[i], sizeof(starts[i])) == 0 &&
-                                  std::memcmp(&before->law, &pair.law, sizeof(pair.law)) == 0;
-            steps[i] = {&starts[i],  &ending.x,
-                        &pair.law,   is_known ? &before->end : nullptr,
-                        &ending.end, &outcomes_[first + i].found};
+            ends[i] = pair.at(x_1);
+            ending.facets = facets_of(pair);
+            ending.offset = pair.law.offset;
+            steps[i] = {.x_0 = &starts[i],
+                        .x_1 = &ends[i],
+                        .law = &pair.law,
+                        .start = start >= 0 ? &kept_[static_cast<std::size_t>(start)].end : nullptr,
+                        .end = &ending.end,
+                        .mean = &outcome.found};
         }
         const std::span<const geometry::PairStep<Dim>> of_steps(steps.data(), n);
         take == TakenForce::mean ? geometry::integrate_pairs<Dim>(of_steps, path_) : geometry::evaluate_pairs<Dim>(of_steps);
@@ -147,8 +178,8 @@ void PairPotential<Dim>::conclude(const NodalPair<Dim>& pair, const SideOutlines
     // A pair without force waits for its decision until it has one.
     if (Glance& glance = glances_[outcome.pair]; outcome.active && !glance.is_decided)
         decide(pair, *sides, x_0, glance, outcome);
-    if (outcome.active && pair.interference >= 0)
-        outcome.interference_work = interference_work(pair, pair.at(x_0), pair.at(x_1), take);
+    outcome.interference_work =
+        outcome.active && pair.interference >= 0 ? interference_work(pair, pair.at(x_0), pair.at(x_1), take) : 0.0;
 }
 
 /// The interference grows before the step, while nothing moves.
@@ -168,17 +199,23 @@ template <int Dim>
 template <class GlanceAt>
 void PairPotential<Dim>::find_part(const IndexRange& range, Pairs pairs, const SideOutlines<Dim>* sides, PointsView<Dim> x_0,
                                    PointsView<Dim> x_1, TakenForce take, const GlanceAt& glance) {
-    parallel_each(
+    parallel_ranges(
         static_cast<std::ptrdiff_t>(range.size()),
-        [&](std::ptrdiff_t i) {
-            const std::size_t p = range.begin + static_cast<std::size_t>(i);
-            glances_[p] = glance(p);
+        [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+            if (begin == end) return;
+            const std::size_t first = range.begin + static_cast<std::size_t>(begin);
+            const auto before = std::ranges::lower_bound(kept_, facets_of(pairs[first]), {}, &Kept::facets);
+            auto from = static_cast<std::size_t>(before - kept_.begin());
+            for (std::size_t p = first; p < range.begin + static_cast<std::size_t>(end); ++p) {
+                const std::int32_t start = find_start(pairs[p], from);
+                glances_[p] = glance(p, start >= 0 && kept_[static_cast<std::size_t>(start)].end[0] > 0.0);
+                glances_[p].start = start;
+            }
         },
         grain);
     outcomes_.clear();
     for (std::size_t p = range.begin; p < range.end; ++p)
-        if (const Glance& seen = glances_[p]; seen.may_act)
-            outcomes_.push_back({.pair = p, .normal = seen.normal, .facing = seen.facing});
+        if (glances_[p].may_act) outcomes_.push_back({.pair = p});
     ending_.resize(outcomes_.size());
     parallel_ranges(
         std::ssize(outcomes_),
@@ -218,8 +255,6 @@ void PairPotential<Dim>::write(const IndexRange& range, ShareWriter& out) const 
     for (const Outcome& outcome : outcomes_) {
         if (!outcome.active) continue;
         out.put(outcome.pair);
-        out.put(outcome.normal);
-        out.put(outcome.facing);
         out.put(outcome.interference_work);
         for_each_value(outcome.found, [&](const auto& value) { out.put(value); });
     }
@@ -235,8 +270,6 @@ void PairPotential<Dim>::read(const IndexRange& range, ShareReader& in, std::vec
     for (std::size_t i = 0; i < n_active; ++i) {
         Outcome& outcome = outcomes.emplace_back();
         outcome.pair = in.get<std::size_t>();
-        outcome.normal = in.get<Vector<Dim>>();
-        outcome.facing = in.get<double>();
         outcome.active = true;
         outcome.interference_work = in.get<double>();
         for_each_value(outcome.found, [&](auto& value) { value = in.get<std::remove_reference_t<decltype(value)>>(); });
@@ -248,9 +281,12 @@ std::int64_t PairPotential<Dim>::apply(const NodalSurface<Dim>& surface, const S
                                        NodalPairs<Dim>& listed, std::span<PairMemory> memory, FacetStore& facets, double dt,
                                        PointsView<Dim> x_0, PointsView<Dim> x_1, TakenForce take, NodalStep<Dim>& step) {
     const auto pairs = listed.in_reach(x_0, x_1, memory);
-    find_outcomes(pairs, &sides, x_0, x_1, take,
-                  [&](std::size_t p) { return glance_at_step(pairs[p], memory[pairs[p].memory].admitted, x_0, x_1); });
+    find_resting_nodes(listed.nodes(), x_0);
+    find_outcomes(pairs, &sides, x_0, x_1, take, [&](std::size_t p, bool is_pressed_in) {
+        return glance_at_step(pairs[p], memory[pairs[p].memory].admitted, is_pressed_in, x_0, x_1);
+    });
     std::swap(kept_, ending_);
+    leave_nodes(listed.nodes(), x_1);
     for (std::size_t p = 0; p < pairs.size(); ++p) memory[pairs[p].memory].admitted = glances_[p].admitted;
     add_up(surface, listed, pairs, x_0, x_1, step);
     if (friction_.any()) add_friction(surface, pairs, facets, dt, x_0, x_1, take, step);
@@ -263,14 +299,13 @@ void PairPotential<Dim>::evaluate(const NodalSurface<Dim>& surface, const NodalP
                                   std::span<const PairMemory> memory, const FacetStore& facets, PointsView<Dim> x,
                                   NodalStep<Dim>& step) {
     const auto pairs = listed.in_reach(x);
-    find_outcomes(pairs, nullptr, x, x, TakenForce::end, [&](std::size_t p) {
-        Glance glance{.admitted = memory[pairs[p].memory].admitted, .is_decided = true};
-        if (!glance.admitted) return glance;
-        const auto place = geometry::pair_placement<Dim>(pairs[p].at(x), pairs[p].law);
-        glance.may_act = place.place == PairPlace::unclear;
-        glance.facing = place.facing;
-        glance.normal = place.normal;
-        return glance;
+    find_resting_nodes(listed.nodes(), x);
+    find_outcomes(pairs, nullptr, x, x, TakenForce::end, [&](std::size_t p, bool is_pressed_in) {
+        const bool admitted = memory[pairs[p].memory].admitted;
+        const auto is_unclear = [&] {
+            return geometry::pair_placement<Dim>(pairs[p].at(x), pairs[p].law).place == PairPlace::unclear;
+        };
+        return Glance{.admitted = admitted, .may_act = admitted && (is_pressed_in || is_unclear()), .is_decided = true};
     });
     add_up(surface, listed, pairs, x, x, step);
     if (friction_.any()) {
@@ -329,7 +364,7 @@ template <int Dim>
 void PairPotential<Dim>::add_pair(const NodalSurface<Dim>& surface, const NodalPair<Dim>& pair, const Outcome& outcome,
                                   NodalStep<Dim>& step) {
     const auto& found = outcome.found;
-    const Vector<Dim> force = force_on_second<Dim>(found.gradient), normal = outcome.normal.normalized();
+    const Vector<Dim> force = force_on_second<Dim>(found.gradient), normal = found.normal.normalized();
     const double compression = -std::min(found.gap_0, found.gap_1) / pair.admission_depth;
     step.pairs.push_back({.face_1 = surface.face_of(Facet{pair.facet_1}),
                           .face_2 = surface.face_of(Facet{pair.facet_2}),
@@ -345,7 +380,7 @@ void PairPotential<Dim>::add_pair(const NodalSurface<Dim>& surface, const NodalP
     StepReport& report = step.report;
     report.events += found.events;
     report.correction += found.correction;
-    if (outcome.facing > far_tilted) ++report.tilted_pairs;
+    if (found.facing > far_tilted) ++report.tilted_pairs;
     if (compression > report.compression) {
         report.compression = compression;
         report.most_compressed = static_cast<std::int32_t>(step.pairs.size()) - 1;

@@ -41,32 +41,28 @@ private:
 
     /// What is seen of a pair at both ends of a step before its force is asked for.
     struct Glance {
-        Vector<Dim> normal;  ///< of both ends together, of any length
-        double facing;       ///< the larger n_1 . n_2 of both ends
         bool admitted = false;
         bool inadmissible = false;
         bool may_act = false;            ///< its force is asked for
         bool is_decided = false;         ///< it is admitted, whatever its force
         bool may_be_pressed_in = false;  ///< it was admitted, and may be pressed in at the start
+        std::int32_t start = -1;         ///< index in `kept_` of its start; -1: not known
     };
     /// What a pair that may act does.
     struct Outcome {
         std::size_t pair;
-        Vector<Dim> normal;
-        double facing;
-        bool active = false;
-        double interference_work = 0.0;  ///< NodalStep::interference_work
+        bool active;
+        double interference_work;  ///< NodalStep::interference_work
         geometry::PairMeanGradient<Dim> found;
     };
-    /// The end of the last step of a pair: the start of the next one where corners and law are the same to the bit.
+    /// The end of the last step of a pair: the start of the next one where its nodes have not moved since.
     struct Kept {
         FacetPair facets;
-        geometry::PairCorners<Dim> x;
-        geometry::PairLaw<Dim> law;
+        double offset;  ///< of its law
         geometry::PairEnd<Dim> end;
     };
 
-    /// Fills `glances_` by glance(p) and `outcomes_` by the forces of the step, for all pairs; parts that share contact do
+    /// Fills `glances_` by glance(p, whether it is known to be pressed in at the start) and `outcomes_` by the forces of the step, for all pairs; parts that share contact do
     /// so for as many pairs each.
     template <class GlanceAt>
     void find_outcomes(Pairs pairs, const SideOutlines<Dim>* sides, PointsView<Dim> x_0, PointsView<Dim> x_1,
@@ -79,7 +75,13 @@ private:
     /// Appends to `outcomes`.
     void read(const IndexRange& range, ShareReader& in, std::vector<Outcome>& outcomes);
 
-    static Glance glance_at_step(const NodalPair<Dim>& pair, bool admitted, PointsView<Dim> x_0, PointsView<Dim> x_1);
+    static Glance glance_at_step(const NodalPair<Dim>& pair, bool admitted, bool is_pressed_in, PointsView<Dim> x_0,
+                                 PointsView<Dim> x_1);
+    /// Finds which nodes are where the last step has left them, and leaves them where this one does.
+    void find_resting_nodes(std::span<const std::int32_t> nodes, PointsView<Dim> x);
+    void leave_nodes(std::span<const std::int32_t> nodes, PointsView<Dim> x);
+    /// Index of the start of a pair in `kept_`, from `from` on; -1: it is not known. `from` moves on.
+    [[nodiscard]] std::int32_t find_start(const NodalPair<Dim>& pair, std::size_t& from) const;
     /// Finds the forces of these outcomes, and what the next step may begin with.
     void take_forces(const IndexRange& range, Pairs pairs, PointsView<Dim> x_0, PointsView<Dim> x_1, TakenForce take);
     static void decide(const NodalPair<Dim>& pair, const SideOutlines<Dim>& sides, PointsView<Dim> x_0, Glance& glance,
@@ -105,9 +107,11 @@ private:
     geometry::PairPathOptions path_;
     NodeFriction<Dim> friction_;
     SharedWork shared_;
-    std::vector<Glance> glances_;      // of the pairs in reach
-    std::vector<Outcome> outcomes_;    // of those that may act, in their order
-    std::vector<Kept> kept_, ending_;  // of the last step and the present one, by facets
+    std::vector<Glance> glances_;       // of the pairs in reach
+    std::vector<Outcome> outcomes_;     // of those that may act, in their order
+    std::vector<Kept> kept_, ending_;   // of the last step and the present one, by facets
+    std::vector<Vector<Dim>> left_at_;  // by node: where the last step that listed it has left it
+    std::vector<char> rests_;           // of the listed nodes: whether it is there
 };
 
 }  // namespace abut::contact

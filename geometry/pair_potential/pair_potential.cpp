@@ -48,7 +48,8 @@ LaneTask<Dim> task_of(const PairStep<Dim>& step) {
             .offset = law.offset,
             .end = step.end->data(),
             .gradient = mean.gradient[0].data(),
-            .pressure = mean.pressure.data()};
+            .pressure = mean.pressure.data(),
+            .normal = mean.normal.data()};
 }
 
 template <int Dim>
@@ -59,6 +60,7 @@ void take(const LaneTask<Dim>& task, PairMeanGradient<Dim>& mean) {
     mean.active_share = task.active_share;
     mean.correction = task.correction;
     mean.events = task.cuts;
+    mean.facing = task.facing;
 }
 
 template <int Dim>
@@ -76,13 +78,6 @@ void integrate(std::span<const PairStep<Dim>> steps, Integral integral) {
 Integral integral_of(const PairPathOptions& options) {
     if (options.gauss) return options.events ? Integral::pieces : Integral::whole;
     return options.events ? Integral::checked : Integral::ends;
-}
-
-Vector<2> normal_of(const lanes::LaneFrame<double, 2>& frame) { return lanes::vector_of(frame.normal); }
-Vector<3> normal_of(const lanes::LaneFrame<double, 3>& frame) {
-    const lanes::SeenPair<double> seen(frame.z, 0.0);
-    const auto& n = seen.common.c;
-    return lanes::vector_of(n[0] * frame.e[0] + n[1] * frame.e[1] + n[2] * frame.e[2]);
 }
 
 /// g of faces that share nothing, halfway between the nearest points of both.
@@ -161,7 +156,7 @@ PairState<Dim> pair_state(const PairCorners<Dim>& corners, const PairLaw<Dim>& l
     state.area = found.area;
     state.overlap = found.overlap;
     state.gap = found.overlap > 0.0 ? found.view_gap : gap_between(frame.z, law.offset);
-    state.normal = normal_of(frame);
+    state.normal = lanes::vector_of(frame.in_space(found.common));
     return state;
 }
 

@@ -142,7 +142,10 @@ struct PairMeanGradient {
     /// The part of the gradient that closes the balance of energy, as a force [N]. Large ones say that the step is too long
     /// to follow the pair.
     double correction = 0.0;
-    int events = 0;  ///< cuts of the step, where it was integrated by pieces
+    int events = 0;       ///< cuts of the step, where it was integrated by pieces
+    double facing = 1.0;  ///< the larger n_1 . n_2 of both ends
+    /// Sum of n at the ends where the weight of the pair is not 0
+    Vector<Dim> normal = Vector<Dim>::Zero();
 };
 
 /// A discrete gradient along the straight paths of the corners from x_0 to x_1:
@@ -156,10 +159,10 @@ template <int Dim>
                                                        const PairLaw<Dim>& law, const PairPathOptions& options = {});
 
 /// What one step leaves of a pair for the next, which begins where it ends: W, the least gap and the area of the part where
-/// g < 0, dW/dz in coordinates z that turn with the pair (2 Dim, Dim), and the pressures, at the end of the step. A step that
+/// g < 0, n_1 . n_2, n, dW/dz in coordinates z that turn with the pair (2 Dim, Dim), and the pressures, at the end of the step. A step that
 /// knows them has the same bits as one that finds them again.
 template <int Dim>
-using PairEnd = std::array<double, 3 + 2 * Dim * Dim + 2 * Dim>;
+using PairEnd = std::array<double, 4 + Dim + 2 * Dim*(Dim + 1)>;
 
 /// A pair along one step, one of many that are integrated side by side.
 template <int Dim>

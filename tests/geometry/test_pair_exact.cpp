@@ -256,7 +256,8 @@ TEMPLATE_TEST_CASE_SIG("a pair has the same bits by itself, with others, on any 
                         .offset = 0.0,
                         .end = end[i].data(),
                         .gradient = found[i].gradient[0].data(),
-                        .pressure = found[i].pressure.data()};
+                        .pressure = found[i].pressure.data(),
+                        .normal = found[i].normal.data()};
         by(tasks.data(), lanes::most_tasks, lanes::Integral::checked);
         for (std::size_t i = 0; i < tasks.size(); ++i)
             REQUIRE(std::memcmp(&found[i].gradient, &together[i].gradient, sizeof(found[i].gradient)) == 0);

@@ -12,6 +12,7 @@ struct LaneEnergy {
     T area;                        // of that part
     LaneCorners<T, Dim> gradient;  // dW/dz
     T pressure[2 * Dim];           // int k |g| N_v
+    LaneVector<T, Dim> common;     // n in the frame
     T facing;                      // n_1 . n_2
     T overlap;                     // |P|
     T view_gap;                    // the least g over P; meaningless where P is empty
@@ -54,6 +55,7 @@ void set_lane(LaneEnergy<T, Dim>& all, int i, const LaneEnergy<double, Dim>& of)
         for (int d = 0; d < Dim; ++d) set_lane(all.gradient.at[v].c[d], i, of.gradient.at[v].c[d]);
         set_lane(all.pressure[v], i, of.pressure[v]);
     }
+    for (int d = 0; d < Dim; ++d) set_lane(all.common.c[d], i, of.common.c[d]);
     set_lane(all.facing, i, of.facing);
     set_lane(all.overlap, i, of.overlap);
     set_lane(all.view_gap, i, of.view_gap);

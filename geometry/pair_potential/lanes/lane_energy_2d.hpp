@@ -58,6 +58,7 @@ LaneEnergy<T, 2> energy_of(const LaneCorners<T, 2>& z, const LaneLaw<T>& law) {
     const Strip<T> strip(z);
     LaneEnergy<T, 2> result;
     result.facing = strip.facing;
+    result.common = {T(0.0), T(1.0)};
     const FlagsOf<T> overlaps = strip.high > strip.low;
     result.overlap = select(overlaps, strip.high - strip.low, T(0.0));
     const T gap_low = strip.gap(strip.low) + law.offset, gap_high = strip.gap(strip.high) + law.offset;

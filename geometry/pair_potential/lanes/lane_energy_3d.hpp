@@ -341,6 +341,7 @@ LaneEnergy<T, 3> energy_in(Outline& outline, const SeenPair<T>& seen, const Lane
     const T least_area = T(no_area) * seen.double_least_edges();
     LaneEnergy<T, 3> result;
     result.facing = seen.facing;
+    result.common = seen.common;
     result.overlap = select(measures.overlap > least_area, measures.overlap, T(0.0));
     result.view_gap = result.gap = measures.gap;
     keep_negative_gap<T>(outline);

@@ -46,6 +46,7 @@ struct LaneFrame<T, 2> {
         along = {normal.c[1], -normal.c[0]};
         for (int v = 0; v < 4; ++v) z.at[v] = {dot(along, y.at[v]), dot(normal, y.at[v])};
     }
+    [[nodiscard]] LaneVector<T, 2> in_space(const LaneVector<T, 2>& a) const { return a.c[0] * along + a.c[1] * normal; }
 
     LaneCorners<T, 2> y;      // from the mean of the corners
     T m_length;               // of n_1 - n_2 with lengths at rest, linear in x
@@ -64,6 +65,9 @@ struct LaneFrame<T, 3> {
         e[2] = (T(1.0) / norm(area)) * area;
         e[1] = cross(e[2], e[0]);
         for (int v = 0; v < 6; ++v) z.at[v] = {dot(e[0], y.at[v]), dot(e[1], y.at[v]), dot(e[2], y.at[v])};
+    }
+    [[nodiscard]] LaneVector<T, 3> in_space(const LaneVector<T, 3>& a) const {
+        return a.c[0] * e[0] + a.c[1] * e[1] + a.c[2] * e[2];
     }
 
     LaneCorners<T, 3> y;

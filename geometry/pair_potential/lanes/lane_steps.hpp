@@ -68,6 +68,17 @@ struct LaneStep {
     LaneCorners<T, Dim> motion;  // Delta z
 };
 
+/// A state of a pair: W and its gradient, and n in space.
+template <class T, int Dim>
+struct LaneEnd : LaneEnergy<T, Dim> {
+    LaneEnd() = default;
+    LaneEnd(const LaneFrame<T, Dim>& frame, const LaneLaw<T>& law) : LaneEnergy<T, Dim>(energy_of(frame.z, law)) {
+        normal = select<T, Dim>(this->facing < law.none, frame.in_space(this->common), no_vector<T, Dim>());
+    }
+
+    LaneVector<T, Dim> normal;  // 0 where the pair has no weight
+};
+
 /// A mean gradient in the coordinates of the pair, and what goes with it.
 template <class T, int Dim>
 struct LaneMean {
@@ -122,7 +133,7 @@ LaneClosed<T, Dim> closed(const LaneStep<T, Dim>& step, const LaneMean<T, Dim>& 
 
 /// A rule with `n` states, weights[i] of energy i.
 template <class T, int Dim>
-LaneMean<T, Dim> weighed(const LaneEnergy<T, Dim>* states, const T* weights, int n) {
+LaneMean<T, Dim> weighed(const LaneEnergy<T, Dim>* const* states, const T* weights, int n) {
     LaneMean<T, Dim> mean;
     mean.area = mean.active_share = T(0.0);
     for (int v = 0; v < 2 * Dim; ++v) {
@@ -131,10 +142,11 @@ LaneMean<T, Dim> weighed(const LaneEnergy<T, Dim>* states, const T* weights, int
     }
     for (int i = 0; i < n; ++i) {
         const T& weight = weights[i];
-        mean.gradient = sum(mean.gradient, weight, states[i].gradient);
-        for (int v = 0; v < 2 * Dim; ++v) mean.pressure[v] = mean.pressure[v] + weight * states[i].pressure[v];
-        mean.area = mean.area + weight * states[i].area;
-        mean.active_share = mean.active_share + select(states[i].energy > T(0.0), weight, T(0.0));
+        const LaneEnergy<T, Dim>& state = *states[i];
+        mean.gradient = sum(mean.gradient, weight, state.gradient);
+        for (int v = 0; v < 2 * Dim; ++v) mean.pressure[v] = mean.pressure[v] + weight * state.pressure[v];
+        mean.area = mean.area + weight * state.area;
+        mean.active_share = mean.active_share + select(state.energy > T(0.0), weight, T(0.0));
     }
     return mean;
 }
@@ -188,26 +200,32 @@ struct LaneGroup {
         return (energy_0 > T(0.0)) ^ (energy_1 > T(0.0));
     }
     /// What a PairEnd of each lane has.
-    [[nodiscard]] LaneEnergy<T, Dim> read(const double* const* from) const {
-        LaneEnergy<T, Dim> of;
+    [[nodiscard]] LaneEnd<T, Dim> read(const double* const* from) const {
+        LaneEnd<T, Dim> of;
         for (int i = 0; i < count; ++i) {
             const double* end = from[i];
             set_lane(of.energy, i, end[0]);
             set_lane(of.gap, i, end[1]);
             set_lane(of.area, i, end[2]);
+            set_lane(of.facing, i, end[3]);
+            const double* next = end + 4;
+            for (int d = 0; d < Dim; ++d) set_lane(of.normal.c[d], i, *next++);
             for (int v = 0; v < 2 * Dim; ++v)
-                for (int d = 0; d < Dim; ++d) set_lane(of.gradient.at[v].c[d], i, end[3 + v * Dim + d]);
-            for (int v = 0; v < 2 * Dim; ++v) set_lane(of.pressure[v], i, end[3 + 2 * Dim * Dim + v]);
+                for (int d = 0; d < Dim; ++d) set_lane(of.gradient.at[v].c[d], i, *next++);
+            for (int v = 0; v < 2 * Dim; ++v) set_lane(of.pressure[v], i, *next++);
         }
         return of;
     }
-    static void write(const LaneEnergy<T, Dim>& of, int i, double* end) {
+    static void write(const LaneEnd<T, Dim>& of, int i, double* end) {
         end[0] = lane(of.energy, i);
         end[1] = lane(of.gap, i);
         end[2] = lane(of.area, i);
+        end[3] = lane(of.facing, i);
+        double* next = end + 4;
+        for (int d = 0; d < Dim; ++d) *next++ = lane(of.normal.c[d], i);
         for (int v = 0; v < 2 * Dim; ++v)
-            for (int d = 0; d < Dim; ++d) end[3 + v * Dim + d] = lane(of.gradient.at[v].c[d], i);
-        for (int v = 0; v < 2 * Dim; ++v) end[3 + 2 * Dim * Dim + v] = lane(of.pressure[v], i);
+            for (int d = 0; d < Dim; ++d) *next++ = lane(of.gradient.at[v].c[d], i);
+        for (int v = 0; v < 2 * Dim; ++v) *next++ = lane(of.pressure[v], i);
     }
     /// Writes what a step makes of lane `i`, beside the energies and gaps of its ends.
     static void write(const LaneMean<T, Dim>& mean, const LaneClosed<T, Dim>& of, int i, int cuts, LaneTask<Dim>& task) {
@@ -387,7 +405,8 @@ void integrate_by_gauss(LaneTask<Dim>* tasks, const int* which, int n, bool at_e
             weights[k] = Dim == 2 ? T(0.5) : select(by_two, T(k < 2 ? 0.5 : 0.0), T(weight_3[k]));
             states[k] = energy_of(step.at(at), step.law);
         }
-        LaneMean<T, Dim> mean = weighed(states, weights, points);
+        const LaneEnergy<T, Dim>* const all[3] = {&states[0], &states[1], &states[2]};
+        LaneMean<T, Dim> mean = weighed(all, weights, points);
         mean.energy_0 = group.read(&LaneTask<Dim>::energy_0);
         mean.energy_1 = group.read(&LaneTask<Dim>::energy_1);
         mean.depth = -lower(group.read(&LaneTask<Dim>::gap_0), group.read(&LaneTask<Dim>::gap_1));
@@ -412,7 +431,7 @@ int integrate_ends(LaneTask<Dim>* tasks, int n, Integral integral, double (*star
     }
     for_each_group<T>(tasks, unknown, n_unknown, [&](const LaneGroup<T, Dim>& group, int first) {
         const LaneLaw<T> law = group.law();
-        const LaneEnergy<T, Dim> start = energy_of(LaneFrame<T, Dim>(group.corners(&LaneTask<Dim>::x_0), law).z, law);
+        const LaneEnd<T, Dim> start(LaneFrame<T, Dim>(group.corners(&LaneTask<Dim>::x_0), law), law);
         for (int i = 0; i < group.n; ++i) group.write(start, i, starts[unknown[first + i]]);
     });
     for_each_group<T>(tasks, which, n, [&](const LaneGroup<T, Dim>& group, int first) {
@@ -420,27 +439,32 @@ int integrate_ends(LaneTask<Dim>* tasks, int n, Integral integral, double (*star
         for (int i = 0; i < LanesOf<T>::count; ++i)
             from[i] = group.task[i]->start != nullptr ? group.task[i]->start : starts[first + (i < group.n ? i : 0)];
         const LaneStep<T, Dim> step = group.step();
-        const LaneEnergy<T, Dim> start = group.read(from);
-        const LaneEnergy<T, Dim> ends[2] = {start, group.is_at_rest() ? start : energy_of(step.end.z, step.law)};
+        const LaneEnd<T, Dim> start = group.read(from);
+        const LaneEnd<T, Dim> end = group.is_at_rest() ? start : LaneEnd<T, Dim>(step.end, step.law);
+        const LaneEnergy<T, Dim>* const ends[2] = {&start, &end};
         const T halves[2] = {T(0.5), T(0.5)}, second[2] = {T(0.0), T(1.0)};
         LaneMean<T, Dim> mean = weighed(ends, integral == Integral::end ? second : halves, 2);
-        mean.energy_0 = ends[0].energy;
-        mean.energy_1 = ends[1].energy;
-        mean.depth = -lower(ends[0].gap, ends[1].gap);
+        mean.energy_0 = start.energy;
+        mean.energy_1 = end.energy;
+        mean.depth = -lower(start.gap, end.gap);
+        const LaneVector<T, Dim> normal = start.normal + end.normal;
+        const T facing = higher(start.facing, end.facing);
         LaneClosed<T, Dim> result;
         if (integral == Integral::end) {
-            result.gradient = in_mean_frame(step.end, step.end, step.law, ends[1].gradient);
+            result.gradient = in_mean_frame(step.end, step.end, step.law, end.gradient);
             result.correction = T(0.0);
         } else {
             result = closed(step, mean);
         }
         for (int i = 0; i < group.n; ++i) {
             LaneTask<Dim>& task = *group.task[i];
-            group.write(ends[1], i, task.end);
-            task.energy_0 = lane(ends[0].energy, i);
-            task.energy_1 = lane(ends[1].energy, i);
-            task.gap_0 = lane(ends[0].gap, i);
-            task.gap_1 = lane(ends[1].gap, i);
+            group.write(end, i, task.end);
+            task.energy_0 = lane(start.energy, i);
+            task.energy_1 = lane(end.energy, i);
+            task.gap_0 = lane(start.gap, i);
+            task.gap_1 = lane(end.gap, i);
+            for (int d = 0; d < Dim; ++d) task.normal[d] = lane(normal.c[d], i);
+            task.facing = lane(facing, i);
             group.write(mean, result, i, 0, task);
             const bool is_done = integral == Integral::ends || integral == Integral::end ||
                                  (integral == Integral::checked && !lane(result.is_rough, i));
@@ -462,12 +486,14 @@ int integrate_with_middle(LaneTask<Dim>* tasks, int* which, int n, double (*star
             from_1[i] = task.end;
         }
         const LaneStep<T, Dim> step = group.step();
-        const LaneEnergy<T, Dim> states[3] = {group.read(from_0), energy_of(step.at(T(0.5)), step.law), group.read(from_1)};
+        const LaneEnd<T, Dim> start = group.read(from_0), end = group.read(from_1);
+        const LaneEnergy<T, Dim> middle = energy_of(step.at(T(0.5)), step.law);
+        const LaneEnergy<T, Dim>* const states[3] = {&start, &middle, &end};
         const T weights[3] = {T(1.0 / 6.0), T(4.0 / 6.0), T(1.0 / 6.0)};
         LaneMean<T, Dim> mean = weighed(states, weights, 3);
-        mean.energy_0 = states[0].energy;
-        mean.energy_1 = states[2].energy;
-        mean.depth = -lower(states[0].gap, states[2].gap);
+        mean.energy_0 = start.energy;
+        mean.energy_1 = end.energy;
+        mean.depth = -lower(start.gap, end.gap);
         const LaneClosed<T, Dim> result = closed(step, mean);
         for (int i = 0; i < group.n; ++i) {
             group.write(mean, result, i, 0, *group.task[i]);

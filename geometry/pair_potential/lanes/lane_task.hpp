@@ -12,9 +12,9 @@ enum class Integral {
     end,      ///< no mean: the gradient at the end
 };
 
-/// Numbers of a PairEnd: W, the least gap, the area, then the gradient and the pressures.
+/// Numbers of a PairEnd: W, the least gap, the area, n_1 . n_2, then n, the gradient and the pressures.
 template <int Dim>
-inline constexpr int end_size = 3 + 2 * Dim* Dim + 2 * Dim;
+inline constexpr int end_size = 4 + Dim + 2 * Dim*(Dim + 1);
 
 /// A pair along one step, as numbers alone.
 template <int Dim>
@@ -31,6 +31,8 @@ struct LaneTask {
     double* end;       // PairEnd at x_1
     double* gradient;  // (2 Dim, Dim)
     double* pressure;  // (2 Dim)
+    double* normal;    // (Dim)
+    double facing;
     double energy_0, energy_1;
     double gap_0, gap_1;
     double area;
