@@ -204,6 +204,7 @@ void NodalPairs<Dim>::index(const BevelledSurface<Dim>& surface, std::span<const
     for (const NodalPair<Dim>& pair : pairs_) {
         nodes_.insert(nodes_.end(), pair.node.begin(), pair.node.end());
         const BodyPair of_bodies = in_order(body[pair.facet_1], body[pair.facet_2]);
+        if (!body_pairs_.empty() && body_pairs_.back() == of_bodies) continue;
         body_pairs_.push_back(of_bodies);
         bodies_.insert(bodies_.end(), {of_bodies.body_1, of_bodies.body_2});
     }
@@ -211,9 +212,12 @@ void NodalPairs<Dim>::index(const BevelledSurface<Dim>& surface, std::span<const
     sort_unique(nodes_);
     sort_unique(bodies_);
     sort_unique(body_pairs_);
+    index_of_node_.resize(surface.acting().facets().vertices.size());
     std::int32_t n = 0;
+    for (const std::int32_t node : nodes_) index_of_node_[node] = n++;
+    n = 0;
     for (NodalPair<Dim>& pair : pairs_) {
-        for (std::size_t v = 0; v < pair.node.size(); ++v) pair.listed[v] = index_in(nodes_, pair.node[v]);
+        for (std::size_t v = 0; v < pair.node.size(); ++v) pair.listed[v] = index_of_node_[pair.node[v]];
         const std::int32_t body_1 = body[pair.facet_1], body_2 = body[pair.facet_2];
         pair.body_1 = index_in(bodies_, body_1);
         pair.body_2 = index_in(bodies_, body_2);

@@ -113,6 +113,7 @@ private:
     std::vector<std::int32_t> nodes_;
     std::vector<std::int32_t> bodies_;
     std::vector<BodyPair> body_pairs_;
+    std::vector<std::int32_t> index_of_node_;  // in `nodes_`; that of others is not to be read
 
     std::vector<NodalPair<Dim>> in_reach_;              // while no node is farther than `prune_reach_` from `pruned_at_`
     std::vector<Vector<Dim>> pruned_at_;                // of each node

@@ -259,8 +259,8 @@ double Ccg<Dim>::motion_amplification() const {
 }
 
 template <int Dim>
-double Ccg<Dim>::corner_amplification(BoundaryFace face, const Vector<Dim>& arm) const {
-    return impl_->motion_bound->corner_amplification(face, arm);
+CornerWeights Ccg<Dim>::corner_weights(BoundaryFace face, const Vector<Dim>& arm) const {
+    return impl_->motion_bound->corner_weights(face, arm, Matrix<Dim>::Identity() - prescribed()[face]);
 }
 
 template <int Dim>

@@ -12,6 +12,7 @@
 #include "abut/dynamics/losses.hpp"
 #include "abut/solid/ccg/boundary_reconstruction.hpp"
 #include "abut/solid/ccg/cell_form.hpp"
+#include "abut/solid/ccg/corner_weights.hpp"
 #include "abut/solid/ccg/finite_options.hpp"
 #include "abut/solid/ccg/precision.hpp"
 #include "abut/solid/ccg/step_device.hpp"
@@ -251,9 +252,9 @@ public:
                                       std::span<const Vector<Dim>> u_to, const BoundaryLoad<Dim>& load_to);
     /// Under constant loads `motion_bound` grows by at most this times the motion of the cell that moves farthest [-].
     [[nodiscard]] double motion_amplification() const;
-    /// Bound as `motion_amplification`, of |dû_f + dG_c arm|, a point of a boundary face at `arm` from its centroid
-    /// that tilts with the cell behind.
-    [[nodiscard]] double corner_amplification(BoundaryFace face, const Vector<Dim>& arm) const;
+    /// Weights of the cells that move a point of a boundary face at `arm` from its centroid, which tilts with the cell behind
+    /// where no support prescribes how it moves.
+    [[nodiscard]] CornerWeights corner_weights(BoundaryFace face, const Vector<Dim>& arm) const;
 
     /// G_c and sigma_c [-], [Pa], as of the last call of `gradient`, its like or `potential`. Where `evaluate_faces`,
     /// `evaluate_tilted_faces` or `evaluate_cells` were called since then, those of their region are of that state, and of

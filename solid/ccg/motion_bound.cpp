@@ -54,7 +54,7 @@ MotionBound<Dim>::MotionBound(const CcgArrays<Dim>& arrays, std::span<const Boun
 }
 
 template <int Dim>
-double MotionBound<Dim>::corner_amplification(BoundaryFace face, const Vector<Dim>& arm) const {
+CornerWeights MotionBound<Dim>::corner_weights(BoundaryFace face, const Vector<Dim>& arm, const Matrix<Dim>& free) const {
     const std::int32_t own = arrays_.cell_of(face);
     std::vector<std::pair<std::int32_t, Matrix<Dim>>> row;  // weights of cells
     const auto add = [&](std::int32_t cell, const Matrix<Dim>& weight) {
@@ -85,9 +85,20 @@ double MotionBound<Dim>::corner_amplification(BoundaryFace face, const Vector<Di
         for (int j = 0; j <= Dim; ++j) add(stencil.cells[j], share * stencil.weights[j] * Matrix<Dim>::Identity());
         add(own, -share * Matrix<Dim>::Identity());
     }
-    double sum = 0.0;
-    for (const auto& [cell, weight] : row) sum += norm_bound<Dim>(weight);
-    return (1.0 + of_rounding) * sum;
+    CornerWeights weights;
+    Matrix<Dim> sum = Matrix<Dim>::Zero();
+    for (const auto& [cell, weight] : row) {
+        const Matrix<Dim> freed = free * weight;
+        sum += freed;
+        const double norm = (1.0 + of_rounding) * norm_bound<Dim>(freed);
+        if (cell == own)
+            weights.own = norm;
+        else if (norm > 0.0)
+            weights.others.emplace_back(cell, norm);
+    }
+    weights.sum = (1.0 + of_rounding) * norm_bound<Dim>(sum);
+    weights.missing = norm_bound<Dim>(Matrix<Dim>(Matrix<Dim>::Identity() - sum)) + of_rounding;
+    return weights;
 }
 
 template <int Dim>

@@ -6,6 +6,7 @@
 
 #include "abut/solid/ccg/arrays.hpp"
 #include "abut/solid/ccg/ccg.hpp"
+#include "abut/solid/ccg/corner_weights.hpp"
 #include "abut/solid/ccg/lanes.hpp"
 
 namespace abut::solid {
@@ -30,9 +31,9 @@ public:
     /// |1 - D| + 2 sum_j |W_j|, j other cells than c [-]. The bound is a seminorm of du.
     [[nodiscard]] double amplification() const { return amplification_; }
 
-    /// As `amplification`, of the point of a face at `arm` from its centroid that tilts with the cell: |dû_f + dG_c
-    /// arm| over the motion of the cell that moves farthest [-].
-    [[nodiscard]] double corner_amplification(BoundaryFace face, const Vector<Dim>& arm) const;
+    /// Weights of F (dû_f + dG_c arm): the point of a face at `arm` from its centroid that tilts with the cell, `free` being
+    /// the projector F on the directions in which it does.
+    [[nodiscard]] CornerWeights corner_weights(BoundaryFace face, const Vector<Dim>& arm, const Matrix<Dim>& free) const;
 
 private:
     [[nodiscard]] double of_face(std::size_t i) const;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 #include "abut/base/parallel.hpp"
 #include "abut/base/sort_unique.hpp"
@@ -55,16 +56,13 @@ void CornerSurface<Dim>::append_face(const mesh::Mesh<Dim>& mesh, std::int32_t f
     add_face(corners, depth, body, stiffness);
 }
 
-/// How far a corner moves in its frame at most when no cell moves by more than 1.
 template <int Dim>
-double CornerSurface<Dim>::amplification_of(BoundaryFace b) const {
+void CornerSurface<Dim>::append_row(BoundaryFace b, std::size_t body) {
     const std::int32_t face = mesh_face(mesh_, b);
-    if (ccg_.prescribed()[b].isIdentity(0.0)) return 0.0;
-    double largest = 0.0;
+    std::vector<CornerWeights> corners;
     for (const std::int32_t v : mesh_.face_vertices[face])
-        largest =
-            std::max(largest, ccg_.corner_amplification(b, Vector<Dim>(mesh_.vertices[v] - mesh_.face_centroid[face])));
-    return largest;
+        corners.push_back(ccg_.corner_weights(b, mesh_.vertices[v] - mesh_.face_centroid[face]));
+    rows_.append_face(cell_of(mesh_, b), body, corners);
 }
 
 template <int Dim>
@@ -77,7 +75,10 @@ void CornerSurface<Dim>::append_deformable() {
         const BoundaryFace here = shared_->here()[i];
         boundary_.push_back(here);
         mesh_boundary_.push_back(here == no_face ? no_face : in_mesh[static_cast<std::size_t>(here)]);
-        if (shared_->is_own(i)) own.push_back(amplification_of(here));
+        row_of_.push_back(shared_->is_own(i) ? static_cast<std::int32_t>(rows_.size()) : -1);
+        if (!shared_->is_own(i)) continue;
+        append_row(here, static_cast<std::size_t>(face.body));
+        own.push_back(rows_[row_of_.back()].amplification);
     }
     amplification_ = shared_->numbers_of_all(own);
 }
@@ -217,24 +218,45 @@ typename CornerSurface<Dim>::Listed CornerSurface<Dim>::list_all() const {
 }
 
 template <int Dim>
-void CornerSurface<Dim>::place(const Listed& listed, std::span<const Vector<Dim>> q, std::span<const BodyFrame<Dim>> frames,
-                               const BoundaryLoad<Dim>& load, double time, Points& x, StepState state) {
-    displacement_.resize(listed.own.size());
-    tilt_.resize(listed.own.size());
-    frames_.displacement(listed.region.input_cells, q, frames, u_);
-    ccg_.evaluate_tilted_faces(listed.region, u_, load, displacement_, tilt_, state);
+void CornerSurface<Dim>::place_deformable(std::span<const std::int32_t> faces, const Region<Dim>& region,
+                                          std::span<const Vector<Dim>> q, std::span<const BodyFrame<Dim>> frames,
+                                          const BoundaryLoad<Dim>& load, Points& x, StepState state) {
+    displacement_.resize(faces.size());
+    tilt_.resize(faces.size());
+    frames_.displacement(region.input_cells, q, frames, u_);
+    ccg_.evaluate_tilted_faces(region, u_, load, displacement_, tilt_, state);
     parallel_each(
-        std::ssize(listed.own),
+        std::ssize(faces),
         [&](std::ptrdiff_t i) {
-            const std::int32_t face = listed.own[i];
+            const std::int32_t face = faces[i];
             const std::size_t body = body_of(static_cast<std::size_t>(face));
             const Vector<Dim> arm = displacement_[i] - frames_.rest_centre(body), centroid = ccg_.centroid(boundary_[face]);
             for (std::int32_t n = corner_offsets_[face]; n < corner_offsets_[face + 1]; ++n)
                 x[n] = frames[body](rest_[n] + arm + free_part(boundary_[face], tilt_[i] * (rest_[n] - centroid)));
         },
         256);
+}
+
+template <int Dim>
+void CornerSurface<Dim>::place_own(std::span<const std::int32_t> faces, std::span<const Vector<Dim>> q,
+                                   std::span<const BodyFrame<Dim>> frames, const BoundaryLoad<Dim>& load, Points& x,
+                                   StepState state) {
+    std::vector<BoundaryFace> own;
+    for (const std::int32_t face : faces) own.push_back(boundary_[face]);
+    place_deformable(faces, ccg_.region_of_tilted_faces(own), q, frames, load, x, state);
+}
+
+template <int Dim>
+void CornerSurface<Dim>::place(const Listed& listed, std::span<const Vector<Dim>> q, std::span<const BodyFrame<Dim>> frames,
+                               const BoundaryLoad<Dim>& load, double time, Points& x, StepState state) {
+    place_deformable(listed.own, listed.region, q, frames, load, x, state);
     gather_nodes(listed, x);
     place_rigid(q);
+    place_given(listed, time, x);
+}
+
+template <int Dim>
+void CornerSurface<Dim>::place_given(const Listed& listed, double time, Points& x) const {
     for (const std::int32_t n : listed.rigid) {
         const std::size_t body = rigid_of(face_of(n));
         x[n] = places_[body](rest_[n] - bodies_.rigid().rest_centre(body));
@@ -248,6 +270,31 @@ void CornerSurface<Dim>::place(const Listed& listed, std::span<const Vector<Dim>
         }
         x[n] = placement(rest_[n]);
     }
+}
+
+template <int Dim>
+void CornerSurface<Dim>::begin(CornerMotion<Dim>& motion, const Listed& listed, std::span<const Vector<Dim>> q,
+                               std::span<const BodyFrame<Dim>> frames, const Points& x) const {
+    std::vector<std::int32_t> rows;
+    std::vector<double> radius;
+    for (const std::int32_t face : listed.own) {
+        rows.push_back(row_of_[static_cast<std::size_t>(face)]);
+        const std::int32_t cell = rows_[rows.back()].cell;
+        const Vector<Dim> point = bodies_.rest()[cell] + q[cell];
+        double largest = 0.0;
+        for (std::int32_t n = corner_offsets_[face]; n < corner_offsets_[face + 1]; ++n)
+            largest = std::max(largest, (x[n] - point).norm());
+        radius.push_back(largest);
+    }
+    motion.begin(std::move(rows), std::move(radius), q, frames);
+}
+
+template <int Dim>
+double CornerSurface<Dim>::motion(std::int32_t face, const Points& from, const Points& to) const {
+    double farthest = 0.0;
+    for (std::int32_t n = corner_offsets_[face]; n < corner_offsets_[face + 1]; ++n)
+        farthest = larger(farthest, (to[n] - from[n]).norm());
+    return farthest;
 }
 
 /// Brings the nodes of all listed faces from where they are placed.

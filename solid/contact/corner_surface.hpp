@@ -9,6 +9,7 @@
 #include "abut/contact/nodal_surface.hpp"
 #include "abut/solid/body/bodies.hpp"
 #include "abut/solid/ccg/ccg.hpp"
+#include "abut/solid/contact/corner_motion.hpp"
 #include "abut/solid/contact/obstacles.hpp"
 #include "abut/solid/contact/rank_faces.hpp"
 
@@ -95,6 +96,18 @@ public:
     /// Sets x of the nodes listed, in q; the others stay. The frames are those of q.
     void place(const Listed& listed, std::span<const Vector<Dim>> q, std::span<const BodyFrame<Dim>> frames,
                const BoundaryLoad<Dim>& load, double time, Points& x, StepState state = StepState::given);
+    /// Sets x of the nodes of rigid bodies and obstacles alone, where `place_rigid` has been called for the state.
+    void place_given(const Listed& listed, double time, Points& x) const;
+    /// Sets x of the corners of some faces that are placed here, increasing; no call of all ranks.
+    void place_own(std::span<const std::int32_t> faces, std::span<const Vector<Dim>> q,
+                   std::span<const BodyFrame<Dim>> frames, const BoundaryLoad<Dim>& load, Points& x, StepState state);
+    /// Bounds of motions, of no face yet.
+    [[nodiscard]] CornerMotion<Dim> motion() const { return {rows_, bodies_.rest()}; }
+    /// Begins to bound the motion of the listed faces that are placed here, from where x has them: in q, with these frames.
+    void begin(CornerMotion<Dim>& motion, const Listed& listed, std::span<const Vector<Dim>> q,
+               std::span<const BodyFrame<Dim>> frames, const Points& x) const;
+    /// How far the corner of a face is from where it was that moved farthest [m].
+    [[nodiscard]] double motion(std::int32_t face, const Points& from, const Points& to) const;
     /// Places the rigid bodies alone; `place` sets them, too.
     void place_rigid(std::span<const Vector<Dim>> q);
     [[nodiscard]] const std::vector<RigidPlace<Dim>>& rigid_places() const { return places_; }
@@ -102,7 +115,9 @@ public:
 private:
     void append_deformable();
     void add_face(std::span<const Vector<Dim>> corners, double depth, std::int32_t body, double stiffness);
-    [[nodiscard]] double amplification_of(BoundaryFace face) const;
+    void append_row(BoundaryFace face, std::size_t body);
+    void place_deformable(std::span<const std::int32_t> faces, const Region<Dim>& region, std::span<const Vector<Dim>> q,
+                          std::span<const BodyFrame<Dim>> frames, const BoundaryLoad<Dim>& load, Points& x, StepState state);
     void gather_nodes(const Listed& listed, Points& x);
     void append_rigid();
     void append_obstacles();
@@ -125,6 +140,8 @@ private:
     std::vector<std::size_t> rigid_of_;            // rigid body of each face that follows
     std::vector<BoundaryFace> mesh_boundary_;      // of all these, in the whole mesh
     std::vector<std::vector<std::int32_t>> rigid_points_;
+    CornerRows rows_;                    // of the faces that are placed here
+    std::vector<std::int32_t> row_of_;   // of each face of a body that deforms; -1: it is placed elsewhere
     std::vector<double> amplification_;  // of each face of a body that deforms
     std::vector<RigidPlace<Dim>> places_;
     std::vector<Vector<Dim>> u_;  // work arrays: of all cells, and of listed faces

@@ -74,7 +74,9 @@ std::vector<std::byte> PairPotentialDriver<Dim>::state() const {
 template <int Dim>
 void PairPotentialDriver<Dim>::restore(std::span<const std::byte> state, std::span<const Vector<Dim>> q, double time) {
     contact_.restore(state);
-    search(q, q, time, 0.0);
+    far_holds_ = false;
+    search(q, q, 0.0, time, 0.0);
+    keep_end(q);
     touching_.clear();
     end_time_ = time;
     has_stepped_ = true;

@@ -13,6 +13,7 @@
 #include "abut/base/stopwatch.hpp"
 #include "abut/geometry/box.hpp"
 #include "abut/geometry/polygon.hpp"
+#include "abut/solid/contact/near_faces.hpp"
 #include "abut/solid/contact/solid_friction.hpp"
 #include "abut/solid/contact/solid_interference.hpp"
 
@@ -101,8 +102,8 @@ PairPotentialDriver<Dim>::PairPotentialDriver(const Bodies<Dim>& bodies, Ccg<Dim
       x_0_(corners_.rest()),
       x_1_(x_0_),
       x_state_(x_0_),
-      searched_at_(x_0_),
-      u_(static_cast<std::size_t>(bodies.n_cells())) {}
+      near_watch_{.corners = corners_.motion(), .from = {}, .radius = {}, .places = {}},
+      far_watch_{near_watch_} {}
 
 // The path of the listed faces ---------------------------------------------------------------------------------------
 
@@ -111,10 +112,11 @@ void PairPotentialDriver<Dim>::follow(std::span<const Vector<Dim>> q_0, std::spa
                                       double time, double dt) {
     end_time_ = time + dt;
     corners_.place_rigid(q_1);
+    keep_end(q_1);
     if (!is_surely_valid(cell_motion, time + dt)) {
         const Stopwatch watch(times_.search);
         if (!is_valid_by_cells(q_1, time + dt)) {
-            if (!is_valid_at_near_nodes(q_1, time + dt)) search(q_0, q_1, time, dt);
+            if (!is_valid_at_all_nodes(q_1, time + dt)) search(q_0, q_1, cell_motion, time, dt);
             return;
         }
     }
@@ -122,49 +124,49 @@ void PairPotentialDriver<Dim>::follow(std::span<const Vector<Dim>> q_0, std::spa
     corners_.place(listed_, q_1, frames_.end(), loads_.end(), time + dt, x_1_, StepState::end);
 }
 
+/// Far faces stay where they were placed last as long as none of them can have come near another body: they are in no pair.
 template <int Dim>
-void PairPotentialDriver<Dim>::search(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1, double time,
-                                      double dt) {
-    corners_.place(all_, q_0, frames_.start(), loads_.start(), time, x_0_);
-    corners_.place(all_, q_1, frames_.end(), loads_.end(), time + dt, x_1_, StepState::end);
-    contact_.search(x_0_, x_1_);
+void PairPotentialDriver<Dim>::search(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1, double cell_motion,
+                                      double time, double dt) {
+    if (may_search_near()) {
+        search_placed(near_, q_0, q_1, time, dt);
+    } else {
+        search_placed(all_, q_0, q_1, time, dt);
+        searched_at_ = x_0_;
+        if (faces_leave_cells()) return;
+        far_reach_ = far_skins * contact_.skin();
+        near_ = corners_.list(near_nodes());
+        begin(far_watch_, all_, q_0, cell_motion, time + dt);
+    }
     searched_at_ = x_0_;
-    far_reach_ = far_skins * contact_.skin();
-    listed_ = corners_.list(listed_nodes_ = contact_.last().nodes);
-    near_ = corners_.list(near_nodes());
-    near_watch_ = watch_from(near_, q_1, x_1_, time + dt);
-    far_watch_ = watch_from(all_, q_1, x_1_, time + dt);
-    if (touches_itself_) far_watch_.moved_in_frame = moved_in_frame();
+    begin(near_watch_, near_, q_0, cell_motion, time + dt);
 }
 
-/// Nodes of faces that reach into the box of another body or obstacle when that grows by twice `far_reach_`, and by all that
-/// contact itself looks ahead and reaches beyond faces.
+template <int Dim>
+void PairPotentialDriver<Dim>::search_placed(const Listed& placed, std::span<const Vector<Dim>> q_0,
+                                             std::span<const Vector<Dim>> q_1, double time, double dt) {
+    corners_.place(placed, q_0, frames_.start(), loads_.start(), time, x_0_);
+    corners_.place(placed, q_1, frames_.end(), loads_.end(), time + dt, x_1_, StepState::end);
+    contact_.search(x_0_, x_1_);
+    listed_ = corners_.list(listed_nodes_ = contact_.last().nodes);
+}
+
+/// Nodes of faces that reach another body or obstacle when that grows by twice `far_reach_`, and by all that contact itself
+/// looks ahead and reaches beyond faces.
 template <int Dim>
 std::vector<std::int32_t> PairPotentialDriver<Dim>::near_nodes() const {
     const contact::SurfaceView<Dim> facets = contact_.surface().facets().view();
-    const auto box_of = [&](std::int32_t facet) {
-        geometry::Box<Dim> box;
-        for (const std::int32_t n : facets.vertices_of(facet))
-            box.extend(geometry::Box<Dim>{x_0_[n].cwiseMin(x_1_[n]), x_0_[n].cwiseMax(x_1_[n])});
-        return box;
-    };
-    std::vector<geometry::Box<Dim>> box_of_body(static_cast<std::size_t>(contact_.surface().n_bodies()));
+    std::vector<geometry::Box<Dim>> boxes(static_cast<std::size_t>(facets.size()));
     double deepest = 0.0;
     for (std::int32_t facet = 0; facet < facets.size(); ++facet) {
-        box_of_body[facets.body[facet]].extend(box_of(facet));
+        for (const std::int32_t n : facets.vertices_of(facet))
+            boxes[facet].extend(geometry::Box<Dim>{x_0_[n].cwiseMin(x_1_[n]), x_0_[n].cwiseMax(x_1_[n])});
         deepest = std::max(deepest, facets.cell_depth[facet]);
     }
     const double margin =
         2.0 * (contact_.bevel_stretch() * far_reach_ + contact_.bevel_width()) + contact_.skin() + 4.0 * deepest;
-    std::vector<std::vector<geometry::Box<Dim>>> others(box_of_body.size());  // that a body may come near to
-    for (std::size_t body = 0; body < others.size(); ++body)
-        for (std::size_t other = 0; other < others.size(); ++other)
-            if (const auto grown = box_of_body[other].grown(margin); other != body && grown.overlaps(box_of_body[body]))
-                others[body].push_back(grown);
     std::vector<std::int32_t> nodes;
-    for (std::int32_t facet = 0; facet < facets.size(); ++facet) {
-        const auto overlaps = [box = box_of(facet)](const geometry::Box<Dim>& other) { return box.overlaps(other); };
-        if (std::ranges::none_of(others[facets.body[facet]], overlaps)) continue;
+    for (const std::int32_t facet : near_others<Dim>(boxes, facets.body, margin)) {
         const auto corners = facets.vertices_of(facet);
         nodes.insert(nodes.end(), corners.begin(), corners.end());
     }
@@ -222,8 +224,11 @@ void PairPotentialDriver<Dim>::evaluate_last_end(std::span<const Vector<Dim>> q)
 template <int Dim>
 void PairPotentialDriver<Dim>::evaluate(std::span<const Vector<Dim>> q, double time) {
     corners_.place_rigid(q);
-    if (has_stepped_ && !faces_leave_cells() && contact_.is_valid_for(0.0) &&
-        is_valid(distance_in_frame(near_, q, near_watch_), distance_in_frame(all_, q, far_watch_), time)) {
+    if (is_last_end(q, time)) {
+        contact_.evaluate_listed(x_0_);
+        return collect(x_0_, x_0_);
+    }
+    if (is_valid_in(q, time)) {
         corners_.place(listed_, q, frames_.end(), loads_.end(), time, x_state_);
         contact_.evaluate_listed(x_state_);
         return collect(x_state_, x_state_);

@@ -71,33 +71,43 @@ private:
 
     using Listed = typename CornerSurface<Dim>::Listed;
 
-    /// Bound of the distance of some nodes from where they were at a search: exact in one state, a bound from there on.
+    /// Bound of how far some nodes are from where they were at a search.
     struct Watch {
-        std::vector<BodyFrame<Dim>> frames;  // in that state
-        std::vector<RigidPlace<Dim>> places;
-        std::vector<double> radius;  // of these nodes about the centre of each body, rigid ones last [m]
-        double time = 0.0;           // of that state [s]
-        double moved = 0.0;          // the farthest of them from where candidates were searched [m]
-        std::vector<Vector<Dim>> u;  // in that state and in the frames, of the cells that move these nodes
-        double travelled = 0.0;      // at most since then: motion in its frame of the cell that moved farthest
-        double amplification = 0.0;  // how far one of these nodes moves when no cell moves by more than 1
-        double moved_in_frame =
-            0.0;  // as `moved`, seen from the frames: a body that flies and turns does not come to itself
+        CornerMotion<Dim> corners;  // of faces of bodies that deform
+        // Of nodes of rigid bodies and obstacles
+        Points from;                          // where they were at the search, in the order of the list
+        std::vector<double> radius;           // about the centre of each rigid body [m]
+        double moved = 0.0;                   // until they were placed last [m]
+        std::vector<RigidPlace<Dim>> places;  // in that state
+        double time = 0.0;                    // of it [s]
     };
 
     /// Whether faces may move farther than the motion of cells bounds: by loads that vary, by the stretch of free
     /// faces, and as cells flow.
     [[nodiscard]] bool faces_leave_cells() const { return loads_.vary() || bodies_.any_finite() || ccg_.flows_linearly(); }
-    [[nodiscard]] double motion_since(const Watch& watch, double in_frame, double time) const;
-    [[nodiscard]] bool is_valid(double near_in_frame, double far_in_frame, double time) const;
-    [[nodiscard]] bool is_valid_within(double far_in_frame) const;
+    /// How far near and far faces may move.
+    [[nodiscard]] FarthestMotion near_allowed() const;
+    [[nodiscard]] FarthestMotion far_allowed() const;
+    void begin(Watch& watch, const Listed& listed, std::span<const Vector<Dim>> q_0, double cell_motion, double time);
+    void place_given(Watch& watch, const Listed& listed, double time, Points& x) const;
+    [[nodiscard]] double given_distance(const Watch& watch, const Listed& listed, double time, Points& x) const;
+    [[nodiscard]] double given_motion(const Watch& watch, double time) const;
+    [[nodiscard]] bool is_within(Watch& watch, const FarthestMotion& allowed, double time) const;
+    [[nodiscard]] bool agree(bool here) const { return ranks_.largest(here ? 0.0 : 1.0) == 0.0; }
     [[nodiscard]] bool is_surely_valid(double cell_motion, double time);
     [[nodiscard]] bool is_valid_by_cells(std::span<const Vector<Dim>> q_1, double time);
-    [[nodiscard]] bool is_valid_at_near_nodes(std::span<const Vector<Dim>> q_1, double time);
-    [[nodiscard]] double distance_in_frame(const Listed& listed, std::span<const Vector<Dim>> q, const Watch& watch);
-    [[nodiscard]] Watch watch_from(const Listed& listed, std::span<const Vector<Dim>> q_1, const Points& x, double time);
-    void search(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1, double time, double dt);
-    [[nodiscard]] double moved_in_frame() const;
+    void look(Watch& watch, const Listed& listed, const FarthestMotion& allowed, std::span<const Vector<Dim>> q_1,
+              double time);
+    void place_beyond(std::span<const Vector<Dim>> q_1);
+    [[nodiscard]] bool is_valid_at_all_nodes(std::span<const Vector<Dim>> q_1, double time);
+    [[nodiscard]] bool is_valid_in(std::span<const Vector<Dim>> q, double time);
+    [[nodiscard]] bool may_search_near() const;
+    void keep_end(std::span<const Vector<Dim>> q_1);
+    [[nodiscard]] bool is_last_end(std::span<const Vector<Dim>> q, double time) const;
+    void search(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1, double cell_motion, double time,
+                double dt);
+    void search_placed(const Listed& placed, std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1, double time,
+                       double dt);
     [[nodiscard]] std::vector<std::int32_t> near_nodes() const;
     /// The gradients of the last call of contact between these two placements of the nodes, face by face.
     void collect(const Points& x_0, const Points& x_1);
@@ -122,10 +132,12 @@ private:
     Points x_0_, x_1_, x_state_;              // nodes at both ends of a step; between steps _0 is where the last one ended
     bool has_stepped_ = false;
     Watch near_watch_, far_watch_;
+    bool far_holds_ = false;  // where the step ends
     double far_reach_ = 0.0;  // [m]
     double end_time_ = 0.0;   // of the last step [s]
     Points searched_at_;
-    std::vector<Vector<Dim>> u_;  // work array, of all cells
+    Points end_;                              // q there, of cells that move faces and of rigid bodies
+    std::vector<BodyFrame<Dim>> end_frames_;  // and the frames
 
     std::vector<Vector<Dim>> face_gradient_;  // results, in frames (n_listed)
     std::vector<Matrix<Dim>> cell_moment_;

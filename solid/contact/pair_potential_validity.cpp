@@ -1,148 +1,181 @@
-// How long the candidate list of bodies that may turn is valid: from bounds on the motion, cheap ones first.
+// How long the candidate list of bodies that may turn is valid: from bounds on the motion of each face, cheap ones first.
+#include <algorithm>
 #include <cmath>
-#include <utility>
+#include <limits>
 
 #include "abut/base/parallel.hpp"
+#include "abut/solid/contact/frame_motion.hpp"
 #include "abut/solid/contact/pair_potential_driver.hpp"
 
 namespace abut::solid {
-namespace {
 
-/// The largest stretch of a difference of two rotations over its Frobenius norm: sqrt(1/2), and what rounding adds.
-constexpr double difference_stretch = 0.70710679;
-
-}  // namespace
-
-/// At most, at the end of the step, when no cell is farther than `in_frame` from where it was in its frame [m].
 template <int Dim>
-double PairPotentialDriver<Dim>::motion_since(const Watch& watch, double in_frame, double time) const {
-    const auto motion = [](const Vector<Dim>& shift, const Matrix<Dim>& turned, double radius) {
-        return shift.norm() + difference_stretch * turned.norm() * radius;
-    };
-    double of_frames = 0.0, of_rigid = 0.0;
-    const std::size_t n = frames_.n_bodies();
-    for (std::size_t body = 0; body < n; ++body) {
-        const BodyFrame<Dim>&from = watch.frames[body], to = frames_.end()[body];
-        of_frames = larger(of_frames, motion(to.centre - from.centre, to.turn - from.turn, watch.radius[body]));
+FarthestMotion PairPotentialDriver<Dim>::near_allowed() const {
+    return {0.5 * contact_.skin() / contact_.bevel_stretch(), std::numeric_limits<double>::infinity()};
+}
+
+/// What is far has not come near; and pairs of one body.
+template <int Dim>
+FarthestMotion PairPotentialDriver<Dim>::far_allowed() const {
+    return {far_reach_, touches_itself_ ? near_allowed().in_space : std::numeric_limits<double>::infinity()};
+}
+
+/// Begins where the step of a search does, in q_0 and x_0, and goes on to its end.
+template <int Dim>
+void PairPotentialDriver<Dim>::begin(Watch& watch, const Listed& listed, std::span<const Vector<Dim>> q_0,
+                                     double cell_motion, double time) {
+    corners_.begin(watch.corners, listed, q_0, frames_.start(), x_0_);
+    watch.corners.advance(frames_.end(), cell_motion);
+    watch.from.clear();
+    for (const std::vector<std::int32_t>* nodes : {&listed.rigid, &listed.obstacles})
+        for (const std::int32_t n : *nodes) watch.from.push_back(x_0_[n]);
+    watch.radius.assign(bodies_.rigid().size(), 0.0);
+    for (const std::int32_t n : listed.rigid) {
+        const std::size_t body = corners_.rigid_of(corners_.face_of(n));
+        watch.radius[body] = larger(watch.radius[body], (x_1_[n] - corners_.rigid_places()[body].centre).norm());
     }
+    place_given(watch, listed, time, x_1_);
+}
+
+/// Nodes of rigid bodies and obstacles know where they are.
+template <int Dim>
+void PairPotentialDriver<Dim>::place_given(Watch& watch, const Listed& listed, double time, Points& x) const {
+    watch.moved = given_distance(watch, listed, time, x);
+    watch.places = corners_.rigid_places();
+    watch.time = time;
+}
+
+template <int Dim>
+double PairPotentialDriver<Dim>::given_distance(const Watch& watch, const Listed& listed, double time, Points& x) const {
+    corners_.place_given(listed, time, x);
+    double farthest = 0.0;
+    const Vector<Dim>* from = watch.from.data();
+    for (const std::vector<std::int32_t>* nodes : {&listed.rigid, &listed.obstacles})
+        for (const std::int32_t n : *nodes) farthest = larger(farthest, (x[n] - *from++).norm());
+    return farthest;
+}
+
+/// Of these, at most.
+template <int Dim>
+double PairPotentialDriver<Dim>::given_motion(const Watch& watch, double time) const {
+    double of_rigid = 0.0;
     for (std::size_t i = 0; i < watch.places.size(); ++i) {
         const RigidPlace<Dim>&from = watch.places[i], to = corners_.rigid_places()[i];
-        of_rigid = larger(of_rigid, motion(to.centre - from.centre, to.map - from.map, watch.radius[n + i]));
+        of_rigid = larger(of_rigid, (to.centre - from.centre).norm() + turned_by<Dim>(to.map - from.map) * watch.radius[i]);
     }
-    of_frames += watch.amplification * in_frame;
-    return watch.moved + larger(larger(of_frames, of_rigid), obstacles_.motion(watch.time, time));
+    return watch.moved + larger(of_rigid, obstacles_.motion(watch.time, time));
 }
 
 template <int Dim>
-bool PairPotentialDriver<Dim>::is_valid(double near_in_frame, double far_in_frame, double time) const {
-    return contact_.is_valid_for(motion_since(near_watch_, near_in_frame, time)) &&
-           motion_since(far_watch_, far_in_frame, time) <= far_reach_ && is_valid_within(far_in_frame);
+bool PairPotentialDriver<Dim>::is_within(Watch& watch, const FarthestMotion& allowed, double time) const {
+    return watch.corners.is_within(allowed) && given_motion(watch, time) <= allowed.in_space;
 }
 
-/// For pairs of one body.
-template <int Dim>
-bool PairPotentialDriver<Dim>::is_valid_within(double far_in_frame) const {
-    return !touches_itself_ || contact_.is_valid_for(far_watch_.moved_in_frame + far_watch_.amplification * far_in_frame);
-}
-
-/// In the step from x_0 to x_1, of the node of a body that deforms which moves farthest, seen from the frame of its
-/// body [m].
-template <int Dim>
-double PairPotentialDriver<Dim>::moved_in_frame() const {
-    return std::sqrt(largest(std::ssize(all_.nodes), [&](std::ptrdiff_t i) {
-        const std::int32_t n = all_.nodes[i];
-        if (corners_.is_of_obstacle(n) || !corners_.is_deformable(corners_.face_of(n))) return 0.0;
-        const std::size_t body = corners_.body_of(corners_.face_of(n));
-        const BodyFrame<Dim>&start = frames_.start()[body], &end = frames_.end()[body];
-        const Vector<Dim> from = start.turn.transpose() * (x_0_[n] - start.centre),
-                          to = end.turn.transpose() * (x_1_[n] - end.centre);
-        return (to - from).squaredNorm();
-    }));
-}
-
-/// By what no cell and no frame exceeds in the step: nothing is computed but a few sums.
+/// By what no cell and no frame exceeds in the step.
 template <int Dim>
 bool PairPotentialDriver<Dim>::is_surely_valid(double cell_motion, double time) {
-    near_watch_.travelled += cell_motion;
-    far_watch_.travelled += cell_motion;
-    if (!has_stepped_ || faces_leave_cells()) return false;
-    return is_valid(near_watch_.travelled, far_watch_.travelled, time);
+    if (faces_leave_cells()) return false;
+    near_watch_.corners.advance(frames_.end(), cell_motion);
+    far_watch_.corners.advance(frames_.end(), cell_motion);
+    return has_stepped_ && contact_.is_valid_for(0.0) &&
+           agree(is_within(near_watch_, near_allowed(), time) && is_within(far_watch_, far_allowed(), time));
 }
 
-/// By how far cells are in their frames from where they were, instead of the way that they have gone.
+/// By where the cells are at the end of the step, of the faces for which that was not enough.
 template <int Dim>
 bool PairPotentialDriver<Dim>::is_valid_by_cells(std::span<const Vector<Dim>> q_1, double time) {
+    far_holds_ = false;
     if (!has_stepped_ || faces_leave_cells() || !contact_.is_valid_for(0.0)) return false;
-    near_watch_.travelled = distance_in_frame(near_, q_1, near_watch_);
-    if (!(motion_since(far_watch_, far_watch_.travelled, time) <= far_reach_) || !is_valid_within(far_watch_.travelled))
-        far_watch_.travelled = distance_in_frame(all_, q_1, far_watch_);
-    return is_valid(near_watch_.travelled, far_watch_.travelled, time);
+    look(far_watch_, all_, far_allowed(), q_1, time);
+    far_holds_ = agree(is_within(far_watch_, far_allowed(), time));
+    if (!far_holds_) return false;
+    look(near_watch_, near_, near_allowed(), q_1, time);
+    place_beyond(q_1);
+    return agree(is_within(near_watch_, near_allowed(), time));
 }
 
-/// From the state of the watch, of the cell behind these faces that is farthest [m].
 template <int Dim>
-double PairPotentialDriver<Dim>::distance_in_frame(const Listed& listed, std::span<const Vector<Dim>> q,
-                                                   const Watch& watch) {
-    const std::vector<std::int32_t>& cells = listed.region.input_cells;
-    frames_.displacement(cells, q, frames_.end(), u_);
-    const double here =
-        largest(std::ssize(cells), [&](std::ptrdiff_t i) { return (u_[cells[i]] - watch.u[i]).squaredNorm(); });
-    return std::sqrt(ranks_.largest(here));
+void PairPotentialDriver<Dim>::look(Watch& watch, const Listed& listed, const FarthestMotion& allowed,
+                                    std::span<const Vector<Dim>> q_1, double time) {
+    if (!watch.corners.is_within(allowed)) watch.corners.look(watch.corners.beyond(allowed), q_1, frames_.end());
+    if (!(given_motion(watch, time) <= allowed.in_space)) place_given(watch, listed, time, x_1_);
 }
 
-/// Places the nodes near other bodies at the end of the step; what is far must not have come near. Where faces move without
-/// their cells all nodes are looked at.
+/// Places the near faces whose bounds say nothing, at the end of the step.
 template <int Dim>
-bool PairPotentialDriver<Dim>::is_valid_at_near_nodes(std::span<const Vector<Dim>> q_1, double time) {
-    if (!has_stepped_ || !contact_.is_valid_for(0.0)) return false;
-    if (!faces_leave_cells() && !(motion_since(far_watch_, far_watch_.travelled, time) <= far_reach_)) return false;
-    if (!faces_leave_cells() && !is_valid_within(far_watch_.travelled)) return false;
-    const Listed& looked_at = faces_leave_cells() ? all_ : near_;
-    corners_.place(looked_at, q_1, frames_.end(), loads_.end(), time, x_1_, StepState::end);
-    near_watch_ = watch_from(looked_at, q_1, x_1_, time);
-    return contact_.is_valid_for(near_watch_.moved);
+void PairPotentialDriver<Dim>::place_beyond(std::span<const Vector<Dim>> q_1) {
+    if (near_watch_.corners.is_within(near_allowed())) return;
+    const std::vector<std::int32_t> beyond = near_watch_.corners.beyond(near_allowed());
+    std::vector<std::int32_t> faces;
+    for (const std::int32_t i : beyond) faces.push_back(near_.own[i]);
+    corners_.place_own(faces, q_1, frames_.end(), loads_.end(), x_1_, StepState::end);
+    for (std::size_t i = 0; i < beyond.size(); ++i)
+        near_watch_.corners.set_in_space(beyond[i], corners_.motion(faces[i], searched_at_, x_1_));
 }
 
-/// From here, where the nodes listed are placed: at the end of the step.
+/// Places all nodes at the end of the step, where they move without their cells.
 template <int Dim>
-typename PairPotentialDriver<Dim>::Watch PairPotentialDriver<Dim>::watch_from(const Listed& listed,
-                                                                              std::span<const Vector<Dim>> q_1,
-                                                                              const Points& x, double time) {
-    Watch watch{.frames = {frames_.end().begin(), frames_.end().end()},
-                .places = corners_.rigid_places(),
-                .radius = {},
-                .time = time,
-                .u = {},
-                .amplification = corners_.amplification(listed)};
-    frames_.displacement(listed.region.input_cells, q_1, frames_.end(), u_);
-    for (const std::int32_t cell : listed.region.input_cells) watch.u.push_back(u_[cell]);
-    watch.radius.assign(frames_.n_bodies() + watch.places.size(), 0.0);
-    for (const std::int32_t n : listed.nodes) {
-        if (corners_.is_of_obstacle(n)) break;
-        const std::size_t face = corners_.face_of(n);
-        const bool deforms = corners_.is_deformable(face);
-        const std::size_t body = deforms ? corners_.body_of(face) : frames_.n_bodies() + corners_.rigid_of(face);
-        const Vector<Dim>& centre = deforms ? watch.frames[body].centre : watch.places[corners_.rigid_of(face)].centre;
-        watch.radius[body] = larger(watch.radius[body], (x[n] - centre).squaredNorm());
-    }
-    for (double& radius : watch.radius) radius = std::sqrt(radius);
-    watch.moved = std::sqrt(largest(std::ssize(listed.nodes), [&](std::ptrdiff_t i) {
-        return (x[listed.nodes[i]] - searched_at_[listed.nodes[i]]).squaredNorm();
-    }));
-    return watch;
+bool PairPotentialDriver<Dim>::is_valid_at_all_nodes(std::span<const Vector<Dim>> q_1, double time) {
+    if (!has_stepped_ || !faces_leave_cells() || !contact_.is_valid_for(0.0)) return false;
+    corners_.place(all_, q_1, frames_.end(), loads_.end(), time, x_1_, StepState::end);
+    return contact_.is_valid_for(
+        std::sqrt(largest(std::ssize(x_1_), [&](std::ptrdiff_t n) { return (x_1_[n] - searched_at_[n]).squaredNorm(); })));
 }
 
-#define ABUT_INSTANTIATE(Dim)                                                                                               \
-    template double PairPotentialDriver<Dim>::motion_since(const Watch&, double, double) const;                             \
-    template bool PairPotentialDriver<Dim>::is_valid(double, double, double) const;                                         \
-    template bool PairPotentialDriver<Dim>::is_valid_within(double) const;                                                  \
-    template double PairPotentialDriver<Dim>::moved_in_frame() const;                                                       \
-    template bool PairPotentialDriver<Dim>::is_surely_valid(double, double);                                                \
-    template bool PairPotentialDriver<Dim>::is_valid_by_cells(std::span<const Vector<Dim>>, double);                        \
-    template double PairPotentialDriver<Dim>::distance_in_frame(const Listed&, std::span<const Vector<Dim>>, const Watch&); \
-    template bool PairPotentialDriver<Dim>::is_valid_at_near_nodes(std::span<const Vector<Dim>>, double);                   \
-    template typename PairPotentialDriver<Dim>::Watch PairPotentialDriver<Dim>::watch_from(                                 \
-        const Listed&, std::span<const Vector<Dim>>, const Points&, double);
+/// Whether the faces that were near at the last search of all of them are all that can touch others until the end of the
+/// step, and as long as the next list may live.
+template <int Dim>
+bool PairPotentialDriver<Dim>::may_search_near() const {
+    return far_holds_ && !touches_itself_ && far_reach_ >= 2.0 * contact_.skin();
+}
+
+// States between steps -----------------------------------------------------------------------------------------------
+
+/// Remembers where a step ends: all that the faces depend on there.
+template <int Dim>
+void PairPotentialDriver<Dim>::keep_end(std::span<const Vector<Dim>> q_1) {
+    end_.clear();
+    for (const std::int32_t cell : all_.region.input_cells) end_.push_back(q_1[cell]);
+    const auto rigid_points = q_1.subspan(static_cast<std::size_t>(bodies_.n_cells()));
+    end_.insert(end_.end(), rigid_points.begin(), rigid_points.end());
+    end_frames_.assign(frames_.end().begin(), frames_.end().end());
+}
+
+/// Whether the faces are where the last step ended, to the bit.
+template <int Dim>
+bool PairPotentialDriver<Dim>::is_last_end(std::span<const Vector<Dim>> q, double time) const {
+    if (!has_stepped_ || faces_leave_cells() || !contact_.is_valid_for(0.0) || time != end_time_) return false;
+    const auto is_same_frame = [](const BodyFrame<Dim>& a, const BodyFrame<Dim>& b) {
+        return a.centre == b.centre && a.turn == b.turn;
+    };
+    bool is_same = std::ranges::equal(frames_.end(), end_frames_, is_same_frame);
+    const auto& cells = all_.region.input_cells;
+    for (std::size_t i = 0; is_same && i < cells.size(); ++i) is_same = q[cells[i]] == end_[i];
+    is_same = is_same && std::ranges::equal(q.subspan(static_cast<std::size_t>(bodies_.n_cells())),
+                                            std::span(end_).subspan(cells.size()));
+    return agree(is_same);
+}
+
+/// Whether the list is valid in any other state.
+template <int Dim>
+bool PairPotentialDriver<Dim>::is_valid_in(std::span<const Vector<Dim>> q, double time) {
+    if (!has_stepped_ || faces_leave_cells() || !contact_.is_valid_for(0.0)) return false;
+    const auto is_within = [&](Watch& watch, const Listed& listed, const FarthestMotion& allowed) {
+        return watch.corners.until(q, frames_.end()).is_within(allowed) &&
+               given_distance(watch, listed, time, x_state_) <= allowed.in_space;
+    };
+    return agree(is_within(near_watch_, near_, near_allowed()) && is_within(far_watch_, all_, far_allowed()));
+}
+
+#define ABUT_INSTANTIATE(Dim)                                                                                           \
+    template void PairPotentialDriver<Dim>::begin(Watch&, const Listed&, std::span<const Vector<Dim>>, double, double); \
+    template bool PairPotentialDriver<Dim>::is_surely_valid(double, double);                                            \
+    template bool PairPotentialDriver<Dim>::is_valid_by_cells(std::span<const Vector<Dim>>, double);                    \
+    template bool PairPotentialDriver<Dim>::is_valid_at_all_nodes(std::span<const Vector<Dim>>, double);                \
+    template bool PairPotentialDriver<Dim>::may_search_near() const;                                                    \
+    template void PairPotentialDriver<Dim>::keep_end(std::span<const Vector<Dim>>);                                     \
+    template bool PairPotentialDriver<Dim>::is_last_end(std::span<const Vector<Dim>>, double) const;                    \
+    template bool PairPotentialDriver<Dim>::is_valid_in(std::span<const Vector<Dim>>, double);
 ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)
 #undef ABUT_INSTANTIATE

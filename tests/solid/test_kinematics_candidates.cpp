@@ -144,6 +144,47 @@ TEMPLATE_TEST_CASE_SIG("runs of a crowd do not depend on when candidates are sea
     }
 }
 
+TEMPLATE_TEST_CASE_SIG(
+    "a small body that flies in from far away and spins is met as if candidates were searched at every step",
+    "[solid][kinematics][candidates]", ((int Dim), Dim), 2, 3) {
+    const auto box = [](Vector<2> lower, Vector<2> upper, std::array<int, 2> cells, const std::string& name) {
+        Vector<Dim> low = Vector<Dim>::Constant(0.4 * lower[1]), high = Vector<Dim>::Constant(0.5 * upper[0]);
+        std::array<int, Dim> counts;
+        counts.fill(2);
+        for (std::size_t k = 0; k < 2; ++k) {
+            const auto axis = static_cast<std::ptrdiff_t>(k);
+            low[axis] = lower[axis], high[axis] = upper[axis], counts[k] = cells[k];
+        }
+        if (Dim == 3) low[Dim - 1] = -high[Dim - 1];
+        return mesh::structured_box<Dim>(low, high, counts, Dim == 2 ? CellShape::triangle : CellShape::tetrahedron, name);
+    };
+    const auto mesh =
+        together<Dim>(box({-1.0, -1.0}, {1.0, 0.0}, {6, 3}, "target"), box({0.1, 2.0}, {0.3, 2.2}, {2, 2}, "bullet"));
+    std::int64_t steps = 0;
+    const auto run = [&](double skin) {
+        auto options = bodies<Dim>(2);
+        options.contact->search.skin = skin;
+        std::vector<Motion<Dim>> motion(2);
+        motion[1].velocity[1] = -0.25;
+        motion[1].spin = some_spin<Dim>(0.5);
+        TurningScene<Dim> scene(mesh, options, motion, 0.5, std::vector{Kinematics::floating, Kinematics::floating});
+        scene.run_until(12.0);
+        steps = scene.memm.steps();
+        const auto copy = [](std::span<const double> x) { return std::vector<double>(x.begin(), x.end()); };
+        const auto report = scene.solid.contact().report();
+        return State{copy(scene.memm.q()), copy(scene.memm.p_before()), copy(scene.memm.p_after()),
+                     report.rebuilds,      report.active_pairs_max,     report.missed_contacts};
+    };
+    const State every_step = run(1e-12);
+    CHECK(every_step.active > 0);
+    for (const double skin : {0.0, 0.02, 0.3}) {
+        const State state = run(skin);
+        CAPTURE(skin, state.rebuilds, steps);
+        CHECK(state == every_step);
+        CHECK(state.rebuilds < every_step.rebuilds);
+    }
+}
+
 TEST_CASE("candidates of a floating body are kept while a prescribed face moves", "[solid][kinematics][candidates]") {
     const auto mesh = together(mesh::structured_box<2>({-1.0, -1.0}, {1.0, 0.0}, {5, 3}, CellShape::triangle, "lower"),
                                mesh::structured_box<2>({-0.5, 0.01}, {0.7, 1.0}, {4, 3}, CellShape::quadrangle, "upper"));
