@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 #include <string>
 
 namespace abut::run {
@@ -15,6 +16,14 @@ struct WeakFriction {
     std::string body_2{};  ///< as in messages; empty: there were none
     double seconds = 0.0;  ///< in which they did so [s]
     double share = 1.0;    ///< impulse of their friction along the sliding over mu times the normal one then [-]
+};
+
+/// The two bodies, or a body and an obstacle, that were pressed into each other deepest where they bear.
+struct Compressed {
+    std::string body_1{};
+    std::string body_2{};      ///< as in messages; empty: none were, beyond the warning
+    double compression = 0.0;  ///< solid::BodyImpulse::compression [-]
+    std::int64_t steps = 0;    ///< with more than the warning, of the two that have most of them
 };
 
 }  // namespace abut::run

@@ -3,11 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "abut/base/error.hpp"
 #include "abut/dynamics/ranks.hpp"
+#include "abut/run/scheme_capabilities.hpp"
 #include "abut/solid/cell_view.hpp"
 #include "abut/solid/kinematics/properties.hpp"
 #include "abut/solid/run_remedies.hpp"
@@ -98,17 +101,16 @@ bool has_friction(const Scene<Dim>& scene, const RunOptions& options) {
 
 template <int Dim>
 void check_scheme(const Scene<Dim>& scene, const RunOptions& options) {
-    if (options.integrator != SolidIntegrator::memm)
-        for (std::size_t body = 0; body < scene.solid.materials.size(); ++body)
-            if (scene.solid.materials[body].remembers())
-                throw BadInput("--integrator " + name_of(options.integrator) + ": body '" + scene.mesh.body_names[body] +
-                               "' is of a material that flows or is damped, which remembers what happens to it. Take memm, "
-                               "which closes its balance of energy, or another material.");
-    const bool has_scheme = options.integrator == SolidIntegrator::memm || options.integrator == SolidIntegrator::leapfrog;
-    if (!has_scheme && has_friction(scene, options))
-        throw BadInput(
-            "--integrator " + name_of(options.integrator) +
-            " has no friction. Take memm, which closes its balance of energy, or leapfrog; or leave friction out.");
+    const auto require = [&](SchemeCapability capability, const std::string& asked) {
+        if (has(options.integrator, capability)) return;
+        throw BadInput(fmt::format("--integrator {}: {}, and {}. {}", name_of(options.integrator), asked,
+                                   row_of(capability).reason, row_of(capability).remedy));
+    };
+    for (std::size_t body = 0; body < scene.solid.materials.size(); ++body)
+        if (scene.solid.materials[body].remembers())
+            require(SchemeCapability::memory,
+                    fmt::format("body '{}' is of a material that flows or is damped", scene.mesh.body_names[body]));
+    if (has_friction(scene, options)) require(SchemeCapability::friction, "bodies rub");
 }
 
 template <int Dim>

@@ -117,6 +117,7 @@ struct RunResult {
     std::vector<bool> may_turn;                    ///< which bodies are not
     TurnedBody turned;                             ///< at any record, of those that are
     WeakFriction weak_friction;                    ///< of bodies that slide, with the longest time
+    Compressed compressed;                         ///< bodies pressed into each other deepest, until the last record
     bool finite_kinematic_hardening = false;       ///< a body of finite strains hardens kinematically
     std::vector<solid::BodyInertia<Dim>> inertia;  ///< of the bodies; empty except on the first rank
     solid::StencilReport stencils;                 ///< of the faces between cells

@@ -12,6 +12,7 @@
 #include "abut/run/of_all_ranks.hpp"
 #include "abut/run/pilot.hpp"
 #include "abut/run/run_identity.hpp"
+#include "abut/run/slow_cell.hpp"
 #include "abut/run/start.hpp"
 #include "abut/run/time_loop.hpp"
 #include "abut/run/user_words.hpp"
@@ -60,6 +61,7 @@ RunResult<Dim> simulated(const Scene<Dim>& scene, const RunOptions& given, Obser
         if (start->solid->contact().pair_potential()) result.options.law = solid::ContactLaw::pair_potential;
         result.threads = static_cast<int>(global_control::active_value(global_control::max_allowed_parallelism));
         result.seconds.setup = seconds.setup;
+        require_even_cells(scene, result);
         take_steps(*start, observer, from);
     }
     start->result.seconds.total = seconds.total;

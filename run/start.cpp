@@ -13,6 +13,7 @@
 #include "abut/dynamics/ranks.hpp"
 #include "abut/run/of_all_ranks.hpp"
 #include "abut/run/rest_energy.hpp"
+#include "abut/run/scheme_capabilities.hpp"
 #include "abut/run/settling.hpp"
 #include "abut/run/start_contact.hpp"
 #include "abut/solid/bond_view.hpp"
@@ -97,7 +98,7 @@ std::vector<std::array<std::int32_t, 2>> bonded_faces(const solid::Solid<Dim>& s
 template <int Dim>
 void check_for_ranks(const dynamics::Ranks& ranks, const Scene<Dim>& scene, const RunOptions& options) {
     dynamics::refuse_ranks(ranks, {{"a pilot run (--kinematics automatic)", options.kinematics == BodyKinematics::automatic},
-                                   {"local steps (memm_async)", options.integrator == SolidIntegrator::memm_async},
+                                   {"local steps (memm_async)", !has(options.integrator, SchemeCapability::ranks)},
                                    {"a scene that looks at each step (Scene::after_step)", bool(scene.after_step)}});
 }
 

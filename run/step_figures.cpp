@@ -1,8 +1,11 @@
 #include "abut/run/step_figures.hpp"
 
+#include <algorithm>
+
 #include "abut/base/parallel.hpp"
 #include "abut/dynamics/ledger.hpp"
 #include "abut/dynamics/sum_over.hpp"
+#include "abut/run/body_names.hpp"
 #include "abut/solid/contact_view.hpp"
 #include "abut/solid/solid.hpp"
 
@@ -32,9 +35,23 @@ Vector<Dim> momentum_from_outside(double time, std::int32_t n_bodies, const soli
     return given + time * weight;
 }
 
-#define ABUT_INSTANTIATE(Dim)                                                                    \
-    template double largest_speed<Dim>(const dynamics::RunView<Dim>&, const solid::Solid<Dim>&); \
-    template Vector<Dim> momentum_from_outside<Dim>(double, std::int32_t, const solid::Solid<Dim>&);
+template <int Dim>
+Compressed most_compressed(const Scene<Dim>& scene, const solid::Solid<Dim>& solid) {
+    Compressed most;
+    for (const solid::BodyImpulse<Dim>& pair : solid.contact().impulses()) {
+        most.steps = std::max(most.steps, pair.compressed_steps);
+        if (!(pair.compression > most.compression)) continue;
+        most.compression = pair.compression;
+        most.body_1 = quoted_name(scene, pair.body_1);
+        most.body_2 = quoted_name(scene, pair.body_2);
+    }
+    return most;
+}
+
+#define ABUT_INSTANTIATE(Dim)                                                                        \
+    template double largest_speed<Dim>(const dynamics::RunView<Dim>&, const solid::Solid<Dim>&);     \
+    template Vector<Dim> momentum_from_outside<Dim>(double, std::int32_t, const solid::Solid<Dim>&); \
+    template Compressed most_compressed<Dim>(const Scene<Dim>&, const solid::Solid<Dim>&);
 ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)
 #undef ABUT_INSTANTIATE

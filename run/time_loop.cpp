@@ -43,7 +43,7 @@ constexpr double sound_share = 0.5;
 const std::string observers_kind = "observers of a run";
 constexpr int observers_version = 5;
 const std::string looks_kind = "looks at surfaces";
-constexpr int looks_version = 5;
+constexpr int looks_version = 6;
 constexpr std::int64_t sightings_per_run = 40;  // looks for bodies past a rim and together with themselves, about
 
 /// One run, from the first step to the last.
@@ -303,8 +303,8 @@ private:
             result_.contact = solid_.contact().report();
             result_.sliding.record(result_.contact);
             const dynamics::LedgerEntry<Dim>& entry = result_.ledger.entries().back();
-            friction_watch_.record(entry.time, solid_.contact().impulses(), entry.losses.by_friction,
-                                   result_.accounts.speed);
+            friction_watch_.record(entry, solid_.contact().impulses(), result_.accounts.speed);
+            result_.compressed = most_compressed(scene_, solid_);
             if (!result_.all_may_turn) record_turned();
             result_.inadmissible_overlaps_max =
                 std::max(result_.inadmissible_overlaps_max, result_.contact.inadmissible_overlaps);

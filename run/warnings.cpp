@@ -149,17 +149,17 @@ void add_looks(Counts& counts, const RunResult<Dim>& result) {
 
 template <int Dim>
 std::vector<Warning> warnings_during(std::int64_t step, const RunResult<Dim>& result) {
-    const contact::ContactReport& contact = result.contact;
     const contact::ContactOptions& options = result.options.contact;
     Counts counts;
     add_sightings(counts, result);
-    if (contact.compressed_steps > 0)
+    if (const Compressed& pressed = result.compressed; pressed.steps > 0)
         counts.warnings.push_back(
             {WarningKind::compression, Severity::warning,
-             fmt::format("by step {} faces are pressed {:.2g} of D, the depth of their cells, into each other, more than "
-                         "{:g}; above {:g} the run stops. A lower speed or load makes it less",
-                         step, contact.compression_max, options.compression_warning, options.compression_limit),
-             contact.compression_max, options.compression_warning});
+             fmt::format("by step {} faces of {} and {} are pressed {:.2g} of D, the depth of their cells, into each other, "
+                         "more than {:g}; above {:g} the run stops. A lower speed or load makes it less",
+                         step, pressed.body_1, pressed.body_2, pressed.compression, options.compression_warning,
+                         options.compression_limit),
+             pressed.compression, options.compression_warning});
     return std::move(counts.warnings);
 }
 
@@ -172,12 +172,14 @@ std::vector<Warning> warnings_after(const RunResult<Dim>& result) {
     };
     add_motion(counts, result);
     add_looks(counts, result);
-    if (contact.compressed_steps > 0)
-        add(WarningKind::compression, contact.compression_max, result.options.contact.compression_warning,
-            fmt::format("strongly compressed in {} of {:.0f} steps, at most {:.2g} of D, the depth of their cells, {:g} is "
-                        "safe. A lower speed or load makes it less, a stiffer material too",
-                        contact.compressed_steps, static_cast<double>(result.steps) * result.dt / result.finest_dt,
-                        contact.compression_max, result.options.contact.compression_warning));
+    if (const Compressed& pressed = result.compressed; pressed.steps > 0)
+        add(WarningKind::compression, pressed.compression, result.options.contact.compression_warning,
+            fmt::format("{} and {} are strongly compressed in {} of {:.0f} steps, at most {:.2g} of D, the depth of their "
+                        "cells, {:g} is safe. A lower speed or load makes it less, "
+                        "a stiffer material too",
+                        pressed.body_1, pressed.body_2, pressed.steps,
+                        static_cast<double>(result.steps) * result.dt / result.finest_dt, pressed.compression,
+                        result.options.contact.compression_warning));
     if (contact.sliding_ratio_max > stiff_sliding_ratio)
         add(WarningKind::stiff_sliding, contact.sliding_ratio_max, stiff_sliding_ratio,
             fmt::format("faces are pressed into each other deeper than they are wide ({:.2g} of the width where they slide "

@@ -62,6 +62,8 @@ inline constexpr double high_sliding_pressure = 0.15;
 /// The time of the slowest cell over the median (SlowCell::share), below which a few bad cells cost most of the run
 /// [-]. Meshes of Gmsh have 0.15 and more.
 inline constexpr double slow_cell_share = 0.1;
+/// SlowCell::of_body below which a run does not begin: it would take a hundred times as long as for the other cells [-].
+inline constexpr double least_cell_share = 0.01;
 
 /// Bonded area over that where the sides of a bond lie opposite each other, below which glue is missing [-].
 inline constexpr double enough_bond = 0.99;
@@ -89,7 +91,7 @@ enum class WarningKind {
     unseen_edges,     ///< how much crossing edges look at each other [-]; threshold: below it the law that acts misses them
     behind_obstacle,  ///< a body, or all of them, behind an obstacle at the start; no value
     hidden_mode,     ///< RunOptions::interval where every record comes right after a restart; threshold: RunOptions::restart
-    compression,     ///< largest |g|/D [-]; threshold: ContactOptions::compression_warning
+    compression,     ///< Compressed::compression [-]; threshold: ContactOptions::compression_warning
     stiff_sliding,   ///< ContactReport::sliding_ratio_max [-]; threshold: stiff_sliding_ratio
     past_rim,        ///< time at which a body was past the rim of a flat obstacle [s]
     look_ended,      ///< the time from which on a body is not watched any more for parts that come together [s]

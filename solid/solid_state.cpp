@@ -17,7 +17,7 @@
 namespace abut::solid {
 namespace {
 
-constexpr std::uint32_t version = 6;
+constexpr std::uint32_t version = 7;
 
 template <int Dim>
 std::string kind() {
@@ -79,6 +79,8 @@ std::vector<std::byte> Solid<Dim>::state() const {
         put(state, pair.friction);
         state.put(pair.rubbing_impulse);
         put(state, pair.slip);
+        state.put(pair.compression);
+        state.put(pair.compressed_steps);
     }
     return std::move(state).finish();
 }
@@ -123,6 +125,8 @@ void Solid<Dim>::restore(std::span<const std::byte> bytes, std::span<const doubl
             take(state, pair.friction);
             pair.rubbing_impulse = state.get<double>();
             take(state, pair.slip);
+            pair.compression = state.get<double>();
+            pair.compressed_steps = state.get<std::int64_t>();
         }
         contact_->restore_impulses(std::move(impulses));
     }

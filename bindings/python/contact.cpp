@@ -16,6 +16,7 @@
 
 #include "abut.h"
 #include "contact_arguments.hpp"
+#include "docstrings.hpp"
 #include "option_fields.hpp"
 
 using namespace abut::python;
@@ -374,21 +375,7 @@ PYBIND11_MODULE(_contact, module) {
     exceptions->internal = exception(module, "InternalError", base, "A fault of Abut, or of a callback.");
 
     using namespace py::literals;
-    const std::string contact_text =
-        "Contact of bodies whose surfaces are made of nodes, and whose faces may turn.\n\n"
-        "nodes: (n_nodes, dim) at rest; faces: (n_faces, corners), two, three or four of them, or flat with "
-        "offsets; body: (n_faces); depth: (n_faces), half the height of the element behind each; stiffness: "
-        "(n_bodies), skin_stiffness or inf for a rigid body; shear_stiffness: the same with the shear modulus in place of "
-        "lambda + 2 mu, needed with friction; wanted(face_1, face_2): whether they may touch; "
-        "law_of(face_1, face_2): their law of friction, 0 that of the options, i the i-th of laws, below 0 none; "
-        "laws: dicts with the names of these options; own_coefficient(speed, slid, pressure): in place of friction; "
-        "interference_time: [s] over which faces that overlap at the start on purpose come to push each other, 0 none do; "
-        "interferes(face_1, face_2): whether they may overlap so, without it all; "
-        "cancel(): asked at the begin of each step, true cancels it; log(severity, text): told what ought to be known and "
-        "is no error; without it warnings.warn tells. They must call nothing of the contact, and nothing that holds it is "
-        "ever freed while they refer to "
-        "it. Options are those of abut_options in C: " +
-        defaults_of_options();
+    const std::string contact_text = docs::nodal_contact + defaults_of_options() + docs::nodal_contact_end;
     py::class_<NodalContact>(module, "NodalContact", contact_text.c_str())
         .def(py::init<const py::array&, const py::object&, const py::object&, const Packed<double>&, const Packed<double>&,
                       const py::object&, const py::object&, py::object, py::object, py::object, py::object,
@@ -398,55 +385,32 @@ PYBIND11_MODULE(_contact, module) {
              "law_of"_a = py::none(), "laws"_a = std::vector<py::dict>(), "own_coefficient"_a = py::none(),
              "interference_time"_a = 0.0, "interferes"_a = py::none())
         .def("step", &NodalContact::step, "dt"_a, "x_0"_a, "x_1"_a, "out"_a = py::none(), "mode"_a = "mean",
-             "From x_0 to x_1 within dt [s], > 0 (without friction nothing depends on it); adds the forces to out, which "
-             "may end before the nodes of obstacles do. mode: 'mean' of the "
-             "step, exact for energy, or 'end', for central differences. Returns energy_0, energy (W [J] at both ends), "
-             "work, active_pairs, "
-             "events, compression and correction; of friction friction_energy (E [J] at the end), dissipated (D [J] in the "
-             "step), sticking_faces and sliding_faces; interference_work [J] from outside.")
-        .def("evaluate", &NodalContact::evaluate, "x"_a, "out"_a = py::none(),
-             "W at x, without a step; adds its forces to out.")
+             docs::contact_step)
+        .def("evaluate", &NodalContact::evaluate, "x"_a, "out"_a = py::none(), docs::contact_evaluate)
         .def_property_readonly(
             "pairs", &NodalContact::pairs,
-            "Active pairs of the last step or evaluate, as a structured array; vectors have three components.")
-        .def_property_readonly("bodies", &NodalContact::bodies, "Force, moment and work by body, as a structured array.")
-        .def_property_readonly("body_pairs", &NodalContact::body_pairs, "Forces by pair of bodies, as a structured array.")
+            "Active pairs of the last step or evaluation, a structured array.\n\n"
+            "face_1, face_2; normal from the first into the second; gap_0 and gap_1 [m] at both ends; area [m^(dim-1)]; "
+            "normal_force, force on the second and friction [N]; events; active_share; compression; slip and point [m]. "
+            "Vectors have three components.")
+        .def_property_readonly("bodies", &NodalContact::bodies,
+                               "Force [N], moment [N m] and work [J] by body, a structured array.")
+        .def_property_readonly("body_pairs", &NodalContact::body_pairs, "Forces [N] by pair of bodies, a structured array.")
         .def_property_readonly("friction", &NodalContact::friction,
-                               "Friction of each face in the last step, as a structured array; a face with four corners "
-                               "appears by halves. After evaluate: faces and their slip, all else 0.")
+                               "Friction of each face in the last step, a structured array.\n\n"
+                               "face; normal_force, force and limit [N]; slip [m]; dissipated [J]. A face with four corners "
+                               "appears by halves. After an evaluation: faces and their slip, all else 0.")
         .def_property_readonly("report", &NodalContact::report, "Counters since the start; missed_contacts must stay 0.")
-        .def("stable_step", &NodalContact::stable_step, "mass"_a, "omega_free"_a,
-             "How long a step may be, by estimate: mass of each node, highest frequency without contact [rad/s].")
-        .def("state", &NodalContact::state, "All that the next steps depend on, as bytes.")
-        .def("restore", &NodalContact::restore, "state"_a,
-             "Goes on from state() of a contact of the same surface and options: the next steps are bitwise identical.")
+        .def("stable_step", &NodalContact::stable_step, "mass"_a, "omega_free"_a, docs::contact_stable_step)
+        .def("state", &NodalContact::state, docs::contact_state)
+        .def("restore", &NodalContact::restore, "state"_a, docs::contact_restore)
         .def("surface_replaced", &NodalContact::surface_replaced, "nodes"_a, "faces"_a, "body"_a, "depth"_a, "stiffness"_a,
              "old_face_of"_a, "offsets"_a = py::none(), py::kw_only(), "shear_stiffness"_a = py::none(),
-             "Goes on with other faces, between two steps: the old number of each that was there before, else -1.");
-    module.def(
-        "find_overlaps", &find_overlaps, "nodes"_a, "faces"_a, "body"_a, "distance"_a, "offsets"_a = py::none(),
-        "Every pair of faces of two bodies that look at each other, share an area and have a gap of at most distance, as a "
-        "structured array with their distance in space beside it; faces with four corners appear by halves.");
+             docs::contact_surface_replaced);
+    module.def("find_overlaps", &find_overlaps, "nodes"_a, "faces"_a, "body"_a, "distance"_a, "offsets"_a = py::none(),
+               docs::find_overlaps);
     module.def("surface_of", &surface_of, "points"_a, "cells"_a, "body"_a = py::none(), py::kw_only(),
-               "with_cells"_a = false,
-               "The boundary of cells in the words of NodalContact, a dict: faces (flat), offsets, body, and depth, half "
-               "the height of the "
-               "cell behind each face. Faces look outwards whatever the sense of the cells. points: (n, dim) at rest. "
-               "cells: (n, corners) of "
-               "triangles, quadrangles, tetrahedra, pyramids, prisms or hexahedra, or several of them as {type: cells}, "
-               "pairs, or the "
-               "blocks of meshio. body: one number per cell; bodies have nodes of their own. with_cells: adds cell, the one "
-               "behind each "
-               "face.\n\n"
-               ">>> import abut, numpy as np\n"
-               ">>> points = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])\n"
-               ">>> surface = abut.surface_of(points, [[0, 1, 2], [0, 3, 2]])\n"
-               ">>> surface['faces'].reshape(-1, 2).tolist(), surface['depth'].tolist()\n"
-               "([[0, 1], [1, 2], [3, 0], [2, 3]], [0.5, 0.5, 0.5, 0.5])\n"
-               ">>> k = abut.skin_stiffness(1.0, surface['depth'])\n"
-               ">>> contact = abut.NodalContact(points, **surface, stiffness=[k])\n");
-    module.def("skin_stiffness", &skin_stiffness, "modulus"_a, "depth"_a,
-               "k of a body: lambda + 2 mu over the mean depth of those of its faces that will touch; with mu its shear "
-               "stiffness.");
-    module.def("limit_threads", &limit_threads, "n"_a, "Threads that all contacts use together; 0: all cores.");
+               "with_cells"_a = false, docs::surface_of);
+    module.def("skin_stiffness", &skin_stiffness, "modulus"_a, "depth"_a, docs::skin_stiffness);
+    module.def("limit_threads", &limit_threads, "n"_a, docs::limit_threads);
 }

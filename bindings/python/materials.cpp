@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <optional>
 #include <string>
 #include <utility>
@@ -12,6 +13,7 @@
 #include "abut/base/error.hpp"
 #include "abut/solid/material/known_materials.hpp"
 #include "abut/solid/material/material_numbers.hpp"
+#include "docstrings.hpp"
 #include "numbers.hpp"
 
 namespace py = pybind11;
@@ -97,19 +99,20 @@ py::dict all_known() {
     return all;
 }
 
+/// With a capital in front and a full stop.
+std::string sentence(std::string text) {
+    text.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(text.front())));
+    return text + ".";
+}
+
 }  // namespace
 
 void add_materials(py::module_& module) {
-    py::class_<solid::Material> of_material(
-        module, "Material",
-        "Elasticity, and plasticity where the law has it; plane strain in 2D. Values are given by name, and may be texts "
-        "with units, young=\"210 GPa\"; with a "
-        "name in "
-        "front, Material(\"steel S235\", law=\"j2\"), those of known_materials() stand where none is given.");
+    py::class_<solid::Material> of_material(module, "Material", docs::material);
     of_material.def(py::init(&material_of), "material"_a = py::none());
     for (const solid::MaterialNumber& number : solid::material_numbers) {
         const std::string unit = number.limits.unit;
-        const std::string doc = number.help + (unit.empty() ? "" : " [" + unit + "]");
+        const std::string doc = sentence(number.help + (unit.empty() ? "" : " [" + unit + "]"));
         of_material.def_property(
             number.name, [member = number.member](const solid::Material& material) { return material.*member; },
             [&number](solid::Material& material, const py::object& value) {
@@ -120,13 +123,13 @@ void add_materials(py::module_& module) {
     of_material.def_property(
         "law", [](const solid::Material& material) { return word_of(solid::material_law_words, material.law); },
         [](solid::Material& material, const std::string& law) { material.law = material_law(law); },
-        "beyond small strains: 'st_venant_kirchhoff', of finite bodies 'neo_hookean' or 'mooney_rivlin', or 'j2', which "
-        "yields, or 'orthotropic', which has other moduli along axes of its own");
+        "Law beyond isotropic elasticity of small strains.\n\n"
+        "'st_venant_kirchhoff', of finite bodies 'neo_hookean' or 'mooney_rivlin', or 'j2', which yields, or 'orthotropic', "
+        "which has other moduli along axes of its own.");
     of_material.def_readwrite("axis_1", &solid::Material::axis_1,
-                              "of orthotropic in 3D: direction of axis 1 at rest (3), of any length");
-    of_material.def_readwrite(
-        "axis_2", &solid::Material::axis_2,
-        "of orthotropic in 3D: direction of axis 2 (3), at a right angle to it; axis 3 completes both");
+                              "Direction of axis 1 at rest (3,), of any length, of orthotropic in 3D.");
+    of_material.def_readwrite("axis_2", &solid::Material::axis_2,
+                              "Direction of axis 2 (3,), at a right angle to axis 1, of orthotropic in 3D.");
     of_material.def_property(
         "hardening_table",
         [](const solid::Material& material) {
@@ -138,13 +141,10 @@ void add_materials(py::module_& module) {
             material.hardening_table = hardening_table(rows);
             if (!material.hardening_table.empty()) material.yield_stress = material.hardening_table.front().stress;
         },
-        "of j2, in the place of yield_stress and of what rises: rows [plastic strain, stress at which it flows there [Pa]], "
-        "from "
-        "the strain 0 on; straight between rows, constant behind the last");
-    module.def("known_materials", &all_known,
-               "Materials that scenes and Material know by their names: values [Pa, kg/m^3], yield_stress 0 where there is "
-               "none, and "
-               "sources.");
+        "Rows [plastic strain, stress at which it flows there [Pa]], of j2.\n\n"
+        "It takes the place of yield_stress and of what rises. Strains begin at 0; stresses are straight between rows, and "
+        "constant behind the last.");
+    module.def("known_materials", &all_known, docs::known_materials);
 }
 
 }  // namespace abut::python

@@ -12,6 +12,7 @@
 #include "abut/mesh/io/write_vtu.hpp"
 #include "abut/mesh/mesh.hpp"
 #include "abut/mesh/shapes/shapes.hpp"
+#include "docstrings.hpp"
 #include "vectors.hpp"
 
 namespace abut::python {
@@ -207,34 +208,36 @@ py::dict groups_of(const Mesh<Dim>& mesh) {
 
 template <int Dim>
 void add_mesh(py::module_& module, const char* name) {
-    py::class_<Mesh<Dim>>(module, name, "Bodies that share no point, cell or face; made by the functions of this module.")
-        .def_property_readonly("name", [](const Mesh<Dim>& mesh) { return text_of(mesh.name); })
+    py::class_<Mesh<Dim>>(module, name, docs::mesh_class)
         .def_property_readonly(
-            "points", [](const Mesh<Dim>& mesh) { return copy_of_vectors<Dim>(mesh.vertices); }, "(n_points, dim) [m]")
+            "name", [](const Mesh<Dim>& mesh) { return text_of(mesh.name); }, "Name of the mesh in messages.")
+        .def_property_readonly(
+            "points", [](const Mesh<Dim>& mesh) { return copy_of_vectors<Dim>(mesh.vertices); },
+            "Positions of the points (n_points, dim) [m].")
         .def_property_readonly("cells", &cells_of<Dim>,
-                               "[(type, (n, corners)), ...] in the order of the cells, as in meshio.")
+                               "Cells as meshio has them, [(type, (n, corners)), ...], in their order.")
         .def_property_readonly(
-            "body", [](const Mesh<Dim>& mesh) { return copy_of(mesh.cell_body); }, "(n_cells)")
+            "body", [](const Mesh<Dim>& mesh) { return copy_of(mesh.cell_body); }, "Body of each cell (n_cells,).")
         .def_property_readonly(
             "label", [](const Mesh<Dim>& mesh) { return copy_of(mesh.cell_label); },
-            "(n_cells) the number of each cell in what the mesh was made of: cells are renumbered.")
+            "Number of each cell in what the mesh was made of (n_cells,).")
         .def_property_readonly(
             "centroids", [](const Mesh<Dim>& mesh) { return copy_of_vectors<Dim>(mesh.cell_centroid); },
-            "(n_cells, dim) [m]")
+            "Centroids of the cells (n_cells, dim) [m].")
         .def_property_readonly(
-            "measures", [](const Mesh<Dim>& mesh) { return copy_of(mesh.cell_measure); }, "(n_cells) [m^dim]")
-        .def_property_readonly("body_names", [](const Mesh<Dim>& mesh) { return texts_of(mesh.body_names); })
-        .def_property_readonly("groups", &groups_of<Dim>, "Named parts of the boundary, as rows of surface.")
+            "measures", [](const Mesh<Dim>& mesh) { return copy_of(mesh.cell_measure); },
+            "Areas or volumes of the cells (n_cells,) [m^dim].")
         .def_property_readonly(
-            "surface", &surface_of<Dim>,
-            "The boundary faces: faces (flat), offsets, body and depth, all that NodalContact takes beside "
-            "nodes and stiffness.")
-        .def_property_readonly("surface_cells", &cells_behind_surface<Dim>, "The cell behind each boundary face.")
-        .def("at_points", &python::at_points<Dim>, "values"_a,
-             "Mean over the cells around each point: (n_cells, ...) to (n_points, ...)")
+            "body_names", [](const Mesh<Dim>& mesh) { return texts_of(mesh.body_names); }, "Names of the bodies.")
+        .def_property_readonly("groups", &groups_of<Dim>, "Named parts of the boundary, {name: rows of `surface`}.")
+        .def_property_readonly("surface", &surface_of<Dim>,
+                               "Boundary faces, all that NodalContact takes beside nodes and stiffness.\n\n"
+                               "A dict: faces (flat), offsets, body, and depth [m].")
+        .def_property_readonly("surface_cells", &cells_behind_surface<Dim>, "Cell behind each boundary face (n_faces,).")
+        .def("at_points", &python::at_points<Dim>, "values"_a, docs::at_points)
         .def(
             "write_vtu", [](const Mesh<Dim>& mesh, const std::filesystem::path& path) { mesh::write_vtu(mesh, path); },
-            "path"_a, "The mesh alone, with the cell array \"body\".")
+            "path"_a, docs::write_vtu)
         .def(
             "_set_label",  // of a copy
             [](Mesh<Dim>& mesh, const std::vector<std::int64_t>& label) {
@@ -252,7 +255,7 @@ void add_mesh(py::module_& module, const char* name) {
             if (meshes.empty()) throw py::value_error("combine: there are no meshes; give one or more");
             return mesh::combine<Dim>(meshes);
         },
-        "meshes"_a, "One mesh of several bodies. Nothing is merged.");
+        "meshes"_a, docs::combine);
     module.def(
         "box",
         [](const std::array<double, Dim>& lower, const std::array<double, Dim>& upper, double size, int variant,
@@ -263,8 +266,7 @@ void add_mesh(py::module_& module, const char* name) {
                                    .variant = variant,
                                    .name = part});
         },
-        "lower"_a, "upper"_a, "size"_a = 0.1, "variant"_a = 0, "name"_a = "box",
-        "Triangles or tetrahedra. Groups \"xmin\", \"xmax\", ...");
+        "lower"_a, "upper"_a, "size"_a = 0.1, "variant"_a = 0, "name"_a = "box", docs::box);
     module.def(
         "structured_box",
         [](const std::array<double, Dim>& lower, const std::array<double, Dim>& upper, const std::array<int, Dim>& counts,
@@ -273,7 +275,7 @@ void add_mesh(py::module_& module, const char* name) {
                                              shape_of(shape, Dim).shape, part);
         },
         "lower"_a, "upper"_a, "counts"_a, "shape"_a = Dim == 2 ? "quad" : "hexahedron", "name"_a = "box",
-        "Equal bricks, each cut into cells of one shape. Groups \"xmin\", \"xmax\", ...");
+        docs::structured_box);
 }
 
 }  // namespace
@@ -319,7 +321,7 @@ void add_meshes(py::module_& module) {
             throw py::value_error("dim is " + std::to_string(dim) + "; 2 and 3 are allowed");
         },
         "path"_a, "dim"_a, "non_planar"_a = "fail", "planarity_tolerance"_a = MeshOptions{}.planarity_tolerance,
-        "A .msh or .vtu file. See mesh for the last two.");
+        docs::read_mesh);
     module.def(
         "disc",
         [](const std::array<double, 2>& centre, double radius, double size, int variant, const std::string& name) {
@@ -327,7 +329,7 @@ void add_meshes(py::module_& module) {
                 {.centre = Vector<2>(centre.data()), .radius = radius, .size = size, .variant = variant, .name = name});
         },
         "centre"_a = std::array<double, 2>{}, "radius"_a = 1.0, "size"_a = 0.1, "variant"_a = 0, "name"_a = "disc",
-        "Triangles. Group \"boundary\". Equal parts in contact need different variants, or their meshes match.");
+        docs::disc);
     module.def(
         "cylinder",
         [](const std::array<double, 3>& centre, double radius, double length, double size, int variant,
@@ -340,7 +342,7 @@ void add_meshes(py::module_& module) {
                                    .name = name});
         },
         "centre"_a = std::array<double, 3>{}, "radius"_a = 1.0, "length"_a = 1.0, "size"_a = 0.1, "variant"_a = 0,
-        "name"_a = "cylinder", "Tetrahedra, the axis along z. Groups \"side\", \"bottom\" (low z), \"top\".");
+        "name"_a = "cylinder", docs::cylinder);
     module.def(
         "sphere",
         [](const std::array<double, 3>& centre, double radius, double size, int variant, const std::string& name) {
@@ -348,7 +350,7 @@ void add_meshes(py::module_& module) {
                 {.centre = Vector<3>(centre.data()), .radius = radius, .size = size, .variant = variant, .name = name});
         },
         "centre"_a = std::array<double, 3>{}, "radius"_a = 1.0, "size"_a = 0.1, "variant"_a = 0, "name"_a = "sphere",
-        "Tetrahedra. Group \"boundary\".");
+        docs::sphere);
 }
 
 }  // namespace abut::python

@@ -86,6 +86,23 @@ const Option<run::RunOptions>& option_of(const std::string& name) {
     throw py::type_error("there is no option '" + name + "'; there are " + names);
 }
 
+/// "{'memm', 'leapfrog'}"
+std::string type_of(const OptionFacts& option) {
+    switch (option.kind) {
+        case OptionKind::truth:
+            return option.is_switch ? "bool, 'on' or 'off'" : "bool";
+        case OptionKind::count:
+            return "int";
+        case OptionKind::number:
+            return "float";
+        case OptionKind::path:
+            return "path";
+        case OptionKind::word:
+            break;
+    }
+    return "{" + quoted(option.words) + "}";
+}
+
 }  // namespace
 
 run::RunOptions options_of(const py::dict& given) {
@@ -118,14 +135,12 @@ void take_options(const py::dict& given, run::RunOptions& options) {
 
 std::string option_text() {
     const run::RunOptions plain;
-    std::string text = "  preset: several choices at once, below all others; " + quoted(preset_names()) + "\n";
+    std::string text = "preset : {" + quoted(preset_names()) + "}\n    Several choices at once, below all others.\n";
     for (const auto& option : run::run_options()) {
         if (!option.places.python) continue;
-        text += "  " + option.name + ": " + option.help;
-        if (option.kind == OptionKind::word) text += "; " + quoted(option.words);
-        if (*option.limits.unit != '\0') text += " [" + std::string(option.limits.unit) + "]";
         const std::string usual = default_text(option, option.get(plain));
-        text += usual.empty() ? "\n" : " (default " + usual + ")\n";
+        text += option.name + " : " + type_of(option) + (usual.empty() ? "" : ", default " + usual) + "\n    " + option.help;
+        text += (*option.limits.unit != '\0' ? " [" + std::string(option.limits.unit) + "]" : "") + "\n";
     }
     return text;
 }

@@ -26,6 +26,7 @@
 #include "abut/solid/options/option_words.hpp"
 #include "abut/solid/outside_view.hpp"
 #include "abut/solid/stepped_run.hpp"
+#include "docstrings.hpp"
 #include "in_use.hpp"
 #include "record.hpp"
 #include "scenes.hpp"
@@ -368,100 +369,65 @@ py::object memm_of_source(const SceneSource& source, const std::vector<std::stri
     return file.dimension() == 2 ? memm_of_file<2>(file, outside) : memm_of_file<3>(file, outside);
 }
 
-constexpr const char* scene_text =
-    "mesh; materials: one per body; velocity: of each body at the start (n_bodies, dim) [m/s]; acceleration: of gravity, "
-    "the "
-    "same shape; held: {group: displacement [m]}; rollers: groups held along their normals; traction: {group: traction "
-    "[Pa]}; "
-    "temperature_rise: {body: kelvins above where it has no thermal strain}, a number or a function of t and x that is "
-    "asked for "
-    "each cell in each step; "
-    "displacement(x), added_velocity(x): at the start, by position; contact: False lets bodies pass through each other. "
-    "Options, those of the command line of abut run with _ for -:\n";
-
 template <int Dim>
 void add_dimension(py::module_& module, const std::string& suffix) {
-    auto glance = py::class_<Glance<Dim>, std::shared_ptr<Glance<Dim>>>(module, ("State" + suffix).c_str(),
-                                                                        "A run at one moment; good while look is called.");
+    auto glance =
+        py::class_<Glance<Dim>, std::shared_ptr<Glance<Dim>>>(module, ("State" + suffix).c_str(), docs::state_class);
     add_state(glance, [](const Glance<Dim>& self) { return self.now(); });
 
-    auto memm = py::class_<Memm<Dim>>(module, ("Memm" + suffix).c_str(), "A solid under MEMM, step by step; made by memm.");
+    auto memm = py::class_<Memm<Dim>>(module, ("Memm" + suffix).c_str(), docs::memm_class);
     add_state(memm, [](Memm<Dim>& self) { return typename Memm<Dim>::Held(self); });
-    memm.def("step", &Memm<Dim>::step, "n"_a = 1, "Takes n steps; Ctrl-C ends them.")
-        .def("set_step", &Memm<Dim>::set_step, "dt"_a, "change"_a,
-             "Another dt [s] from the next step on. change: 'keep', for slow and smooth changes, or 'restart', for abrupt "
-             "ones.")
-        .def("set_traction", &Memm<Dim>::set_traction, "group"_a, "traction"_a,
-             "Tractions (n_faces, dim) [Pa] on a group of `outside`, from the next step on until they are set again.")
-        .def("faces", &Memm<Dim>::faces, "group"_a,
-             "Of a group of `outside`, a dict: position [m] and velocity [m/s] of the centroids, normal, area at rest, "
-             "traction [Pa] as set last, motion [m]: how far the centroids go in the next step, whatever the traction.")
+    memm.def("step", &Memm<Dim>::step, "n"_a = 1, docs::memm_step)
+        .def("set_step", &Memm<Dim>::set_step, "dt"_a, "change"_a, docs::memm_set_step)
+        .def("set_traction", &Memm<Dim>::set_traction, "group"_a, "traction"_a, docs::memm_set_traction)
+        .def("faces", &Memm<Dim>::faces, "group"_a, docs::memm_faces)
         .def_property_readonly("outside_work", &Memm<Dim>::outside_work,
-                               "[J]: steps, sum of area traction . motion; changes, what the bodies take in where tractions "
-                               "change; held, what H~ has less for the tractions that act; heat, of temperatures that vary.")
+                               "Works of tractions from outside so far, a dict [J].\n\n"
+                               "steps: sum of area traction . motion; changes: what the bodies take in where tractions "
+                               "change; held: what H~ has less for the tractions that act; heat: of temperatures that vary.")
         .def(
             "clock", [](Memm<Dim>& self, const std::string& impulse) { return std::make_unique<Clock<Dim>>(self, impulse); },
-            "impulse"_a = "as_given", py::keep_alive<0, 1>(),
-            "For times that you dictate, while the solid keeps its dt: a Clock. impulse: 'as_given', the mean of your "
-            "tractions acts in "
-            "each step and works are the same to round-off; 'trapezoid', that of loads at both nodes, for tractions that "
-            "answer to the "
-            "motion in a run without restarts. Make another one after remove_cells.")
-        .def("remove_cells", &Memm<Dim>::remove_cells, "cells"_a,
-             "Goes on without these cells, by their numbers in `mesh`: the others keep their order. Returns what has left: "
-             "cells, mass [kg], momentum [kg m/s], kinetic and potential (V before less V after) [J]. dt stays: look at "
-             "stable_dt.")
+            "impulse"_a = "as_given", py::keep_alive<0, 1>(), docs::memm_clock)
+        .def("remove_cells", &Memm<Dim>::remove_cells, "cells"_a, docs::memm_remove_cells)
         .def_property_readonly(
-            "mesh", [](const Memm<Dim>& self) { return mesh::Mesh<Dim>(self.mesh()); }, "as it is now, a copy")
-        .def("record", &Memm<Dim>::record,
-             "Adds a row to the ledger; costs about two forces. Raises Diverged where the energy is not finite.")
+            "mesh", [](const Memm<Dim>& self) { return mesh::Mesh<Dim>(self.mesh()); }, "Mesh as it is now, a copy.")
+        .def("record", &Memm<Dim>::record, docs::memm_record)
         .def_property_readonly("ledger", &Memm<Dim>::ledger,
-                               "The columns of energy.csv, a structured array; its first row is the start.")
-        .def_property_readonly("dt", &Memm<Dim>::dt, "[s]")
-        .def_property_readonly("stable_dt", &Memm<Dim>::stable_dt, "[s]")
-        .def_property_readonly("masses", &Memm<Dim>::masses, "of the cells [kg]")
-        .def_property_readonly("bodies", &Memm<Dim>::bodies, "mass [kg], velocity [m/s] and rotation [rad] of each")
+                               "Columns of energy.csv, a structured array; its first row is the start.")
+        .def_property_readonly("dt", &Memm<Dim>::dt, "Length of the steps [s].")
+        .def_property_readonly("stable_dt", &Memm<Dim>::stable_dt, "Longest stable step [s].")
+        .def_property_readonly("masses", &Memm<Dim>::masses, "Masses of the cells (n_cells,) [kg].")
+        .def_property_readonly("bodies", &Memm<Dim>::bodies,
+                               "Mass [kg], velocity [m/s] and rotation [rad] of each body, a list of dicts.")
         .def_property_readonly("contact", &Memm<Dim>::contact, "Counters since the start; missed_contacts must stay 0.");
 
-    py::class_<typename Clock<Dim>::State>(module, ("ClockState" + suffix).c_str(), "What Clock.restore goes back to.");
-    py::class_<Clock<Dim>>(module, ("Clock" + suffix).c_str(), "Times that you dictate to a run; made by memm.clock.")
-        .def("advance", &Clock<Dim>::advance, "d"_a,
-             "Goes on by d [s], of any length; steps of the run are taken as nodes are passed.")
-        .def("set_traction", &Clock<Dim>::set_traction, "group"_a, "traction"_a,
-             "Tractions (n_faces, dim) [Pa] on a group of `outside`, from now on until they are set again.")
-        .def("motion", &Clock<Dim>::motion, "group"_a, "d"_a,
-             "How far the centroids go in the next d, at most time_to_node, whatever the traction (n_faces, dim) [m].")
-        .def("faces", &Clock<Dim>::faces, "group"_a, "As faces of the run, now; motion is that until the next node.")
-        .def("state", &Clock<Dim>::state, "For restore.")
-        .def("restore", &Clock<Dim>::restore, "state"_a,
-             "Goes back, for a step that is rejected: what follows has the same bits. The ledger keeps its rows.")
-        .def_property_readonly("displacement", &Clock<Dim>::displacement, "of the points that carry mass, now (n, dim) [m]")
-        .def_property_readonly("time", &Clock<Dim>::time, "[s]")
-        .def_property_readonly("time_to_node", &Clock<Dim>::time_to_node, "to the next node of the run [s], > 0");
+    py::class_<typename Clock<Dim>::State>(module, ("ClockState" + suffix).c_str(), docs::clock_state_class);
+    py::class_<Clock<Dim>>(module, ("Clock" + suffix).c_str(), docs::clock_class)
+        .def("advance", &Clock<Dim>::advance, "d"_a, docs::clock_advance)
+        .def("set_traction", &Clock<Dim>::set_traction, "group"_a, "traction"_a, docs::memm_set_traction)
+        .def("motion", &Clock<Dim>::motion, "group"_a, "d"_a, docs::clock_motion)
+        .def("faces", &Clock<Dim>::faces, "group"_a, docs::clock_faces)
+        .def("state", &Clock<Dim>::state, docs::clock_state)
+        .def("restore", &Clock<Dim>::restore, "state"_a, docs::clock_restore)
+        .def_property_readonly("displacement", &Clock<Dim>::displacement,
+                               "Displacement of the points that carry mass, now (n, dim) [m].")
+        .def_property_readonly("time", &Clock<Dim>::time, "Time now [s].")
+        .def_property_readonly("time_to_node", &Clock<Dim>::time_to_node, "Time to the next node of the run [s], > 0.");
 
     const std::map<std::string, py::object> none;
-    module.def(
-        "simulate", &simulate<Dim>, "mesh"_a, "materials"_a, "velocity"_a, py::kw_only(), "acceleration"_a = py::none(),
-        "held"_a = none, "rollers"_a = std::vector<std::string>(), "traction"_a = none, "temperature_rise"_a = none,
-        "displacement"_a = py::none(), "added_velocity"_a = py::none(), "contact"_a = true, "energy_scale"_a = py::none(),
-        "look"_a = py::none(),
-        (std::string(
-             "Runs a scene and returns a dict: ledger (structured array), displacement at the end [m], start and end (mass "
-             "[kg], "
-             "velocity [m/s], rotation [rad] of each body), steps, dt and stable_dt [s], complete, energy_scale [J], "
-             "contact "
-             "(counters), verdict (a text), good (whether it is), warnings (texts), seconds. "
-             "look(state): called at the start and after each step; True makes the next one the last. energy_scale: [J], "
-             "by default the largest energy in play so far. out: a folder for energy.csv, pictures and the VTU series. ") +
-         scene_text + option_text())
-            .c_str());
+    module.def("simulate", &simulate<Dim>, "mesh"_a, "materials"_a, "velocity"_a, py::kw_only(),
+               "acceleration"_a = py::none(), "held"_a = none, "rollers"_a = std::vector<std::string>(), "traction"_a = none,
+               "temperature_rise"_a = none, "displacement"_a = py::none(), "added_velocity"_a = py::none(),
+               "contact"_a = true, "energy_scale"_a = py::none(), "look"_a = py::none(),
+               (std::string(docs::simulate) + docs::scene_parameters + docs::simulate_parameters + docs::simulate_returns +
+                option_text() + docs::simulate_end)
+                   .c_str());
     module.def("memm", &make_memm<Dim>, "mesh"_a, "materials"_a, "velocity"_a, py::kw_only(), "acceleration"_a = py::none(),
                "held"_a = none, "rollers"_a = std::vector<std::string>(), "traction"_a = none, "temperature_rise"_a = none,
                "displacement"_a = py::none(), "added_velocity"_a = py::none(), "contact"_a = true,
                "outside"_a = std::vector<std::string>(),
-               (std::string("The same under MEMM, to be taken step by step; options of steps and files are for simulate. "
-                            "outside: groups that set_traction loads. ") +
-                scene_text + option_text())
+               (std::string(docs::memm) + docs::scene_parameters + docs::memm_parameters + docs::memm_returns +
+                option_text() + docs::memm_end)
                    .c_str());
 }
 

@@ -74,25 +74,30 @@ private:
 template <class Class, class StateOf>
 void add_state(Class& made, StateOf state_of) {
     using Self = typename Class::type;
-    made.def_property_readonly("steps", [=](Self& self) { return state_of(self)->steps(); })
+    made.def_property_readonly(
+            "steps", [=](Self& self) { return state_of(self)->steps(); }, "Steps taken so far.")
         .def_property_readonly(
-            "time", [=](Self& self) { return state_of(self)->time(); }, "[s]")
+            "time", [=](Self& self) { return state_of(self)->time(); }, "Time [s].")
         .def_property_readonly(
-            "displacement", [=](Self& self) { return state_of(self)->displacement(); }, "of the cells, (n_cells, dim) [m]")
+            "displacement", [=](Self& self) { return state_of(self)->displacement(); },
+            "Displacement of the cells (n_cells, dim) [m].")
         .def_property_readonly(
             "point_displacement", [=](Self& self) { return state_of(self)->point_displacement(); },
-            "of the points, (n_points, dim) [m]")
+            "Displacement of the points (n_points, dim) [m].")
         .def_property_readonly(
-            "velocity", [=](Self& self) { return state_of(self)->velocity(); }, "of the cells, (n_cells, dim) [m/s]")
+            "velocity", [=](Self& self) { return state_of(self)->velocity(); },
+            "Velocity of the cells (n_cells, dim) [m/s].")
         .def_property_readonly(
-            "stress", [=](Self& self) { return state_of(self)->stress(); }, "(n_cells, dim, dim) [Pa]")
+            "stress", [=](Self& self) { return state_of(self)->stress(); }, "Stress of the cells (n_cells, dim, dim) [Pa].")
         .def_property_readonly(
-            "von_mises", [=](Self& self) { return state_of(self)->von_mises(); }, "(n_cells) [Pa]")
+            "von_mises", [=](Self& self) { return state_of(self)->von_mises(); },
+            "Von Mises stress of the cells (n_cells,) [Pa].")
         .def_property_readonly(
-            "plastic_strain", [=](Self& self) { return state_of(self)->plastic_strain(); }, "(n_cells) [-]")
+            "plastic_strain", [=](Self& self) { return state_of(self)->plastic_strain(); },
+            "Plastic strain of the cells (n_cells,) [-].")
         .def_property_readonly(
             "contact_pressure", [=](Self& self) { return state_of(self)->contact_pressure(); },
-            "of the boundary faces, in the order of surface [Pa]");
+            "Contact pressure of the boundary faces (n_faces,) [Pa], in the order of `surface`.");
 }
 
 /// Argument with which `look` is called; good for that call alone.

@@ -43,7 +43,13 @@ struct BodyImpulse {
     /// Sum of normal force times slip of these pairs, over all steps [N m]: over `rubbing_impulse` it is a velocity,
     /// that of body 2 past body 1 where they press.
     Vector<Dim> slip = Vector<Dim>::Zero();
+    /// Largest |g|/D of a step above the warning that pairs with `bearing_share` of the normal force reach [-]; 0: none.
+    double compression = 0.0;
+    std::int64_t compressed_steps = 0;  ///< steps with such a compression
 };
+
+/// Part of the normal force of two bodies below which the pairs that are pressed in deepest do not count [-].
+inline constexpr double bearing_share = 0.01;
 
 /// Contact pressure [Pa] and smallest gap [m] of each boundary face, in the order of Mesh::boundary_faces; a face without an
 /// admitted partner that shares area with it has pressure 0 and gap infinity.

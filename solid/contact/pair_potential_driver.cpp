@@ -299,12 +299,15 @@ void PairPotentialDriver<Dim>::add_impulses(double dt) {
         if (pair.active_pairs > 0)
             this->impulses_.add(bodies_.mesh_body(pair.body_1), bodies_.mesh_body(pair.body_2), dt * pair.force,
                                 dt * pair.normal_force);
-    if (contact_.last().friction.empty()) return;
     const auto mesh_body_of = [&](contact::Face face) {
         return bodies_.mesh_body(static_cast<std::int32_t>(corners_.body_of(static_cast<std::size_t>(face))));
     };
-    for (const contact::PairStep<Dim>& pair : contact_.last().pairs)
-        this->impulses_.add_friction(mesh_body_of(pair.face_1), mesh_body_of(pair.face_2), pair, dt);
+    const contact::NodalStep<Dim>& step = contact_.last();
+    if (!step.friction.empty())
+        for (const contact::PairStep<Dim>& pair : step.pairs)
+            this->impulses_.add_friction(mesh_body_of(pair.face_1), mesh_body_of(pair.face_2), pair, dt);
+    const double warning = bodies_.deformable_options().contact->compression_warning;
+    if (step.report.compression > warning) this->impulses_.add_compression(step.pairs, mesh_body_of, warning);
 }
 
 template <int Dim>

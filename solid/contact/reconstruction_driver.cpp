@@ -318,10 +318,13 @@ void ReconstructionDriver<Dim>::take_obstacle_forces(double share, double& work)
 template <int Dim>
 void ReconstructionDriver<Dim>::add_impulses(double dt) {
     const auto body = [&](contact::Face face) { return surface_.body[static_cast<std::size_t>(face)]; };
-    for (const contact::PairStep<Dim>& pair : contact_->last().pairs) {
+    const contact::ContactStep<Dim>& step = contact_->last();
+    for (const contact::PairStep<Dim>& pair : step.pairs) {
         this->impulses_.add(body(pair.face_1), body(pair.face_2), dt * pair.force, dt * pair.normal_force);
         this->impulses_.add_friction(body(pair.face_1), body(pair.face_2), pair, dt);
     }
+    if (const double warning = options_.compression_warning; step.report.compression > warning)
+        this->impulses_.add_compression(step.pairs, body, warning);
 }
 
 template <int Dim>

@@ -3,11 +3,15 @@
 #include "abut/run/warnings.hpp"
 
 #include <algorithm>
+#include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
 #include <tuple>
+#include <utility>
+#include <vector>
 
+#include "abut/base/error.hpp"
 #include "abut/run/simulation.hpp"
 #include "run/scenes.hpp"
 
@@ -45,8 +49,7 @@ TEST_CASE("each figure above its threshold is a warning of its kind with value a
     result.contact.sliding_ratio_max *= 2.0;
     result.contact.slipped_compression_max *= 2.0;
     result.contact.missed_contacts = 3;
-    result.contact.compressed_steps = 4;
-    result.contact.compression_max = 0.5;
+    result.compressed = {"'a'", "obstacle 'floor'", 0.5, 4};
     result.inadmissible_overlaps_max = 7;
     const auto warnings = run::warnings_after(result);
     CHECK(kinds(warnings) == std::vector{WarningKind::compression, WarningKind::stiff_sliding, WarningKind::deep_slip,
@@ -59,6 +62,47 @@ TEST_CASE("each figure above its threshold is a warning of its kind with value a
     }
     CHECK(run::without_notes(warnings).size() == 4);
     CHECK(kinds(run::warnings_during(3, result)) == std::vector{WarningKind::compression});
+}
+
+TEST_CASE("a run does not begin with a cell a hundred times as fast as most of its body, unless its step is given",
+          "[run][warnings]") {
+    // Two rows of squares of 1, and last cells of width w: 2 d area/outline is 2 w/(1 + w), and 1 for a square.
+    const auto rows = [](double width) {
+        mesh::CellSoup<2> soup{.name = "rows"};
+        for (int i = 0; i <= 6; ++i)
+            for (int k = 0; k <= 2; ++k) soup.vertices.push_back({std::min<double>(i, 5.0 + width), static_cast<double>(k)});
+        for (int i = 0; i < 12; ++i) {
+            const int corner = 3 * (i / 2) + i % 2;
+            soup.cell_shape.push_back(mesh::CellShape::quadrangle);
+            soup.cell_vertices.append(std::array{corner, corner + 3, corner + 4, corner + 1});
+            soup.cell_body.push_back(0);
+        }
+        soup.body_names = {"rows"};
+        return mesh::build_mesh<2>(std::move(soup));
+    };
+    const auto scene_of = [](mesh::Mesh<2> bodies) {
+        run::Scene<2> scene;
+        scene.solid.materials.resize(static_cast<std::size_t>(bodies.n_bodies()), {.young = 1.0, .density = 1.0});
+        scene.velocity.resize(static_cast<std::size_t>(bodies.n_bodies()), Vector<2>(0.1, 0.0));
+        scene.mesh = std::move(bodies);
+        return scene;
+    };
+    const run::RunOptions options{.steps = 1};
+    CHECK_NOTHROW(run::simulate<2>(scene_of(rows(0.0051)), options));  // 0.0101 of the median
+    const run::Scene<2> uneven = scene_of(rows(0.0049));               // 0.0098
+    try {
+        static_cast<void>(run::simulate<2>(uneven, options));
+        FAIL("one cell takes 0.0098 of the median");
+    } catch (const BadInput& error) {
+        CHECK(error.facts().cell >= 10);
+        CHECK(error.facts().value == Approx(2.0 * 0.0049 / 1.0049));
+        CHECK(error.facts().allowed == run::least_cell_share);
+    }
+    CHECK_NOTHROW(run::simulate<2>(uneven, {.steps = 1, .dt = 1e-5}));
+    // A body of small cells is as even as one of large ones.
+    mesh::Mesh<2> small =
+        mesh::structured_box<2>({10.0, 0.0}, {10.004, 0.002}, {4, 2}, mesh::CellShape::quadrangle, "small");
+    CHECK_NOTHROW(run::simulate<2>(scene_of(mesh::combine<2>(std::vector{rows(1.0), std::move(small)})), options));
 }
 
 TEST_CASE("a finite body that is strained too far is told of, with how near a cell came to a collapse", "[run][warnings]") {

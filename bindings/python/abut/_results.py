@@ -9,10 +9,24 @@ from . import _show
 
 
 class Frames:
-    """Fields at some times of a run, arrays whose first axis is that of the frames.
+    """Fields at some times of a run: arrays whose first axis is that of the n frames.
 
-    step; time [s]; displacement and velocity (n, n_cells, dim) [m], [m/s]; stress (n, n_cells, dim, dim) [Pa]; von_mises
-    (n, n_cells) [Pa]; plastic_strain (n, n_cells); contact_pressure (n, n_faces) [Pa], in the order of mesh.surface; point_displacement (n, n_points, dim) [m].
+    Attributes
+    ----------
+    step : ndarray of int, (n,)
+        Step of each frame.
+    time : ndarray of float, (n,)
+        Time of each frame [s].
+    displacement, velocity : ndarray of float, (n, n_cells, dim)
+        Of the cells [m], [m/s].
+    stress : ndarray of float, (n, n_cells, dim, dim)
+        Of the cells [Pa].
+    von_mises, plastic_strain : ndarray of float, (n, n_cells)
+        Of the cells [Pa], [-].
+    contact_pressure : ndarray of float, (n, n_faces)
+        Of the boundary faces [Pa], in the order of `mesh.surface`.
+    point_displacement : ndarray of float, (n, n_points, dim)
+        Of the points [m].
     """
 
     def __init__(self, fields):
@@ -27,13 +41,52 @@ class Frames:
 
 
 class Result(dict):
-    """A run that has come to its end: each entry is an attribute as well, result["ledger"] is result.ledger.
+    """A run that has come to its end.
 
-    ledger: a structured array with the columns of energy.csv. probes: {name: structured array}, columns as in probes.csv. forces:
-    a structured array with the columns of forces.csv, a row for each pair that touched. frames: see Frames; as many as the option
-    frames says. mesh; displacement of the cells at the end [m]; start and end: mass [kg], velocity [m/s], rotation [rad] of each
-    body; steps, dt and stable_dt [s], complete, energy_scale [J], contact (counters); verdict (a text), good (whether it is),
-    warnings (texts); summary: what summary.json says, a dict; out: the folder of its files, or None; seconds.
+    Each entry is an attribute as well: `result["ledger"]` is `result.ledger`.
+
+    Attributes
+    ----------
+    name, title, comment : str
+        Of the scene.
+    mesh : Mesh2D or Mesh3D
+        The bodies at rest.
+    ledger : structured array
+        Columns of energy.csv, a row for each record.
+    probes : dict of structured array
+        By name, with columns as in probes.csv.
+    forces : structured array
+        Columns of forces.csv, a row for each pair that touched.
+    frames : Frames
+        As many as the option `frames` says.
+    displacement : ndarray of float, (n_cells, dim)
+        Of the cells at the end [m].
+    start, end : list of dict
+        mass [kg], velocity [m/s] and rotation [rad] of each body.
+    steps, resumed_after : int
+        Steps of the run, and the step of the checkpoint from which it went on; 0: none.
+    dt, stable_dt : float
+        Length of the steps, and of the longest stable one [s].
+    complete : bool
+        Whether the run has come to its last step.
+    energy_scale : float
+        Energy over which figures are quoted [J].
+    contact : dict
+        Counters of contact.
+    verdict : str
+        What the run says of itself.
+    good : bool
+        Whether that is good.
+    warnings : list of str
+        Notes and warnings.
+    summary : dict
+        Contents of summary.json.
+    table : str
+        Figures that `abut run` prints.
+    out : path or None
+        Folder of its files.
+    seconds : float
+        Time that it took [s].
     """
 
     def __init__(self, figures):
@@ -62,20 +115,91 @@ class Result(dict):
         return [*super().__dir__(), *self]
 
     def show(self, field="von_mises", frame=-1):
-        """Draws a field of a frame on the bodies, and the energies over time, by matplotlib; gives back the figure. field:
-        "von_mises" or "speed"; None: none. frame: a number, or several for pictures with one scale of colours side by side."""
+        """Draws a field of a frame on the bodies, and the energies over time, by matplotlib.
+
+        Parameters
+        ----------
+        field : {'von_mises', 'speed', None}
+            Field to draw; None: none.
+        frame : int or sequence of int, default -1
+            Frame, or several for pictures with one scale of colours side by side.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+            The figure.
+
+        Raises
+        ------
+        ImportError
+            If matplotlib is not installed.
+        ValueError
+            If the result has no frames, or there is no such field.
+        """
         return _show.show_result(self, field, frame)
 
     def show_forces(self, axes=None):
-        """Draws the forces between bodies over time by matplotlib, pressing and rubbing, and gives back the axes."""
+        """Draws the forces between bodies over time by matplotlib, pressing and rubbing.
+
+        Parameters
+        ----------
+        axes : matplotlib.axes.Axes, optional
+            Where to draw; by default in a new figure.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+            The axes.
+
+        Raises
+        ------
+        ImportError
+            If matplotlib is not installed.
+        """
         return _show.show_forces(self, axes)
 
     def show_probes(self, column, axes=None):
-        """Draws a column of all probes that have it over time by matplotlib, as "displacement_x", and gives back the axes."""
+        """Draws a column of all probes that have it over time by matplotlib.
+
+        Parameters
+        ----------
+        column : str
+            Name of the column, such as "displacement_x".
+        axes : matplotlib.axes.Axes, optional
+            Where to draw; by default in a new figure.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+            The axes.
+
+        Raises
+        ------
+        ImportError
+            If matplotlib is not installed.
+        ValueError
+            If no probe has this column.
+        """
         return _show.show_probes(self, column, axes)
 
     def to_pyvista(self, frame=-1):
-        """One frame as a pyvista.UnstructuredGrid, displaced, with its fields on the cells."""
+        """Makes a grid of pyvista of one frame, displaced, with its fields on the cells.
+
+        Parameters
+        ----------
+        frame : int, default -1
+            Number of the frame.
+
+        Returns
+        -------
+        pyvista.UnstructuredGrid
+            With velocity [m/s], stress and von_mises [Pa].
+
+        Raises
+        ------
+        ImportError
+            If pyvista is not installed.
+        """
         frames = self.frames
         return _show.to_pyvista(self.mesh, frames.point_displacement[frame], velocity=frames.velocity[frame], stress=frames.stress[frame],
                                 von_mises=frames.von_mises[frame])

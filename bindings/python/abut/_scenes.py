@@ -6,13 +6,36 @@ import re
 
 
 def run(scene, set=None, look=None, **options):
-    """Runs a scene and gives back a Result with arrays.
+    """Runs a scene.
 
-    scene: the path of a TOML file, or a dict with the same tables and keys (docs/scenes.md, `abut keys`). In a dict `mesh` of a body
-    may be a mesh of abut.solid. set: values in place of those of the scene, {"bodies.left.density": 2} or nested. look(state) sees
-    each step and may make the next one the last by True. out: the folder of report.html, energy.csv and all other files; without it
-    nothing is written. Options stand above those of the scene: those of the command line of abut run with _ for - (help(abut.solid.simulate) lists them).
+    Parameters
+    ----------
+    scene : path or dict
+        A TOML file, or a dict with the same tables and keys (docs/scenes.md, `abut keys`). In a dict `mesh` of a body
+        may be a mesh of abut.solid.
+    set : dict, optional
+        Values in place of those of the scene, {"bodies.left.density": 2} or nested.
+    look : callable (state), optional
+        Called at the start and after each step; True makes the next one the last.
+    **options
+        Options in place of those of the scene: those of the command line of `abut run` with _ for -, as
+        `abut.solid.simulate` lists them. `out` is the folder of report.html, energy.csv and all other files; without
+        it nothing is written.
 
+    Returns
+    -------
+    Result
+        Ledger, frames, forces and figures of the run.
+
+    Raises
+    ------
+    BadInput
+        If something of the scene or an option cannot be used.
+    Diverged, TooDeep
+        If the run cannot go on.
+
+    Examples
+    --------
     >>> import abut
     >>> block = dict(shape="structured_box", lower=[0, 0], upper=[1, 1], counts=[4, 4], young=1.0, poisson=0.3, density=1.0)
     >>> scene = {"dim": 2, "run": {"time": 4.0}, "bodies": {"left": {**block, "velocity": [0.1, 0]},
@@ -27,10 +50,29 @@ def run(scene, set=None, look=None, **options):
 
 
 def memm(scene, set=None, outside=(), **options):
-    """A scene under MEMM to be taken step by step: `step`, `record`, `displacement` and so on.
+    """Sets up a scene under MEMM, to be taken step by step.
 
-    scene, set and options as in run, except options of steps and files. outside: groups that set_traction loads.
+    Parameters
+    ----------
+    scene, set
+        As in `run`.
+    outside : iterable of str
+        Groups that `set_traction` loads.
+    **options
+        As in `run`, except those of steps and files.
 
+    Returns
+    -------
+    Memm2D or Memm3D
+        With `step`, `record`, `displacement` and so on.
+
+    Raises
+    ------
+    BadInput
+        If something of the scene or an option cannot be used.
+
+    Examples
+    --------
     >>> import abut
     >>> block = dict(shape="structured_box", lower=[0, 0], upper=[1, 1], counts=[4, 4], young=1.0, poisson=0.3, density=1.0)
     >>> steps = abut.memm({"dim": 2, "bodies": {"block": {**block, "velocity": [0.1, 0]}}})

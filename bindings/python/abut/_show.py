@@ -67,8 +67,27 @@ def html_of_result(result):
 
 
 def show_mesh(mesh, values=None, displacement=None, axes=None):
-    """Draws the bodies by matplotlib and gives back the axes. values: one per cell, for colours, else those of the bodies.
-    displacement: of the points (n_points, dim) [m]."""
+    """Draws the bodies by matplotlib.
+
+    Parameters
+    ----------
+    values : array of float, (n_cells,), optional
+        Values for colours; by default colours are those of the bodies.
+    displacement : array of float, (n_points, dim), optional
+        Displacement of the points [m].
+    axes : matplotlib.axes.Axes, optional
+        Where to draw; by default in a new figure.
+
+    Returns
+    -------
+    matplotlib.axes.Axes
+        The axes.
+
+    Raises
+    ------
+    ImportError
+        If matplotlib is not installed.
+    """
     pyplot = _pyplot()
     in_space = mesh.points.shape[1] == 3
     if axes is None:
@@ -159,7 +178,25 @@ def show_probes(result, column, axes=None):
 
 
 def to_pyvista(mesh, displacement=None, **fields):
-    """The mesh as a pyvista.UnstructuredGrid, with the cell array "body" and others of one row per cell."""
+    """Makes a grid of pyvista of the mesh, with the cell array "body".
+
+    Parameters
+    ----------
+    displacement : array of float, (n_points, dim), optional
+        Displacement of the points [m].
+    **fields
+        Further cell arrays, one row per cell.
+
+    Returns
+    -------
+    pyvista.UnstructuredGrid
+        The grid.
+
+    Raises
+    ------
+    ImportError
+        If pyvista is not installed.
+    """
     try:
         import pyvista
     except ImportError:

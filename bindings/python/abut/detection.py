@@ -37,15 +37,49 @@ from ._nearest import is_inside as _is_inside, nearest as _nearest
 __all__ = ["CollisionManager", "Contact", "Detected", "Nearest", "detect"]
 
 Nearest = collections.namedtuple("Nearest", "distance names faces points inside", defaults=[None])
-Nearest.__doc__ = """Where two meshes are nearest: distance of their surfaces [m], their names, a face of each and a point [m] of
-each; 0: they touch. inside: the name of the mesh that is wholly inside of the other one, whose surface is closed with normals
-outwards; None: neither is."""
+Nearest.__doc__ = """Where two meshes are nearest.
+
+Attributes
+----------
+distance : float
+    Distance of their surfaces [m]; 0: they touch.
+names : tuple of str
+    Names of both.
+faces : tuple of int
+    A face of each.
+points : tuple of array of float, (3,)
+    A point of each [m].
+inside : str or None
+    Name of the mesh that is wholly inside of the other one, whose surface is closed with normals outwards; None:
+    neither is.
+"""
 Contact = collections.namedtuple("Contact", "names area gap overlaps")
-Contact.__doc__ = """Two meshes that look at each other within a distance: names, area [m^2] and least gap [m] of all pairs of
-faces, and these as a structured array: face_1 and face_2 (of the meshes), area, normal (from the first into the second), gap, and
-distance in space. A face with four corners appears by halves."""
+Contact.__doc__ = """Two meshes that look at each other within a distance.
+
+Attributes
+----------
+names : tuple of str
+    Names of both.
+area : float
+    Area of all pairs of faces [m^2].
+gap : float
+    Least gap of them [m].
+overlaps : structured array
+    The pairs: face_1 and face_2 (of the meshes), area, normal (from the first into the second), gap, and distance in
+    space. A face with four corners appears by halves.
+"""
 Detected = collections.namedtuple("Detected", "distance nearest contacts")
-Detected.__doc__ = "What `detect` finds: the distance [m] within which contacts are, the two nearest meshes, and contacts."
+Detected.__doc__ = """Result of `detect`.
+
+Attributes
+----------
+distance : float
+    Distance within which contacts are [m].
+nearest : Nearest or None
+    The two meshes that are nearest; None with fewer than two.
+contacts : list of Contact
+    Meshes that look at each other within the distance.
+"""
 
 # The faces of cells with a volume, in the order of meshio, which is VTK's.
 _FACES_OF_CELLS = {
@@ -129,23 +163,81 @@ class _Surface:
 
 
 class CollisionManager:
-    """Named meshes with transforms, as trimesh.collision.CollisionManager: distances are exact up to rounding, and contacts say
-    which faces share how much area at what gap."""
+    """Named meshes with transforms, as trimesh.collision.CollisionManager.
+
+    Distances are exact up to rounding, and contacts say which faces share how much area at what gap.
+    """
 
     def __init__(self):
         self._surfaces, self._placed = {}, {}
 
     def add_object(self, name, mesh, transform=None):
-        """Adds a mesh, or replaces the one of that name."""
+        """Adds a mesh, or replaces the one of that name.
+
+        Parameters
+        ----------
+        name : str
+            Name of the mesh.
+        mesh : mesh with vertices and faces, meshio.Mesh, or tuple (vertices, faces)
+            Surface; of cells with a volume the boundary is taken.
+        transform : array of float, (4, 4), optional
+            Where it is; None: where its vertices are.
+
+        Returns
+        -------
+        None
+
+        Raises
+        ------
+        TypeError
+            If this is no mesh.
+        ValueError
+            If an array has another shape, or the transform turns the mesh inside out.
+        """
         self._surfaces[name] = _Surface(mesh)
         self.set_transform(name, transform)
 
     def remove_object(self, name):
+        """Removes a mesh.
+
+        Parameters
+        ----------
+        name : str
+            Name of the mesh.
+
+        Returns
+        -------
+        None
+
+        Raises
+        ------
+        KeyError
+            If there is no mesh of that name.
+        """
         self._require(name)
         del self._surfaces[name], self._placed[name]
 
     def set_transform(self, name, transform):
-        """Where a mesh is from now on."""
+        """Sets where a mesh is from now on.
+
+        Parameters
+        ----------
+        name : str
+            Name of the mesh.
+        transform : array of float, (4, 4), or None
+            Points go to `transform[:3, :3] @ x + transform[:3, 3]`; None: to where its vertices are.
+
+        Returns
+        -------
+        None
+
+        Raises
+        ------
+        KeyError
+            If there is no mesh of that name.
+        ValueError
+            If the transform has another shape, or turns the mesh inside out.
+        """
         self._require(name)
         rest = self._surfaces[name].vertices
         if transform is None:
@@ -159,7 +251,26 @@ class CollisionManager:
         self._placed[name] = rest @ matrix[:3, :3].T + matrix[:3, 3]
 
     def set_vertices(self, name, vertices):
-        """Where the vertices of a mesh that deforms are from now on (n, 3) [m]."""
+        """Sets where the vertices of a mesh that deforms are from now on.
+
+        Parameters
+        ----------
+        name : str
+            Name of the mesh.
+        vertices : array of float, (n, 3)
+            Positions [m].
+
+        Returns
+        -------
+        None
+
+        Raises
+        ------
+        KeyError
+            If there is no mesh of that name.
+        ValueError
+            If the array has another shape.
+        """
         self._require(name)
         vertices = numpy.array(vertices, dtype=float)
         if vertices.shape != self._surfaces[name].vertices.shape:
@@ -168,10 +279,17 @@ class CollisionManager:
 
     @property
     def names(self):
+        """Names of the meshes, in the order in which they came."""
         return list(self._surfaces)
 
     def nearest(self):
-        """The two meshes that are nearest to each other, a `Nearest`; None with fewer than two."""
+        """Finds the two meshes that are nearest to each other.
+
+        Returns
+        -------
+        Nearest or None
+            None with fewer than two meshes.
+        """
         best = None
         for bound, pair in self._pairs():
             if best is not None and bound >= best.distance:
@@ -182,12 +300,37 @@ class CollisionManager:
         return best
 
     def all_nearest(self):
-        """A `Nearest` for every pair of meshes, sorted by distance."""
+        """Finds where each pair of meshes is nearest.
+
+        Returns
+        -------
+        list of Nearest
+            For every pair, sorted by distance.
+        """
         return sorted((self._nearest_of(pair) for _, pair in self._pairs()), key=lambda one: one.distance)
 
     def min_distance_internal(self, return_names=False, return_data=False):
-        """The least distance of two meshes [m]; as trimesh does, with a tuple of their names and the `Nearest` where asked for.
-        A mesh inside of another one is as far away as the surface around it; `Nearest.inside` tells it."""
+        """Finds the least distance of two meshes, as trimesh does.
+
+        A mesh inside of another one is as far away as the surface around it; `Nearest.inside` tells it.
+
+        Parameters
+        ----------
+        return_names : bool, default False
+            Whether names are returned, too.
+        return_data : bool, default False
+            Whether details are returned, too.
+
+        Returns
+        -------
+        float or tuple
+            The distance [m]; where asked for, a tuple of their names and the `Nearest` behind it.
+
+        Raises
+        ------
+        ValueError
+            If there are fewer than two meshes.
+        """
         best = self.nearest()
         if best is None:
             raise ValueError("a distance needs two objects; add_object adds them")
@@ -195,16 +338,40 @@ class CollisionManager:
         return (best.distance, *extra) if extra else best.distance
 
     def in_collision_internal(self, return_names=False, return_data=False):
-        """Whether surfaces of two meshes touch or cross, or one mesh is wholly inside of another one, whose surface is closed with
-        normals outwards; else as trimesh does, with the set of pairs of names and a list of `Nearest` where asked for."""
+        """Tells whether two meshes touch, cross, or one is wholly inside of another one.
+
+        The surface of that other one is closed with normals outwards.
+
+        Parameters
+        ----------
+        return_names : bool, default False
+            Whether names are returned, too.
+        return_data : bool, default False
+            Whether details are returned, too.
+
+        Returns
+        -------
+        bool or tuple
+            Whether they do; where asked for, the set of pairs of names and a list of `Nearest` behind it.
+        """
         touching = [found for found in (self._nearest_of(pair) for bound, pair in self._pairs() if bound == 0.0)
                     if found.distance == 0.0 or found.inside is not None]
         extra = ([{found.names for found in touching}] if return_names else []) + ([touching] if return_data else [])
         return (bool(touching), *extra) if extra else bool(touching)
 
     def contacts(self, distance=None):
-        """Every two meshes with faces that look at each other, share an area and have a gap of at most `distance` [m], apart
-        or pressed in; by default half the mean size of a face, sqrt(area). A list of `Contact`."""
+        """Finds every two meshes with faces that look at each other and share an area.
+
+        Parameters
+        ----------
+        distance : float, optional
+            Largest gap [m], apart or pressed in; by default half the mean size of a face, sqrt(area).
+
+        Returns
+        -------
+        list of Contact
+            One for each two meshes.
+        """
         names = self.names
         if not names:
             return []
@@ -269,9 +436,39 @@ class CollisionManager:
 
 
 def detect(meshes, transforms=None, distance=None):
-    """What is near between meshes, each a body: a list, or a dict with their names. transforms: one for each, a list or a dict,
-    None: where they are. distance [m]: gaps up to here are contacts, by default half the mean size of a face. Returns a
-    `Detected`."""
+    """Finds what is near between meshes.
+
+    Parameters
+    ----------
+    meshes : list or dict of meshes
+        Each is a body; a dict has their names.
+    transforms : list or dict of array of float, (4, 4), optional
+        One for each; None: where it is.
+    distance : float, optional
+        Gaps up to here are contacts [m]; by default half the mean size of a face.
+
+    Returns
+    -------
+    Detected
+        The nearest two, and contacts.
+
+    Raises
+    ------
+    KeyError
+        If a transform is of no mesh.
+    TypeError
+        If something is no mesh.
+    ValueError
+        If an array has another shape, or the number of transforms is not that of the meshes.
+
+    Examples
+    --------
+    >>> import numpy, abut
+    >>> square = numpy.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], dtype=float)
+    >>> found = abut.detect({"lower": (square, [[0, 1, 2, 3]]), "upper": (square + [0.0, 0.0, 0.2], [[3, 2, 1, 0]])})
+    >>> round(found.nearest.distance, 12)
+    0.2
+    """
     named = dict(meshes) if isinstance(meshes, dict) else {f"mesh_{i}": mesh for i, mesh in enumerate(meshes)}
     if transforms is None:
         transforms = {}

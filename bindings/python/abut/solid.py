@@ -12,19 +12,46 @@ __all__ = ["Material", "Memm2D", "Memm3D", "Mesh2D", "Mesh3D", "State2D", "State
 
 
 def mesh(points, cells=None, body=None, body_names=(), groups=None, **options):
-    """A mesh of arrays, or of a meshio.Mesh.
-
-    points: (n, dim) [m]. cells: {"triangle": (n, 3), ...}, pairs, or blocks with type and data: triangle, quad; tetra, hexahedron,
-    wedge, pyramid. body: one number per cell; bodies that share points are one piece of
-    several materials where a scene has them. groups: {name: points of each face (n, corners), or a list of such arrays}. name: what
-    messages call it. non_planar: "fail" or "split", for faces with a corner farther off their plane than planarity_tolerance times
-    their size.
+    """Makes a mesh of arrays, or of a meshio.Mesh.
 
     A meshio.Mesh alone brings all of it along, so that .inp, .bdf, .med, Exodus, .vtk and other files come in: sets of cells are
     bodies, of sets within others the smaller ones, of equal ones the first, and what is in no set is a body for each part that hangs
     together; sets of boundary cells are groups, and so are sets of points, with the boundary faces that lie between them. Where the
     file has numbers in place of sets, a set is called as the file calls it, or set_7. Points of no cell are left out.
 
+    Parameters
+    ----------
+    points : array of float, (n_points, dim), or meshio.Mesh
+        Positions [m].
+    cells : dict of array of int, (n, corners)
+        By type, {"triangle": (n, 3), ...}, or pairs, or blocks with type and data: triangle, quad; tetra, hexahedron,
+        wedge, pyramid.
+    body : array of int, (n_cells,), optional
+        Body of each cell. Bodies that share points are one piece of several materials where a scene has them.
+    body_names : sequence of str
+        Names of the bodies; by default body0, body1, ...
+    groups : dict of array of int, (n, corners), optional
+        Points of each face of a group, or a list of such arrays.
+    **options
+        name: what messages call the mesh. non_planar: "fail" or "split", for faces with a corner farther off their
+        plane than planarity_tolerance times their size.
+
+    Returns
+    -------
+    Mesh2D or Mesh3D
+        The bodies.
+
+    Raises
+    ------
+    BadInput
+        If cells or groups are none of a mesh.
+    TypeError
+        If cells are missing, and points are no meshio.Mesh.
+    ValueError
+        If an array has another shape.
+
+    Examples
+    --------
     >>> from abut import solid
     >>> square = solid.mesh([[0, 0], [2, 0], [2, 1], [0, 1]], {"quad": [[0, 1, 2, 3]]}, groups={"foot": [[0, 1]]})
     >>> square.measures.tolist(), square.groups["foot"].tolist()

@@ -1,0 +1,180 @@
+#!/usr/bin/env python3
+"""Stresses where people look first: at faces that touch, and at holes.
+
+    check_fields.py build/dev/bin --list
+    check_fields.py build/dev/bin finite_blocks_that_planes_press_bear_what_the_table_says
+"""
+import math
+import pathlib
+import re
+import sys
+import tempfile
+
+HERE = pathlib.Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE.parent / "support"))
+from abut_runs import Run, main, near, require  # noqa: E402
+
+CLAIMS = {}
+
+
+def claim(function):
+    CLAIMS[function.__name__] = function
+    return function
+
+
+# A block between two planes ----------------------------------------------------------------------------------------------
+
+STRETCH = 0.99
+# E = 1 Pa, nu = 0, side 1: force and stress [N/m], [Pa]. St. Venant and Kirchhoff's law has S = E (l^2 - 1)/2 and the force l S; the
+# sides stay as they are, so that this is the stress, too.
+EXACT = {"finite": -STRETCH * (STRETCH**2 - 1) / 2, "floating": 1 - STRETCH, "small": 1 - STRETCH}
+KINEMATICS = list(EXACT)
+
+
+def table_of_pressed_blocks():
+    """{(cells, across): force over the exact one, by kinematics} as docs/kinematics.md has it."""
+    text = (HERE.parent.parent / "docs/kinematics.md").read_text().partition("### Pressed blocks")[2].partition("\n### ")[0]
+    rows = re.findall(r"^\| (\w+) \| (\d+) \| ([\d.]+) \| ([\d.]+) \| ([\d.]+) \|$", text, re.M)
+    require(len(rows) > 20, "the table of pressed blocks is not read")
+    return {(shape, int(across)): dict(zip(KINEMATICS, map(float, ratios))) for shape, across, *ratios in rows}
+
+
+def pressed_block(programs, shape, across, kinematics, layer=0):
+    """The last force on the press, and stresses along it of a layer of cells; 0: that which it touches."""
+    probes = "".join(f'[output.probes.cell_{i}]\nbody = "block"\npoint = [{1 - (layer + 0.5) / across}, {(i + 0.5) / across}]\n'
+                     for i in range(across))
+    with tempfile.TemporaryDirectory() as folder:
+        scene = pathlib.Path(folder) / "block.toml"
+        scene.write_text(f"""dim = 2
+energy_scale = 1e-5
+[bodies.block]
+shape = "structured_box"
+lower = [0, 0]
+upper = [1, 1]
+counts = [{across}, {across}]
+cells = "{shape}"
+young = 1.0
+poisson = 0.0
+density = 1.0
+mass_damping = 0.5
+kinematics = "{kinematics}"
+[obstacles.wall]
+shape = "plane"
+point = [0, 0]
+normal = [1, 0]
+[obstacles.press]
+shape = "plane"
+point = [1, 0]
+normal = [-1, 0]
+path = ["-{1 - STRETCH:g}*min(t/20, 1)", 0]
+[run]
+time = 45.0
+[output]
+frames = 0
+forces = true
+interval = 49
+{probes}""")
+        done = Run(programs, scene).require_end()
+        force = [row["normal_force"] for row in done.rows("forces.csv") if "press" in (row["body_1"], row["body_2"])][-1]
+        last = done.rows("probes.csv")[-1]
+        return force, [-last[f"cell_{i}.stress_xx"] for i in range(across)]
+
+
+@claim
+def finite_blocks_that_planes_press_bear_what_the_table_says(programs):
+    """The force is off the closed form by no more than docs/kinematics.md says."""
+    table = table_of_pressed_blocks()
+    for shape, across in (("quadrangle", 4), ("quadrangle", 8), ("triangle", 8)):
+        off = abs(table[shape, across]["finite"] - 1) + 5e-4  # as the table is rounded
+        force, _ = pressed_block(programs, shape, across, "finite")
+        near(force / EXACT["finite"], 1.0, off, f"the force on {across} {shape}s across over the exact one")
+
+
+@claim
+def a_section_of_a_finite_block_carries_the_force_that_presses_it(programs):
+    """Within 1 %, in the middle of eight cells: stresses are in balance with what is borne."""
+    force, stresses = pressed_block(programs, "quadrangle", 8, "finite", layer=3)
+    near(sum(stresses) / len(stresses) / force, 1.0, 0.01, "the mean stress of a section of side 1 over the force")
+
+
+@claim
+def small_and_floating_blocks_that_planes_press_show_the_stress(programs):
+    """Each cell of the layer that touches, within 1 %, where eight cells are across."""
+    for kinematics in ("small", "floating"):
+        force, stresses = pressed_block(programs, "quadrangle", 8, kinematics)
+        near(force / EXACT[kinematics], 1.0, 1e-3, f"{kinematics}: the force over the exact one")
+        for stress in stresses:
+            near(stress / EXACT[kinematics], 1.0, 0.01, f"{kinematics}: a stress over the exact one")
+
+
+# A ring with a hole ------------------------------------------------------------------------------------------------------
+
+BORE, RIM, PRESSURE = 0.5, 1.0, 0.01
+
+
+def ring_mesh(angle, across, around):
+    """MSH 2.2 of a part of a ring, quadrangles, with the groups hole, rim, foot and side; of 2 pi the whole ring."""
+    is_whole = angle > 6.0
+    columns = around if is_whole else around + 1
+    radius = [BORE + (RIM - BORE) * i / across for i in range(across + 1)]
+    nodes = [(r * math.cos(angle * k / around), r * math.sin(angle * k / around)) for k in range(columns) for r in radius]
+
+    def node(i, k):
+        return (k % columns) * (across + 1) + i + 1
+
+    elements = [(3, 1, (node(i, k), node(i + 1, k), node(i + 1, k + 1), node(i, k + 1))) for k in range(around) for i in range(across)]
+    elements += [(1, group, (node(i, k), node(i, k + 1))) for k in range(around) for group, i in ((2, 0), (3, across))]
+    if not is_whole:
+        elements += [(1, group, (node(i, k), node(i + 1, k))) for i in range(across) for group, k in ((4, 0), (5, around))]
+    names = [(2, 1, "ring"), (1, 2, "hole"), (1, 3, "rim")] + ([] if is_whole else [(1, 4, "foot"), (1, 5, "side")])
+    lines = ["$MeshFormat", "2.2 0 8", "$EndMeshFormat", "$PhysicalNames", len(names), *(f'{d} {n} "{name}"' for d, n, name in names),
+             "$EndPhysicalNames", "$Nodes", len(nodes), *(f"{n} {x!r} {y!r} 0" for n, (x, y) in enumerate(nodes, 1)), "$EndNodes", "$Elements",
+             len(elements), *(f"{n} {kind} 2 {group} {group} {' '.join(map(str, corners))}" for n, (kind, group, corners) in enumerate(elements, 1)),
+             "$EndElements", ""]
+    return "\n".join(map(str, lines))
+
+
+def frames_of(done):
+    return {path.name: path.read_bytes() for path in (done.out / "frames").iterdir() if path.suffix in (".vtu", ".vtp")}
+
+
+@claim
+def fields_of_a_ring_with_a_hole_are_bitwise_identical_on_ranks(programs):
+    """Pressed in its hole against a plane: a quarter on rollers, and whole rings whose cells hollows condense."""
+    rollers = "".join(f'[supports.{group}]\ngroup = "ring.{group}"\nconstraint = "normal"\n' for group in ("foot", "side"))
+    for kinematics, angle, around, more in (("small", 0.5 * math.pi, 10, rollers), ("floating", 2 * math.pi, 24, ""),
+                                            ("finite", 2 * math.pi, 24, "")):
+        with tempfile.TemporaryDirectory() as folder:
+            scene = pathlib.Path(folder) / "ring.toml"
+            (pathlib.Path(folder) / "ring.msh").write_text(ring_mesh(angle, 4, around))
+            scene.write_text(f"""dim = 2
+energy_scale = 1e-4
+[bodies.ring]
+mesh = "ring.msh"
+young = 1
+poisson = 0.3
+density = 1
+kinematics = "{kinematics}"
+[tractions.hole]
+group = "ring.hole"
+pressure = {PRESSURE}
+[obstacles.wall]
+shape = "plane"
+point = [{RIM + 1e-3}, 0]
+normal = [-1, 0]
+[run]
+time = 3
+[output]
+frames = 4
+{more}""")
+            one = Run(programs, scene, "--ranks", 1).require_end()
+            require(one.summary["active_pairs_max"] > 0, f"{kinematics}: the ring does not touch the plane")
+            expected = frames_of(one)
+            require(len(expected) >= 4, f"{kinematics}: there are no frames")
+            shared = Run(programs, scene, "--ranks", 2).require_end()
+            require((shared.out / "energy.csv").read_bytes() == (one.out / "energy.csv").read_bytes(), f"{kinematics}: energies have other bits")
+            require(frames_of(shared) == expected, f"{kinematics}: fields have other bits")
+
+
+if __name__ == "__main__":
+    sys.exit(main(CLAIMS))
