@@ -91,14 +91,18 @@ struct Whole {
     AxialVector<Dim> angular = AxialVector<Dim>::Zero();  // about the origin [kg m^2/s]
 
     [[nodiscard]] Vector<Dim> velocity() const { return momentum / mass; }
-    /// Speed of the outermost points about the centre, as if the body were a disc or a ball [m/s]
+    /// As if the body were a disc or a ball [m].
+    [[nodiscard]] double radius() const { return std::sqrt(2.0 * about_centre().trace() / mass); }
+    /// Speed of the points at that radius about the centre [m/s].
     [[nodiscard]] double speed_of_rim() const {
-        const Vector<Dim> centre = first / mass;
-        const Matrix<Dim> about = second - mass * centre * centre.transpose();
-        const AxialVector<Dim> spin = angular - moment<Dim>(centre, momentum);
-        const double inertia = about.trace();
-        return inertia > 0.0 ? spin.norm() / inertia * std::sqrt(2.0 * inertia / mass) : 0.0;
+        const AxialVector<Dim> spin = angular - moment<Dim>(centre(), momentum);
+        const double inertia = about_centre().trace();
+        return inertia > 0.0 ? spin.norm() / inertia * radius() : 0.0;
     }
+
+private:
+    [[nodiscard]] Vector<Dim> centre() const { return first / mass; }
+    [[nodiscard]] Matrix<Dim> about_centre() const { return second - mass * centre() * centre().transpose(); }
 };
 
 template <int Dim>
@@ -171,13 +175,27 @@ Way way_of(const Scene<Dim>& scene, const solid::SolidOptions<Dim>& options, con
     return {"vibrates", "look whether a face of it opens and closes again and again, or whether its load has a rest at all"};
 }
 
+/// Motion of a body that does not come to rest. What has gone far is told by how far it has gone, since velocities begin
+/// anew at each rest.
+template <int Dim>
+Way way_of(const Scene<Dim>& scene, const solid::Solid<Dim>& solid, std::span<const double> q, std::span<const double> p,
+           double speed, std::size_t body) {
+    constexpr double far = 0.05;  // of the radius of the body
+    std::vector<double> gone(q.begin(), q.end());
+    const std::vector<double> at_rest(q.size(), 0.0);
+    for (std::size_t i = 0; i < solid.masses().size(); ++i) as_vectors<Dim>(std::span(gone))[i] *= solid.masses()[i];
+    const Whole<Dim> by_path = whole_of<Dim>(solid, at_rest, gone, body);
+    if (const double farthest = speeds<Dim>(solid, gone)[body]; farthest > far * by_path.radius())
+        return way_of(scene, solid.options(), by_path, farthest, body);
+    return way_of(scene, solid.options(), whole_of<Dim>(solid, q, p, body), speed, body);
+}
+
 template <int Dim>
 [[noreturn]] void refuse(const Scene<Dim>& scene, const solid::Solid<Dim>& solid,
                          const dynamics::Memm<solid::Solid<Dim>>& motion) {
     const std::vector<double> of_body = speeds(solid, motion.p_after());
     const auto fastest = static_cast<std::size_t>(std::ranges::max_element(of_body) - of_body.begin());
-    const Way way =
-        way_of(scene, solid.options(), whole_of(solid, motion.q(), motion.p_after(), fastest), of_body[fastest], fastest);
+    const Way way = way_of<Dim>(scene, solid, motion.q(), motion.p_after(), of_body[fastest], fastest);
     throw BadInput(
         fmt::format("--settle: bodies do not come to rest under the loads of t = 0: after {} steps {} {} with {:.3g} "
                     "m/s, and nothing brings it to rest. To begin at rest {}; else leave --settle out.",
