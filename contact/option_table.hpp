@@ -24,7 +24,7 @@ inline constexpr std::array<Word<geometry::AreaMethod>, 2> area_words{
 [[nodiscard]] const OptionList<geometry::FacingFade>& facing_options();
 [[nodiscard]] const OptionList<NodalOptions>& nodal_options();
 [[nodiscard]] const OptionList<Friction>& friction_options();
-/// What the pair potential alone has beside `facing_options`, of the options of a contact or of a run.
+/// Options of the pair potential alone beside `facing_options`, of a contact or of a run.
 template <class Owner>
 [[nodiscard]] OptionList<Owner> path_options() {
     return {

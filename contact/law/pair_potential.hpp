@@ -39,7 +39,7 @@ public:
 private:
     using Pairs = std::span<const NodalPair<Dim>>;
 
-    /// What is seen of a pair at both ends of a step before its force is asked for.
+    /// A look at a pair at both ends of a step, before its force is asked for.
     struct Glance {
         bool admitted = false;
         bool inadmissible = false;
@@ -48,7 +48,7 @@ private:
         bool may_be_pressed_in = false;  ///< it was admitted, and may be pressed in at the start
         std::int32_t start = -1;         ///< index in `kept_` of its start; -1: not known
     };
-    /// What a pair that may act does.
+    /// The action of a pair that may act.
     struct Outcome {
         std::size_t pair;
         bool active;
@@ -62,8 +62,8 @@ private:
         geometry::PairEnd<Dim> end;
     };
 
-    /// Fills `glances_` by glance(p, whether it is known to be pressed in at the start) and `outcomes_` by the forces of the step, for all pairs; parts that share contact do
-    /// so for as many pairs each.
+    /// Fills `glances_` by glance(p, whether it is known to be pressed in at the start) and `outcomes_` by the forces of the
+    /// step, for all pairs; parts that share contact do so for as many pairs each.
     template <class GlanceAt>
     void find_outcomes(Pairs pairs, const SideOutlines<Dim>* sides, PointsView<Dim> x_0, PointsView<Dim> x_1,
                        TakenForce take, const GlanceAt& glance);

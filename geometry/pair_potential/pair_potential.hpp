@@ -158,9 +158,9 @@ template <int Dim>
 [[nodiscard]] PairMeanGradient<Dim> pair_mean_gradient(const PairCorners<Dim>& x_0, const PairCorners<Dim>& x_1,
                                                        const PairLaw<Dim>& law, const PairPathOptions& options = {});
 
-/// What one step leaves of a pair for the next, which begins where it ends: W, the least gap and the area of the part where
-/// g < 0, n_1 . n_2, n, dW/dz in coordinates z that turn with the pair (2 Dim, Dim), and the pressures, at the end of the step. A step that
-/// knows them has the same bits as one that finds them again.
+/// The end of a step of a pair, and the start of the next one: W, the least gap and the area of the part where g < 0,
+/// n_1 . n_2, n, dW/dz in coordinates z that turn with the pair (2 Dim, Dim), and the pressures. A step that knows its start
+/// has the same bits as one that finds it again.
 template <int Dim>
 using PairEnd = std::array<double, 4 + Dim + 2 * Dim*(Dim + 1)>;
 

@@ -252,8 +252,8 @@ public:
                                       std::span<const Vector<Dim>> u_to, const BoundaryLoad<Dim>& load_to);
     /// Under constant loads `motion_bound` grows by at most this times the motion of the cell that moves farthest [-].
     [[nodiscard]] double motion_amplification() const;
-    /// Weights of the cells that move a point of a boundary face at `arm` from its centroid, which tilts with the cell behind
-    /// where no support prescribes how it moves.
+    /// Weights of the cells that move a point of a boundary face at `arm` from its centroid, which tilts with the cell
+    /// behind where no support prescribes how it moves.
     [[nodiscard]] CornerWeights corner_weights(BoundaryFace face, const Vector<Dim>& arm) const;
 
     /// G_c and sigma_c [-], [Pa], as of the last call of `gradient`, its like or `potential`. Where `evaluate_faces`,

@@ -5,8 +5,8 @@
 
 namespace abut::solid {
 
-/// Norms of the weights by which cells move a corner of a boundary face in its frame: dw = sum_j W_j du_j under constant loads.
-/// None is below the spectral norm.
+/// Norms of the weights by which cells move a corner of a boundary face in its frame: dw = sum_j W_j du_j under constant
+/// loads. None is below the spectral norm.
 struct CornerWeights {
     std::vector<std::pair<std::int32_t, double>> others;  ///< cells but that of the face, and |W_j| [-]
     double own = 0.0;                                     ///< |W_c| of the cell c of the face [-]

@@ -52,7 +52,8 @@ struct FarthestMotion {
 /// Bounds of how far the corners of some faces are from where they were in one state, while loads are constant: one for each
 /// face. From step to step it grows by what no cell and no frame exceeds, and where that is too much it is looked at.
 ///
-/// With the positions x_j of cells and p_j of these in the frame Q of their body, c being that behind the face, a corner is at
+/// With the positions x_j of cells and p_j of these in the frame Q of their body, c being that behind the face, a corner is
+/// at
 ///
 ///     x = x_c + Q (p - p_c),     d(p - p_c) = sum_j W_j d(p_j - p_c) - (I - sum_j W_j) dp_c
 ///     |dx| <= |dx_c| + |dQ| |x - x_c| + |d(p - p_c)|,     |d(p_j - p_c)| <= |d(x_j - x_c)| + |dQ| |x_j - x_c|
@@ -62,15 +63,15 @@ struct FarthestMotion {
 template <int Dim>
 class CornerMotion {
 public:
-    /// Of no face yet. `rest`: of the cells [m]. Both must outlive the object.
+    /// The motion of no face yet. `rest`: positions of the cells [m]. Both must outlive the object.
     CornerMotion(const CornerRows& rows, std::span<const Vector<Dim>> rest) : rows_(&rows), rest_(rest) {}
 
-    /// Begins in q with these frames. `faces`: of the rows (n); `radius`: the distance from the point of its cell of the corner
-    /// of each that is farthest from it (n) [m].
+    /// Begins in q with these frames. `faces`: of the rows (n); `radius`: the distance from the point of its cell of the
+    /// corner of each that is farthest from it (n) [m].
     void begin(std::vector<std::int32_t> faces, std::vector<double> radius, std::span<const Vector<Dim>> q,
                std::span<const BodyFrame<Dim>> frames);
-    /// Goes on to where the bodies have these frames; no cell moves farther in its frame than `cell_motion` [m], infinity: not
-    /// known.
+    /// Goes on to where the bodies have these frames; no cell moves farther in its frame than `cell_motion` [m], infinity:
+    /// not known.
     void advance(std::span<const BodyFrame<Dim>> frames, double cell_motion);
     /// Whether all bounds are small enough, with n operations at most.
     [[nodiscard]] bool is_within(const FarthestMotion& allowed);

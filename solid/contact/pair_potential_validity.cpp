@@ -14,7 +14,7 @@ FarthestMotion PairPotentialDriver<Dim>::near_allowed() const {
     return {0.5 * contact_.skin() / contact_.bevel_stretch(), std::numeric_limits<double>::infinity()};
 }
 
-/// What is far has not come near; and pairs of one body.
+/// Motion up to which what is far has not come near; and pairs of one body.
 template <int Dim>
 FarthestMotion PairPotentialDriver<Dim>::far_allowed() const {
     return {far_reach_, touches_itself_ ? near_allowed().in_space : std::numeric_limits<double>::infinity()};
@@ -55,7 +55,7 @@ double PairPotentialDriver<Dim>::given_distance(const Watch& watch, const Listed
     return farthest;
 }
 
-/// Of these, at most.
+/// Motion of these by their loads, at most.
 template <int Dim>
 double PairPotentialDriver<Dim>::given_motion(const Watch& watch, double time) const {
     double of_rigid = 0.0;

@@ -60,7 +60,8 @@ struct SeenPair {
     T gap_at_0;
 };
 
-/// The part of an edge of one face that bounds the overlap: between `from` and `to`, which are at `low` and `high` of the edge.
+/// The part of an edge of one face that bounds the overlap: between `from` and `to`, which are at `low` and `high` of the
+/// edge.
 template <class T>
 struct EdgePart {
     EdgePart() = default;
@@ -88,7 +89,7 @@ struct EdgePart {
     T gap_from, gap_to;
 };
 
-/// What is measured of an outline before g < 0 is asked for.
+/// Measures of an outline, before g < 0 is asked for.
 template <class T>
 struct OutlineMeasures {
     LaneVector<T, 2> middle;  // a mean point of P
@@ -97,7 +98,7 @@ struct OutlineMeasures {
     T gap;                    // least over P; infinite without it
 };
 
-/// Where a line that is a at the start and b at the end is 0.
+/// Position from 0 to 1 at which a line that is a at the start and b at the end is 0.
 template <class T>
 T root_between(const T& a, const T& b, const FlagsOf<T>& crosses) {
     return select(crosses, a, T(0.0)) / select(crosses, a - b, T(1.0));
@@ -312,8 +313,8 @@ private:
     }
 };
 
-/// dW/dz from dW0 in the plane: along n and in the plane, what turns n, and what turns face 2 against face 1. What would turn
-/// face 1 is left out: in the frame of the pair it does not turn.
+/// dW/dz from dW0 in the plane: along n and in the plane, what turns n, and what turns face 2 against face 1. What would
+/// turn face 1 is left out: in the frame of the pair it does not turn.
 template <class T>
 LaneCorners<T, 3> in_frame(const SeenPair<T>& seen, const PlaneGradient<T>& plane, const T& energy,
                            const LaneFacing<T>& weight) {
@@ -358,7 +359,7 @@ LaneEnergy<T, 3> energy_in(Outline& outline, const SeenPair<T>& seen, const Lane
     return result;
 }
 
-/// The same by a polygon, whose outline always closes, at several times the cost.
+/// `energy_of` by a polygon, whose outline always closes, at several times the cost.
 LaneEnergy<double, 3> energy_by_polygon(const LaneCorners<double, 3>& z, const LaneLaw<double>& law);
 
 template <class T>

@@ -199,7 +199,7 @@ struct LaneGroup {
         const T energy_0 = read(&LaneTask<Dim>::energy_0), energy_1 = read(&LaneTask<Dim>::energy_1);
         return (energy_0 > T(0.0)) ^ (energy_1 > T(0.0));
     }
-    /// What a PairEnd of each lane has.
+    /// The numbers of a PairEnd in each lane.
     [[nodiscard]] LaneEnd<T, Dim> read(const double* const* from) const {
         LaneEnd<T, Dim> of;
         for (int i = 0; i < count; ++i) {
@@ -420,8 +420,8 @@ void integrate_by_gauss(LaneTask<Dim>* tasks, const int* which, int n, bool at_e
     });
 }
 
-/// Sets `end`, the energies and gaps of both ends, and the mean of both, of each of these tasks; returns how many of them are
-/// rough, which are listed in `rough`. `starts`: of tasks that do not know it.
+/// Sets `end`, the energies and gaps of both ends, and the mean of both, of each of these tasks; returns how many of them
+/// are rough, which are listed in `rough`. `starts`: of tasks that do not know it.
 template <class T, int Dim>
 int integrate_ends(LaneTask<Dim>* tasks, int n, Integral integral, double (*starts)[end_size<Dim>], int* rough) {
     int which[most_tasks], unknown[most_tasks], n_unknown = 0, n_rough = 0;

@@ -49,7 +49,7 @@ template <int N>
 LaneFlags<N> operator>=(const Lanes<N>& a, const Lanes<N>& b) {
     return {a.v >= b.v};
 }
-/// Where the first is true and the second is not.
+/// True where the first is true and the second is not.
 template <int N>
 LaneFlags<N> without(const LaneFlags<N>& a, const LaneFlags<N>& b) {
     return {a.v & ~b.v};
