@@ -18,7 +18,9 @@ std::vector<Word<geometry::BroadPhase>> broad_phase_words() {
 template <class Owner>
 Option<Owner> events() {
     return option("events", &Owner::events,
-                  {.help = "cut steps where a pair opens, closes or changes its overlap (energy exact)",
+                  {.help = "cut steps where a pair opens, closes or changes its overlap; of the pair potential: look closer "
+                           "where the mean of "
+                           "the ends of a step is not enough",
                    .is_switch = true,
                    .depth = OptionDepth::laboratory});
 }

@@ -23,7 +23,7 @@ struct Compressed {
     std::string body_1{};
     std::string body_2{};      ///< as in messages; empty: none were, beyond the warning
     double compression = 0.0;  ///< solid::BodyImpulse::compression [-]
-    std::int64_t steps = 0;    ///< with more than the warning, of the two that have most of them
+    std::int64_t steps = 0;    ///< in which it was more than the warning
 };
 
 }  // namespace abut::run

@@ -175,16 +175,15 @@ Way way_of(const Scene<Dim>& scene, const solid::SolidOptions<Dim>& options, con
     return {"vibrates", "look whether a face of it opens and closes again and again, or whether its load has a rest at all"};
 }
 
-/// Motion of a body that does not come to rest. What has gone far is told by how far it has gone, since velocities begin
-/// anew at each rest.
+/// Motion of a body that does not come to rest. Of one that has gone far since it was at `before`, the path counts:
+/// velocities begin again at each rest.
 template <int Dim>
-Way way_of(const Scene<Dim>& scene, const solid::Solid<Dim>& solid, std::span<const double> q, std::span<const double> p,
-           double speed, std::size_t body) {
+Way way_of(const Scene<Dim>& scene, const solid::Solid<Dim>& solid, std::span<const double> before,
+           std::span<const double> q, std::span<const double> p, double speed, std::size_t body) {
     constexpr double far = 0.05;  // of the radius of the body
-    std::vector<double> gone(q.begin(), q.end());
-    const std::vector<double> at_rest(q.size(), 0.0);
-    for (std::size_t i = 0; i < solid.masses().size(); ++i) as_vectors<Dim>(std::span(gone))[i] *= solid.masses()[i];
-    const Whole<Dim> by_path = whole_of<Dim>(solid, at_rest, gone, body);
+    std::vector<double> gone(q.size());
+    for (std::size_t i = 0; i < gone.size(); ++i) gone[i] = solid.masses()[i / Dim] * (q[i] - before[i]);
+    const Whole<Dim> by_path = whole_of<Dim>(solid, before, gone, body);
     if (const double farthest = speeds<Dim>(solid, gone)[body]; farthest > far * by_path.radius())
         return way_of(scene, solid.options(), by_path, farthest, body);
     return way_of(scene, solid.options(), whole_of<Dim>(solid, q, p, body), speed, body);
@@ -192,10 +191,10 @@ Way way_of(const Scene<Dim>& scene, const solid::Solid<Dim>& solid, std::span<co
 
 template <int Dim>
 [[noreturn]] void refuse(const Scene<Dim>& scene, const solid::Solid<Dim>& solid,
-                         const dynamics::Memm<solid::Solid<Dim>>& motion) {
+                         const dynamics::Memm<solid::Solid<Dim>>& motion, std::span<const double> before) {
     const std::vector<double> of_body = speeds(solid, motion.p_after());
     const auto fastest = static_cast<std::size_t>(std::ranges::max_element(of_body) - of_body.begin());
-    const Way way = way_of<Dim>(scene, solid, motion.q(), motion.p_after(), of_body[fastest], fastest);
+    const Way way = way_of<Dim>(scene, solid, before, motion.q(), motion.p_after(), of_body[fastest], fastest);
     throw BadInput(
         fmt::format("--settle: bodies do not come to rest under the loads of t = 0: after {} steps {} {} with {:.3g} "
                     "m/s, and nothing brings it to rest. To begin at rest {}; else leave --settle out.",
@@ -231,6 +230,7 @@ Settled settle(const Scene<Dim>& scene, const solid::SolidOptions<Dim>& options,
     Peaks peaks;
     double before = 0.0, last = 0.0;  // of two steps: a swing from step to step is no peak
     std::int64_t peak_at = 0;
+    std::vector<double> q_before(motion.q().begin(), motion.q().end());  // where the last half of the steps begins
     for (bool is_last = false; !is_last;) {
         try {
             motion.step();
@@ -240,7 +240,8 @@ Settled settle(const Scene<Dim>& scene, const solid::SolidOptions<Dim>& options,
         }
         if (motion.steps() % between_looks == 0) show(solid, motion, observer);
         const double now = motion.kinetic_energy(), kinetic = 0.5 * (now + std::exchange(last, now));
-        if (motion.steps() > most_steps || motion.steps() - peak_at > most_rise) refuse(scene, solid, motion);
+        if (motion.steps() > most_steps || motion.steps() - peak_at > most_rise) refuse(scene, solid, motion, q_before);
+        if (motion.steps() == most_steps / 2) q_before.assign(motion.q().begin(), motion.q().end());
         if (kinetic > before) {
             before = kinetic;
             continue;

@@ -39,9 +39,9 @@ template <int Dim>
 Compressed most_compressed(const Scene<Dim>& scene, const solid::Solid<Dim>& solid) {
     Compressed most;
     for (const solid::BodyImpulse<Dim>& pair : solid.contact().impulses()) {
-        most.steps = std::max(most.steps, pair.compressed_steps);
         if (!(pair.compression > most.compression)) continue;
         most.compression = pair.compression;
+        most.steps = pair.compressed_steps;
         most.body_1 = quoted_name(scene, pair.body_1);
         most.body_2 = quoted_name(scene, pair.body_2);
     }

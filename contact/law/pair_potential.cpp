@@ -1,6 +1,7 @@
 #include "abut/contact/law/pair_potential.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -42,6 +43,15 @@ Vector<Dim> force_on_second(const geometry::PairCorners<Dim>& gradient) {
     Vector<Dim> force = Vector<Dim>::Zero();
     for (int v = Dim; v < 2 * Dim; ++v) force -= gradient[v];
     return force;
+}
+
+/// Whether W of an end is above all that rounding makes of it, so that a glance sees neither apart nor beside nor turned
+/// away.
+template <int Dim>
+bool is_surely_pressed_in(const NodalPair<Dim>& pair, const geometry::PairEnd<Dim>& end) {
+    const double energy = end[0], gap = end[1], area = end[2], facing = end[3], depth = pair.admission_depth;
+    return energy > 0.0 && gap < -1e-6 * depth && area > 1e-9 * std::pow(depth, Dim - 1) &&
+           facing < pair.law.facing.none - 1e-9;
 }
 
 template <int Dim>
@@ -166,7 +176,7 @@ void PairPotential<Dim>::decide(const NodalPair<Dim>& pair, const SideOutlines<D
         const geometry::PairCorners<Dim> start = pair.at(x_0);
         glance.admitted = may_touch<Dim>(pair, start, geometry::pair_state<Dim>(start, pair.law), sides);
     }
-    outcome.active = glance.admitted;
+    outcome.active = outcome.active && glance.admitted;
 }
 
 template <int Dim>
@@ -175,9 +185,10 @@ void PairPotential<Dim>::conclude(const NodalPair<Dim>& pair, const SideOutlines
     const auto& found = outcome.found;
     const auto is_none = [](double energy) { return energy <= 0.0; };  // false for what is no number
     outcome.active = found.active_share > 0.0 || !is_none(found.energy_0) || !is_none(found.energy_1);
-    // A pair without force waits for its decision until it has one.
-    if (Glance& glance = glances_[outcome.pair]; outcome.active && !glance.is_decided)
-        decide(pair, *sides, x_0, glance, outcome);
+    // A contact without force waits for its next decision until it has one. Interference can press it in before a step.
+    Glance& glance = glances_[outcome.pair];
+    const bool must_be_decided = outcome.active || !glance.admitted || pair.interference >= 0;
+    if (!glance.is_decided && must_be_decided) decide(pair, *sides, x_0, glance, outcome);
     outcome.interference_work =
         outcome.active && pair.interference >= 0 ? interference_work(pair, pair.at(x_0), pair.at(x_1), take) : 0.0;
 }
@@ -208,7 +219,9 @@ void PairPotential<Dim>::find_part(const IndexRange& range, Pairs pairs, const S
             auto from = static_cast<std::size_t>(before - kept_.begin());
             for (std::size_t p = first; p < range.begin + static_cast<std::size_t>(end); ++p) {
                 const std::int32_t start = find_start(pairs[p], from);
-                glances_[p] = glance(p, start >= 0 && kept_[static_cast<std::size_t>(start)].end[0] > 0.0);
+                const bool is_pressed_in =
+                    start >= 0 && is_surely_pressed_in(pairs[p], kept_[static_cast<std::size_t>(start)].end);
+                glances_[p] = glance(p, is_pressed_in);
                 glances_[p].start = start;
             }
         },

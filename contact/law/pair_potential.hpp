@@ -26,8 +26,8 @@ public:
 
     [[nodiscard]] const NodeFriction<Dim>& friction() const { return friction_; }
 
-    /// Decides admission at x_0 where W = 0, then takes the forces of the step; fills `step`, whose nodes are set. Returns
-    /// how many pairs are pressed in at x_0 without being contacts.
+    /// Decides admission at x_0 where W = 0, of contacts that have no force when they have one, and takes the forces of the
+    /// step; fills `step`, whose nodes are set. Returns how many pairs are pressed in at x_0 without being contacts.
     std::int64_t apply(const NodalSurface<Dim>& surface, const SideOutlines<Dim>& sides, NodalPairs<Dim>& listed,
                        std::span<PairMemory> memory, FacetStore& facets, double dt, PointsView<Dim> x_0, PointsView<Dim> x_1,
                        TakenForce take, NodalStep<Dim>& step);

@@ -5,7 +5,7 @@
 #include <limits>
 #include <numbers>
 
-#include "abut/geometry/pair_potential/lanes/lane_pair.hpp"
+#include "abut/geometry/pair_potential/lane_pair.hpp"
 
 namespace abut::geometry {
 namespace {

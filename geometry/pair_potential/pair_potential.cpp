@@ -6,7 +6,7 @@
 #include <cstring>
 #include <limits>
 
-#include "abut/geometry/pair_potential/lanes/lane_pair.hpp"
+#include "abut/geometry/pair_potential/lane_pair.hpp"
 #include "abut/geometry/pair_potential/lanes/lane_task.hpp"
 #include "abut/geometry/pair_potential/pair_normal.hpp"
 

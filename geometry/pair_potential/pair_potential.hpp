@@ -120,7 +120,7 @@ template <int Dim>
 /// Options of the mean along a step. Energy is as exact with each of them: they decide how much the correction takes up,
 /// and so how accurate the force is.
 struct PairPathOptions {
-    /// Look closer where that is needed. The mean of the gradients at both ends is taken where its correction is below 1e-4
+    /// Look closer where that is needed. The mean of the gradients at both ends is taken where its correction is below 1e-5
     /// of it; else Simpson's rule; else Gauss's rule on pieces, cut where faces begin or end to overlap and corners pass
     /// through the other face (2D), or where the contact begins or ends and in the middle of large steps (3D). Without, the
     /// mean of both ends.
@@ -160,7 +160,7 @@ template <int Dim>
 
 /// The end of a step of a pair, and the start of the next one: W, the least gap and the area of the part where g < 0,
 /// n_1 . n_2, n, dW/dz in coordinates z that turn with the pair (2 Dim, Dim), and the pressures. A step that knows its start
-/// has the same bits as one that finds it again.
+/// is bitwise identical to one that finds it again.
 template <int Dim>
 using PairEnd = std::array<double, 4 + Dim + 2 * Dim*(Dim + 1)>;
 
@@ -175,7 +175,7 @@ struct PairStep {
     PairMeanGradient<Dim>* mean;  ///< result
 };
 
-/// `pair_mean_gradient` of many pairs at a fraction of the cost. Each has the bits that it has by itself.
+/// `pair_mean_gradient` of many pairs at a fraction of the cost. Each is bitwise identical to that pair by itself.
 template <int Dim>
 void integrate_pairs(std::span<const PairStep<Dim>> steps, const PairPathOptions& options = {});
 

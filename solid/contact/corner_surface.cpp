@@ -68,7 +68,6 @@ void CornerSurface<Dim>::append_row(BoundaryFace b, std::size_t body) {
 template <int Dim>
 void CornerSurface<Dim>::append_deformable() {
     const std::vector<BoundaryFace> in_mesh = bodies_.boundary_in_mesh();
-    std::vector<double> own;
     for (std::size_t i = 0; i < shared_->size(); ++i) {
         const auto face = shared_->rest(i);
         add_face(face.corners, face.depth, face.body, face.stiffness);
@@ -78,9 +77,7 @@ void CornerSurface<Dim>::append_deformable() {
         row_of_.push_back(shared_->is_own(i) ? static_cast<std::int32_t>(rows_.size()) : -1);
         if (!shared_->is_own(i)) continue;
         append_row(here, static_cast<std::size_t>(face.body));
-        own.push_back(rows_[row_of_.back()].amplification);
     }
-    amplification_ = shared_->numbers_of_all(own);
 }
 
 template <int Dim>
@@ -167,13 +164,6 @@ Vector<Dim> CornerSurface<Dim>::middle(contact::Face face, const Points& x) cons
     Vector<Dim> sum = Vector<Dim>::Zero();
     for (std::int32_t n = corner_offsets_[i]; n < corner_offsets_[i + 1]; ++n) sum += x[n];
     return sum / (corner_offsets_[i + 1] - corner_offsets_[i]);
-}
-
-template <int Dim>
-double CornerSurface<Dim>::amplification(const Listed& listed) const {
-    double largest = 0.0;
-    for (const std::int32_t face : listed.faces) largest = std::max(largest, amplification_[static_cast<std::size_t>(face)]);
-    return largest;
 }
 
 // Where they are -----------------------------------------------------------------------------------------------------

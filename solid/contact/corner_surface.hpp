@@ -52,8 +52,6 @@ public:
     [[nodiscard]] std::vector<std::int32_t> bodies_of_faces() const;
     /// Tells for each face whether it is in a group of the mesh of all bodies. A call of all ranks.
     [[nodiscard]] std::vector<bool> faces_in_group(std::size_t group) const;
-    /// How far a corner of these faces moves in its frame at most when no cell does by more than 1.
-    [[nodiscard]] double amplification(const Listed& listed) const;
 
     // Nodes and faces, by their number
 
@@ -140,9 +138,8 @@ private:
     std::vector<std::size_t> rigid_of_;            // rigid body of each face that follows
     std::vector<BoundaryFace> mesh_boundary_;      // of all these, in the whole mesh
     std::vector<std::vector<std::int32_t>> rigid_points_;
-    CornerRows rows_;                    // of the faces that are placed here
-    std::vector<std::int32_t> row_of_;   // of each face of a body that deforms; -1: it is placed elsewhere
-    std::vector<double> amplification_;  // of each face of a body that deforms
+    CornerRows rows_;                   // of the faces that are placed here
+    std::vector<std::int32_t> row_of_;  // of each face of a body that deforms; -1: it is placed elsewhere
     std::vector<RigidPlace<Dim>> places_;
     std::vector<Vector<Dim>> u_;  // work arrays: of all cells, and of listed faces
     std::vector<Vector<Dim>> displacement_;

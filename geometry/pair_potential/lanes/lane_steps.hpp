@@ -9,7 +9,7 @@ namespace abut::geometry::lanes {
 inline constexpr double eps = 2.220446049250313e-16;
 
 /// Part of the gradient up to which a correction is small: what Integral::checked asks for.
-inline constexpr double small_correction = 1e-4;
+inline constexpr double small_correction = 1e-5;
 
 /// Sum of the products of all components.
 template <class T, int Dim>
@@ -261,7 +261,7 @@ struct LaneCuts {
 };
 /// 0 <= s <= 1; anything else cuts nothing, nor does one cut too many.
 template <int Dim>
-void insert(double s, LaneCuts& cuts) {
+static void insert(double s, LaneCuts& cuts) {
     if (!(s >= 0.0 && s <= 1.0) || cuts.pieces == most_pieces) return;
     int i = ++cuts.pieces;
     for (; cuts.at[i - 1] > s; --i) cuts.at[i] = cuts.at[i - 1];
@@ -269,7 +269,7 @@ void insert(double s, LaneCuts& cuts) {
 }
 /// Cuts where the straight line from a to b crosses 0.
 template <int Dim>
-void cut_at_root(double a, double b, LaneCuts& cuts) {
+static void cut_at_root(double a, double b, LaneCuts& cuts) {
     if ((a < 0.0) != (b < 0.0)) insert<Dim>(a / (a - b), cuts);
 }
 
@@ -340,7 +340,7 @@ struct LanePoints {
 };
 /// Gauss's rule on each piece. Faces that only translate have a force of degree 3 between events, in 2D and in 3D.
 template <int Dim>
-void gauss_points(const LaneCuts& cuts, bool two_are_exact, LanePoints& points) {
+static void gauss_points(const LaneCuts& cuts, bool two_are_exact, LanePoints& points) {
     points.n = 0;
     for (int piece = 0; piece < cuts.pieces; ++piece) {
         const double begin = cuts.at[piece], length = cuts.at[piece + 1] - begin;

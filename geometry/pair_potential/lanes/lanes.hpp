@@ -1,6 +1,6 @@
 #pragma once
 // Private to the layer. Nothing here may come from the standard library: these headers are compiled for several processors
-// (steps_in_4.cpp), and an inline function of that kind would be shared between them.
+// (steps_by_4.cpp), and an inline function of that kind would be shared between them.
 
 namespace abut::geometry::lanes {
 
@@ -86,15 +86,15 @@ bool lane(const LaneFlags<N>& a, int i) {
     return a.v[i] != 0;
 }
 
-// One lane.
-inline double select(bool flag, double where_true, double where_false) { return flag ? where_true : where_false; }
-inline bool without(bool a, bool b) { return a && !b; }
-inline bool negated(bool a) { return !a; }
-inline double square_root(double a) { return __builtin_sqrt(a); }
-inline double magnitude(double a) { return __builtin_fabs(a); }
-inline double lane(double a, int) { return a; }
-inline bool lane(bool a, int) { return a; }
-inline void set_lane(double& a, int, double value) { a = value; }
+// One lane. These and the helpers of one pair in lane_steps.hpp are static: each source has its own.
+static inline double select(bool flag, double where_true, double where_false) { return flag ? where_true : where_false; }
+static inline bool without(bool a, bool b) { return a && !b; }
+static inline bool negated(bool a) { return !a; }
+static inline double square_root(double a) { return __builtin_sqrt(a); }
+static inline double magnitude(double a) { return __builtin_fabs(a); }
+static inline double lane(double a, int) { return a; }
+static inline bool lane(bool a, int) { return a; }
+static inline void set_lane(double& a, int, double value) { a = value; }
 
 template <class T>
 struct LanesOf;

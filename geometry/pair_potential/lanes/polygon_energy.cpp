@@ -7,7 +7,8 @@
 #include <limits>
 #include <stdexcept>
 
-#include "abut/geometry/pair_potential/lanes/lane_pair.hpp"
+#include "abut/base/vector.hpp"
+#include "abut/geometry/pair_potential/lanes/lane_energy_3d.hpp"
 
 namespace abut::geometry::lanes {
 namespace {
@@ -40,6 +41,8 @@ struct PlanePolygon {
 };
 
 using CornerValues = std::array<double, PlanePolygon::capacity>;
+
+Vector<2> vector_of(const LaneVector<double, 2>& a) { return {a.c[0], a.c[1]}; }
 
 double cross(const Vector<2>& a, const Vector<2>& b) { return a[0] * b[1] - a[1] * b[0]; }
 
