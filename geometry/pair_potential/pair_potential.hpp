@@ -120,7 +120,7 @@ template <int Dim>
 /// Options of the mean along a step. Energy is as exact with each of them: they decide how much the correction takes up,
 /// and so how accurate the force is.
 struct PairPathOptions {
-    /// Look closer where that is needed. The mean of the gradients at both ends is taken where its correction is below 1e-5
+    /// Look closer where that is needed. The mean of the gradients at both ends is taken where its correction is below 1e-7
     /// of it; else Simpson's rule; else Gauss's rule on pieces, cut where faces begin or end to overlap and corners pass
     /// through the other face (2D), or where the contact begins or ends and in the middle of large steps (3D). Without, the
     /// mean of both ends.

@@ -9,7 +9,7 @@ namespace abut::geometry::lanes {
 inline constexpr double eps = 2.220446049250313e-16;
 
 /// Part of the gradient up to which a correction is small: what Integral::checked asks for.
-inline constexpr double small_correction = 1e-5;
+inline constexpr double small_correction = 1e-7;
 
 /// Sum of the products of all components.
 template <class T, int Dim>
