@@ -313,7 +313,7 @@ BadInput
 
 inline constexpr const char* mesh_class = R"(Bodies that share no point, cell or face.
 
-It is made by the functions of this module, such as `mesh`, `read_mesh` and `box`. Its cells are numbered anew;
+It is made by the functions of this module, such as `mesh`, `read_mesh` and `box`. Its cells get new numbers;
 `label` has their numbers before.
 )";
 

@@ -86,7 +86,7 @@ bool lane(const LaneFlags<N>& a, int i) {
     return a.v[i] != 0;
 }
 
-// One lane. These and the helpers of one pair in lane_steps.hpp are static: each source has its own.
+// One lane. These and the helpers of one pair in lane_gauss.hpp are static: each source has its own.
 static inline double select(bool flag, double where_true, double where_false) { return flag ? where_true : where_false; }
 static inline bool without(bool a, bool b) { return a && !b; }
 static inline bool negated(bool a) { return !a; }
