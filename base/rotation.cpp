@@ -27,6 +27,18 @@ Matrix<3> rotation_between(const Vector<3>& from, const Vector<3>& to) {
     return turn.toRotationMatrix();
 }
 
+Matrix<2> nearest_rotation(const Matrix<2>& b) {
+    const double cosine = b(0, 0) + b(1, 1), sine = b(1, 0) - b(0, 1);
+    const double length = std::hypot(cosine, sine);
+    return Matrix<2>{{cosine, -sine}, {sine, cosine}} / length;
+}
+
+Matrix<3> nearest_rotation(const Matrix<3>& b) {
+    auto [u, values, v] = singular_values(b);
+    if ((u * v.transpose()).determinant() < 0.0) u.col(2) *= -1.0;
+    return u * v.transpose();
+}
+
 Vector<3> rotation_vector(const Matrix<3>& rotation) {
     const Eigen::AngleAxisd turn(Eigen::Matrix3d(as_eigen(rotation)));
     return turn.angle() * Vector<3>(turn.axis());

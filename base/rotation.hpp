@@ -24,6 +24,10 @@ namespace abut {
 /// The rotation through the least angle that turns one direction into the other.
 [[nodiscard]] Matrix<3> rotation_between(const Vector<3>& from, const Vector<3>& to);
 
+/// The rotation Q for which Q^T B is symmetric and its trace largest; for B = F M with a positive M the nearest one to F.
+[[nodiscard]] Matrix<2> nearest_rotation(const Matrix<2>& b);
+[[nodiscard]] Matrix<3> nearest_rotation(const Matrix<3>& b);
+
 /// The axis times the angle, 0 to pi, of a rotation [rad].
 [[nodiscard]] Vector<3> rotation_vector(const Matrix<3>& rotation);
 

@@ -134,10 +134,8 @@ public:
         if (const auto slow = run::slow_cell(scene, result)) estimate_.cell_of_step = slow->text;
         estimate_.damping = damping_of_friction(scene, result);
         interval_ = result.options.interval;
-        const std::vector<run::Warning> warnings = run::warnings_before(scene, result);
-        const auto pressed = std::ranges::find(warnings, run::WarningKind::pressed_finite, &run::Warning::kind);
-        if (pressed != warnings.end()) estimate_.pressed = pressed->text;
-        for (const run::Warning& warning : run::without_notes(warnings)) checked_.warnings.push_back(warning.text);
+        for (const run::Warning& warning : run::without_notes(run::warnings_before(scene, result)))
+            checked_.warnings.push_back(warning.text);
     }
     [[nodiscard]] bool wants_look(std::int64_t) const override { return true; }
     void look(const dynamics::RunView<Dim>&, solid::Solid<Dim>& solid) override {
@@ -203,7 +201,6 @@ std::string text_of(const Estimate& estimate) {
     if (!estimate.law.empty()) line("law of contact", estimate.law);
     if (!estimate.inertia.empty()) line("inertia", estimate.inertia);
     if (!estimate.across.empty()) line("cells across", estimate.across);
-    if (!estimate.pressed.empty()) line("  pressed", estimate.pressed);
     if (!estimate.bonds.empty()) line("bonded", estimate.bonds);
     line("stable step", fmt::format("{:.4g} s", estimate.stable_dt));
     if (!estimate.cell_of_step.empty()) line("  set by", estimate.cell_of_step);

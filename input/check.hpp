@@ -23,14 +23,13 @@ struct Estimate {
     std::int64_t steps = 0;
     /// Proposed damping of bodies that rub, "stiffness_damping = 1e-05, ..."; empty if nothing rubs or a body is damped
     std::string damping{};
-    std::string law;        ///< of contact, that which acts: "pair_potential"; empty without contact
-    double end = 0.0;       ///< of the run [s]
-    double seconds = 0.0;   ///< that it takes about: steps and records as long as the state at the start takes to evaluate
-    std::string inertia;    ///< the least share of it that the points of a body have, and of which body
-    std::string across{};   ///< "at most 4 in 'left'": cells across the thinnest body that deforms; empty if none does
-    std::string pressed{};  ///< text of WarningKind::pressed_finite; empty where that is not told of
-    std::string bonds;      ///< how much of them is bonded (run::bonded_text); empty without bonds
-    double bytes = 0.0;     ///< that this process has taken at most, once the solid was made; the run takes about as much
+    std::string law;       ///< of contact, that which acts: "pair_potential"; empty without contact
+    double end = 0.0;      ///< of the run [s]
+    double seconds = 0.0;  ///< that it takes about: steps and records as long as the state at the start takes to evaluate
+    std::string inertia;   ///< the least share of it that the points of a body have, and of which body
+    std::string across{};  ///< "at most 4 in 'left'": cells across the thinnest body that deforms; empty if none does
+    std::string bonds;     ///< how much of them is bonded (run::bonded_text); empty without bonds
+    double bytes = 0.0;    ///< that this process has taken at most, once the solid was made; the run takes about as much
 };
 
 struct CheckedScene {

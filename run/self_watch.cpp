@@ -12,6 +12,7 @@
 
 #include "abut/base/decompositions.hpp"
 #include "abut/base/error.hpp"
+#include "abut/base/rotation.hpp"
 #include "abut/contact/overlaps.hpp"
 #include "abut/contact/search/candidate_search.hpp"
 #include "abut/geometry/polygon.hpp"
@@ -114,7 +115,7 @@ private:
             const Vector<Dim> arm = rest[i] - rest_centre;
             moment += mass[i] * (arm + u[i] - moved) * arm.transpose();
         }
-        const Matrix<Dim> back = solid::nearest_rotation<Dim>(moment).transpose();
+        const Matrix<Dim> back = nearest_rotation(moment).transpose();
         deformed_.resize(u.size());
         for (std::size_t i = 0; i < u.size(); ++i) {
             const Vector<Dim> arm = rest[i] - rest_centre;

@@ -83,7 +83,6 @@ enum class WarningKind {
     coincident_vertices,  ///< note: vertices at the place of one of another body
     unjoined_faces,       ///< faces that lie on others of their body and are not joined to them
     missing_bond,         ///< BondCoverage::share of a bond [-]; threshold: enough_bond
-    pressed_finite,       ///< note: cells across a finite body that contact may press; threshold: those that are enough
     slow_cell,            ///< SlowCell::share of the cell that decides the step [-]; threshold: slow_cell_share
     missing_inertia,      ///< BodyInertia::least of a body that may turn [-]; threshold: enough_inertia
     extrapolated_faces,   ///< note: faces that extrapolate from the cells around them: the stable step is shorter

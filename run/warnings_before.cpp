@@ -2,7 +2,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -14,7 +13,6 @@
 #include <vector>
 
 #include "abut/contact/nodal_contact.hpp"
-#include "abut/mesh/cells_across.hpp"
 #include "abut/run/body_names.hpp"
 #include "abut/run/counts.hpp"
 #include "abut/run/obstacle_watch.hpp"
@@ -176,60 +174,6 @@ void add_slow_cell(Counts& counts, const Scene<Dim>& scene, const RunResult<Dim>
          slow->share, slow_cell_share});
 }
 
-/// Part of its force that a finite block of so many cells across bears between two planes, bricks and simplices:
-/// scripts/pressed_blocks.
-struct Bears {
-    int across;
-    double bricks, simplices;
-};
-constexpr std::array<Bears, 7> bears_in_2d{{{3, 0.56, 0.81},
-                                            {4, 0.73, 0.89},
-                                            {5, 0.81, 0.93},
-                                            {6, 0.87, 0.95},
-                                            {8, 0.93, 0.98},
-                                            {12, 0.97, 0.99},
-                                            {16, 0.99, 0.99}}};
-constexpr std::array<Bears, 6> bears_in_3d{
-    {{3, 0.37, 0.88}, {4, 0.53, 0.94}, {5, 0.64, 0.96}, {6, 0.73, 0.97}, {8, 0.83, 0.99}, {10, 0.89, 0.99}}};
-
-/// "0.56 to 0.89" for 4 cells, which may be 3: the least of the one and the most of the other.
-template <int Dim>
-std::string bears_text(int across) {
-    const auto& rows = []() -> const auto& {
-        if constexpr (Dim == 2)
-            return bears_in_2d;
-        else
-            return bears_in_3d;
-    }
-    ();
-    if (across < rows.front().across) return fmt::format("less than {:.2f}", rows.front().simplices);
-    const auto least =
-        std::ranges::find_if(rows.rbegin(), rows.rend() - 1, [&](const Bears& row) { return row.across < across; });
-    const auto most =
-        std::ranges::find_if(rows.begin(), rows.end() - 1, [&](const Bears& row) { return row.across >= across; });
-    return fmt::format("{:.2f} to {:.2f}", least->bricks, most->simplices);
-}
-
-/// Notes what the finite body with the fewest cells across bears where contact presses on whole sides of it: no balance
-/// shows it.
-template <int Dim>
-void add_pressed(Counts& counts, const Scene<Dim>& scene, const RunResult<Dim>& result) {
-    constexpr int enough = 16;
-    std::vector<std::size_t> finite;
-    for (std::size_t body = 0; body < scene.mesh.body_names.size(); ++body)
-        if (solid::properties_of(kinematics_of(scene, result, body)).finite_strains) finite.push_back(body);
-    if (!scene.contact || finite.empty()) return;
-    const std::vector<int> across = mesh::cells_across(scene.mesh);
-    const std::size_t thinnest = *std::ranges::min_element(finite, {}, [&](std::size_t body) { return across[body]; });
-    if (across[thinnest] >= enough) return;
-    counts.warnings.push_back(
-        {WarningKind::pressed_finite, Severity::note,
-         fmt::format("body '{}', which is finite, has at most {} cells across: where contact presses on whole sides of it, "
-                     "it bears {} of its force. Take more cells, or floating where nothing bends far",
-                     scene.mesh.body_names[thinnest], across[thinnest], bears_text<Dim>(across[thinnest])),
-         static_cast<double>(across[thinnest]), static_cast<double>(enough)});
-}
-
 }  // namespace
 
 template <int Dim>
@@ -240,7 +184,6 @@ std::vector<Warning> warnings_before(const Scene<Dim>& scene, const RunResult<Di
     add_bonds(counts, scene, result);
     add_slow_cell(counts, scene, result);
     add_inertia(counts, scene, result);
-    add_pressed(counts, scene, result);
     const auto& stencils = result.stencils;
     counts.add(WarningKind::extrapolated_faces, Severity::note, stencils.extrapolated,
                fmt::format("{} of {} faces extrapolate from the cells around them, worst weight {:.2g}: the stable step is "

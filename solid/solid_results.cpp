@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "abut/base/rotation.hpp"
 #include "abut/dynamics/ledger.hpp"
 #include "abut/solid/body/bodies.hpp"
 #include "abut/solid/body/body_rotation.hpp"
@@ -47,7 +48,7 @@ std::vector<double> Solid<Dim>::rotations(std::span<const double> q) const {
     std::vector<Vector<Dim>> kept;
     const auto of_part = bodies_->any_rigid() ? part_->filled(u, kept) : u;
     return bodies_->of_bodies(rotation_->angles(u), [&](std::size_t rigid) {
-        return rotation_angle<Dim>(nearest_rotation<Dim>(bodies_->rigid().place(rigid, of_part).map));
+        return rotation_angle<Dim>(nearest_rotation(bodies_->rigid().place(rigid, of_part).map));
     });
 }
 

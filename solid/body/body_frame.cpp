@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include "abut/base/decompositions.hpp"
 #include "abut/dynamics/angular_velocity.hpp"
 
 namespace abut::solid {
@@ -18,20 +17,6 @@ AxialVector<Dim> spin_of(const Matrix<Dim>& second_moment, const AxialVector<Dim
 }
 template AxialVector<2> spin_of<2>(const Matrix<2>&, const AxialVector<2>&);
 template AxialVector<3> spin_of<3>(const Matrix<3>&, const AxialVector<3>&);
-
-template <>
-Matrix<2> nearest_rotation<2>(const Matrix<2>& b) {
-    const double cosine = b(0, 0) + b(1, 1), sine = b(1, 0) - b(0, 1);
-    const double length = std::hypot(cosine, sine);
-    return Matrix<2>{{cosine, -sine}, {sine, cosine}} / length;
-}
-
-template <>
-Matrix<3> nearest_rotation<3>(const Matrix<3>& b) {
-    auto [u, values, v] = singular_values(b);
-    if ((u * v.transpose()).determinant() < 0.0) u.col(2) *= -1.0;
-    return u * v.transpose();
-}
 
 /// omega is defined by Delta Q = hat(omega) Q_b: the change of Q^T B is symmetric in between as it is at both ends, which
 /// gives L omega = axial(Q_b^T Delta B) with the columns axial(Q_b^T hat(e_j) B_b) of L.

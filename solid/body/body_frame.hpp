@@ -26,10 +26,6 @@ template <int Dim>
 template <int Dim>
 [[nodiscard]] AxialVector<Dim> spin_of(const Matrix<Dim>& second_moment, const AxialVector<Dim>& angular_momentum);
 
-/// The rotation Q for which Q^T B is symmetric and its trace largest; for B = F M with a positive M the nearest one to F.
-template <int Dim>
-[[nodiscard]] Matrix<Dim> nearest_rotation(const Matrix<Dim>& b);
-
 /// Position of a body that turns: the mass mean of its points x, and the rotation that fits best how they lie about it.
 /// docs/method.md, Bodies that turn.
 template <int Dim>

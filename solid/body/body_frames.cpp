@@ -10,6 +10,7 @@
 #include "abut/base/decompositions.hpp"
 #include "abut/base/error.hpp"
 #include "abut/base/parallel.hpp"
+#include "abut/base/rotation.hpp"
 #include "abut/solid/part/rank_part.hpp"
 
 #pragma GCC diagnostic ignored "-Wpsabi"  // registers are passed between functions of this file alone
@@ -178,7 +179,7 @@ void BodyFrames<Dim>::place(std::span<const Vector<Dim>> q, std::vector<BodyFram
         });
         frames[body].centre = rest_[body].centre + origins[body] + sums.col(Dim) / mass_[body];
         frames[body].moment = rest_[body].moment + sums.template leftCols<Dim>();
-        frames[body].turn = nearest_rotation<Dim>(frames[body].moment);
+        frames[body].turn = nearest_rotation(frames[body].moment);
     }
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "abut/base/decompositions.hpp"
+#include "abut/base/rotation.hpp"
 #include "abut/dynamics/sum_over.hpp"
 #include "abut/solid/body/body_frame.hpp"
 
@@ -52,7 +53,7 @@ std::vector<double> BodyRotation<Dim>::angles(std::span<const Vector<Dim>> u) co
         const Matrix<Dim> moment = sum_of(body, Matrix<Dim>::Zero(), [&, at = centre](std::size_t c) -> Matrix<Dim> {
             return (masses_[c] * u[c]) * (rest_[c] - at).transpose();
         });
-        angles.push_back(rotation_angle<Dim>(nearest_rotation<Dim>(Matrix<Dim>::Identity() + moment * inverse)));
+        angles.push_back(rotation_angle<Dim>(nearest_rotation(Matrix<Dim>::Identity() + moment * inverse)));
     }
     return angles;
 }

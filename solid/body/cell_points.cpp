@@ -70,7 +70,7 @@ Matrix<Dim> least_rotation(const Matrix<Dim>& moment) {
         const SingularValues svd = singular_values(moment);
         if (svd.values[1] <= 1e-10 * svd.values[0]) return rotation_between(svd.v.col(0), svd.u.col(0));
     }
-    return nearest_rotation<Dim>(moment);
+    return nearest_rotation(moment);
 }
 
 }  // namespace

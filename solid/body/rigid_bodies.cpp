@@ -9,6 +9,7 @@
 #include "abut/base/decompositions.hpp"
 #include "abut/base/error.hpp"
 #include "abut/base/parallel.hpp"
+#include "abut/base/rotation.hpp"
 #include "abut/solid/part/body_cells.hpp"
 #include "abut/solid/part/rank_part.hpp"
 #include "abut/solid/part/state_of_matrix.hpp"
@@ -155,8 +156,8 @@ template <int Dim>
 void RigidBodies<Dim>::follow(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1) {
     for (Body& body : bodies_) {
         body.rate_before = body.rate_after;
-        body.turn_0 = nearest_rotation<Dim>(map_of(body, of_points(body, q_0)));
-        body.turn_1 = nearest_rotation<Dim>(map_of(body, of_points(body, q_1)));
+        body.turn_0 = nearest_rotation(map_of(body, of_points(body, q_0)));
+        body.turn_1 = nearest_rotation(map_of(body, of_points(body, q_1)));
     }
 }
 
@@ -176,7 +177,7 @@ template <int Dim>
 void RigidBodies<Dim>::constrain_at(std::span<const Vector<Dim>> q, double dt, std::span<Vector<Dim>> p) {
     for (const std::int32_t i : constrained_) {
         Body& body = bodies_[i];
-        const Matrix<Dim> turn = nearest_rotation<Dim>(map_of(body, of_points(body, q)));
+        const Matrix<Dim> turn = nearest_rotation(map_of(body, of_points(body, q)));
         const Matrix<Dim> other_end = constrain(body, turn, turn, q, dt, p);
         if (dt > 0.0) continue;
         body.turn_0 = other_end;
@@ -229,7 +230,7 @@ void RigidBodies<Dim>::add_constraint_forces(std::span<const Vector<Dim>> q, std
             sum += force[body.first_point + i];
             moments += force[body.first_point + i] * rest_arm(body, i).transpose();
         }
-        const Matrix<Dim> turn = nearest_rotation<Dim>(map_of(body, of_points(body, q)));
+        const Matrix<Dim> turn = nearest_rotation(map_of(body, of_points(body, q)));
         const Matrix<Dim> in_space = turn * body.second_moment * turn.transpose();
         const AxialVector<Dim> spin =
             0.5 * axial<Dim>(Matrix<Dim>(0.5 * (body.rate_before + body.rate_after) * turn.transpose()));

@@ -15,12 +15,7 @@ namespace {
 
 inline constexpr double no_stiffness = 1e-10;  // of the largest eigenvalue: below it a combination of faces has none
 
-// Corners of a cell at which a free face answers to contact of another one. Faces that lie nearly in one plane are pressed
-// together, and a plate of one cell would give way altogether.
-inline constexpr double largest_corner_cosine = 0.6;  // |n_f . n_g|: between 53 and 127 degrees
-inline constexpr double rounding = 1e-9;              // of cosines
-inline constexpr double least_free_part = 1e-12;      // of a unit normal: below it a face cannot move along its normal
-inline constexpr double least_stiffness = 0.5;        // that must be left to the face, of Young's modulus |f|/|c|
+inline constexpr double least_free_part = 1e-12;  // of a unit normal: below it a face cannot move along its normal
 
 /// One boundary face's displacement as a sum over cells, prescribed displacements and tractions.
 template <int Dim>
@@ -209,8 +204,7 @@ private:
     std::vector<BoundaryFace> corners_with(BoundaryFace b, const std::vector<BoundaryFace>& boundary) const {
         std::vector<BoundaryFace> corners;
         for (const BoundaryFace other : boundary)
-            if (other != b && is_free(other) && !is_joined(other) &&
-                std::abs(normal_of(b).dot(normal_of(other))) <= largest_corner_cosine + rounding)
+            if (other != b && is_free(other) && !is_joined(other) && meet_at_corner<Dim>(normal_of(b), normal_of(other)))
                 corners.push_back(other);
         return corners;
     }

@@ -1,4 +1,5 @@
 #pragma once
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -60,6 +61,16 @@ template <int Dim>
                                                                const FaceConditions<Dim>& conditions, FreeFaceRule rule,
                                                                CornerRule corner_rule,
                                                                std::span<const Kinematics> kinematics);
+
+/// Whether a free face answers to contact of another one of its cell. Faces that lie nearly in one plane are pressed
+/// together, and a plate of one cell would give way altogether.
+template <int Dim>
+[[nodiscard]] bool meet_at_corner(const Vector<Dim>& normal_f, const Vector<Dim>& normal_g) {
+    constexpr double largest_cosine = 0.6 + 1e-9;  // between 53 and 127 degrees, and rounding
+    return std::abs(normal_f.dot(normal_g)) <= largest_cosine;
+}
+/// What must be left of the stiffness of a face as others answer, over Young's modulus |f|/|c|. Else none answers.
+inline constexpr double least_stiffness = 0.5;
 
 /// A_fg of a cell: the answer of dV/dũ_f to a displacement of g, stabilisation left out; the area
 /// vectors |f| n_f and |g| n_g point out of the cell. docs/method.md, Space.

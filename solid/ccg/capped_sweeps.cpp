@@ -65,7 +65,7 @@ void CcgSweeps<Dim, Real>::add_lasting_jumps(std::int32_t c) {
 /// F - I as the traces of the cell take it.
 template <int Dim, class Real>
 Matrix<Dim> CcgSweeps<Dim, Real>::trace_gradient(std::int32_t c) const {
-    return finite_.condensed(c) ? free_[finite_.free_position(c)].gradient() : unload(load_tensor<Dim>(g_, c));
+    return finite_.has_condensed_traces(c) ? free_[finite_.free_position(c)].gradient() : unload(load_tensor<Dim>(g_, c));
 }
 
 /// The mean of both cells.

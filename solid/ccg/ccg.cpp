@@ -5,6 +5,7 @@
 
 #include "abut/base/error.hpp"
 #include "abut/base/parallel.hpp"
+#include "abut/base/rotation.hpp"
 #include "abut/solid/ccg/ccg_impl.hpp"
 #include "abut/solid/ccg/device_sweeps.hpp"
 #include "abut/solid/ccg/region.hpp"
@@ -84,6 +85,7 @@ Ccg<Dim>::Impl::Impl(const mesh::Mesh<Dim>& mesh, std::span<const Material> mate
       are_moved(free_faces == FreeFaces::are_moved) {
     const auto all = solid::boundary_faces(mesh);
     motion_bound.emplace(arrays, std::vector<BoundaryFace>(all.begin(), all.end()));
+    if (free_faces == FreeFaces::are_pushed && finite.any()) give_way_at_corners(mesh, materials);
     for (const std::int32_t f : arrays.boundary_faces) {
         boundary_centroid.push_back(mesh.face_centroid[f]);
         boundary_measure.push_back(mesh.face_measure[f]);
@@ -94,6 +96,61 @@ Ccg<Dim>::Impl::Impl(const mesh::Mesh<Dim>& mesh, std::span<const Material> mate
         varies = varies || condition.history || condition.from_outside;
         outside.emplace_back(condition.from_outside ? face_conditions.traction[i].size() : 0, condition.value);
     }
+}
+
+/// Free faces of finite bodies give way with the others of their cell that turn away from them, as those of other bodies do
+/// by their rows.
+template <int Dim>
+void Ccg<Dim>::Impl::give_way_at_corners(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials) {
+    for (std::int32_t c = 0; c < arrays.n_cells(); ++c) {
+        const std::vector<BoundaryFace> free = free_faces_of(c);
+        for (const BoundaryFace b : free) {
+            const Vector<Dim>& normal = arrays.normal_of(b);
+            std::vector<Vector<Dim>> normals{normal};
+            for (const BoundaryFace other : free)
+                if (other != b && meet_at_corner<Dim>(normal, arrays.normal_of(other)))
+                    normals.push_back(arrays.normal_of(other));
+            if (normals.size() == 1) continue;
+            const double alone = answers_of(c, {normal}).modulus(0), left = answers_of(c, std::move(normals)).modulus(0);
+            if (left >= least_stiffness * materials[mesh.cell_body[c]].mean_young())
+                arrays.boundary.normal_stiffness[number_of(b)] *= left / alone;
+        }
+    }
+}
+
+template <int Dim>
+FreeFaceAnswers<Dim> Ccg<Dim>::Impl::answers_of(std::int32_t cell, std::vector<Vector<Dim>> normals) const {
+    const auto& [inverse_measure, lambda, mu] = arrays.cells[cell];
+    return {std::move(normals), lambda, mu, arrays.directed.contains(cell) ? &arrays.directed[cell] : nullptr};
+}
+
+/// Of a cell of a finite body.
+template <int Dim>
+std::vector<BoundaryFace> Ccg<Dim>::Impl::free_faces_of(std::int32_t cell) const {
+    std::vector<BoundaryFace> faces;
+    if (!finite.free_cell(cell)) return faces;
+    for (const HalfFace& half_face : arrays.half_faces_of(cell)) {
+        const BoundaryFace b = arrays.boundary_index[half_face.face];
+        if (b != no_face && finite.is_free(b)) faces.push_back(b);
+    }
+    return faces;
+}
+
+/// What pushes on free faces of a cell of a finite body, where these stand now.
+template <int Dim>
+Matrix<Dim> Ccg<Dim>::Impl::stress_of_pushes(std::int32_t cell, const Matrix<Dim>& displacement_gradient) const {
+    const Matrix<Dim> f = Matrix<Dim>::Identity() + displacement_gradient, turn = nearest_rotation(f);
+    const Matrix<Dim> to_area = f.determinant() * f.transpose().inverse();  // of areas at rest
+    std::vector<Vector<Dim>> normals, tractions;
+    bool is_pushed = false;
+    for (const BoundaryFace b : free_faces_of(cell)) {
+        const Vector<Dim> area = to_area * arrays.normal_of(b), traction = push_on(b) / area.norm();
+        normals.push_back(turn.transpose() * area.normalized());
+        tractions.push_back(turn.transpose() * traction);
+        is_pushed = is_pushed || !traction.isZero(0.0);
+    }
+    if (!is_pushed) return Matrix<Dim>::Zero();
+    return turn * answers_of(cell, std::move(normals)).stress(tractions) * turn.transpose();
 }
 
 template <int Dim>
@@ -278,7 +335,8 @@ template <int Dim>
 Matrix<Dim> Ccg<Dim>::stress_under_pushes(std::int32_t cell) const {
     const CcgArrays<Dim>& arrays = impl_->arrays;
     Matrix<Dim> sigma = stress(cell);
-    if (impl_->pushed.empty() || impl_->finite.contains(cell)) return sigma;
+    if (impl_->pushed.empty()) return sigma;
+    if (impl_->finite.contains(cell)) return sigma + impl_->stress_of_pushes(cell, displacement_gradient(cell));
     const BoundaryReconstruction<Dim>& boundary = arrays.boundary;
     const auto& [inverse_measure, lambda, mu] = arrays.cells[cell];
     Matrix<Dim> g = Matrix<Dim>::Zero();

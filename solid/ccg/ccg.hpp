@@ -262,7 +262,7 @@ public:
     [[nodiscard]] Matrix<Dim> displacement_gradient(std::int32_t cell) const;
     [[nodiscard]] Matrix<Dim> stress(std::int32_t cell) const;
     /// Stress of a cell with the forces of contact on its free faces, those of the last call that had corrections.
-    /// sigma_c alone balances the faces as if nothing pushed them. Bodies of Kinematics::finite have sigma_c [Pa].
+    /// sigma_c alone balances the faces as if nothing pushed them [Pa].
     [[nodiscard]] Matrix<Dim> stress_under_pushes(std::int32_t cell) const;
 
     /// Extremes of these cells, increasing, at the end of the step or in the state that `gradient` was called for last.

@@ -9,6 +9,7 @@
 #include "abut/solid/ccg/capped_jumps.hpp"
 #include "abut/solid/ccg/ccg.hpp"
 #include "abut/solid/ccg/finite_cells.hpp"
+#include "abut/solid/ccg/free_face_answers.hpp"
 #include "abut/solid/ccg/motion_bound.hpp"
 #include "abut/solid/ccg/plastic_cells.hpp"
 #include "abut/solid/ccg/step_sweeps.hpp"
@@ -68,6 +69,11 @@ struct Ccg<Dim>::Impl {
         if (at == pushed.end() || *at != face) return Vector<Dim>::Zero();
         return -pushes[static_cast<std::size_t>(at - pushed.begin())] / boundary_measure[face];
     }
+
+    void give_way_at_corners(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials);
+    [[nodiscard]] FreeFaceAnswers<Dim> answers_of(std::int32_t cell, std::vector<Vector<Dim>> normals) const;
+    [[nodiscard]] std::vector<BoundaryFace> free_faces_of(std::int32_t cell) const;
+    [[nodiscard]] Matrix<Dim> stress_of_pushes(std::int32_t cell, const Matrix<Dim>& displacement_gradient) const;
 
     /// evaluate(sweeps) of those that make steps.
     template <class Evaluate>

@@ -13,6 +13,15 @@
 
 namespace abut::solid {
 
+/// What contact at the faces of a cell adds to gradients of energy over |c| [Pa].
+template <int Dim>
+struct CellPush {
+    Matrix<Dim> affine = Matrix<Dim>::Zero();     ///< in F of the affine faces
+    Matrix<Dim> condensed = Matrix<Dim>::Zero();  ///< in F_cond, of faces that are seen so; of finite cells alone
+    /// Sum of p (x) M^-1 n/|c| over free faces: these move by (F_cond - F) M^-1 n (FreeCell::to_faces)
+    Matrix<Dim> of_moved_faces = Matrix<Dim>::Zero();
+};
+
 /// Terms that contact adds to dV/dG_c of the cells behind some boundary faces, cell by cell. Empty without any.
 template <int Dim>
 class CellMoments {
@@ -27,40 +36,42 @@ public:
         std::ranges::stable_sort(order_, {}, cell_of);
         for (const std::size_t i : order_) {
             const std::int32_t cell = cell_of(i);
-            const double inverse_measure = arrays.cells[cell].inverse_measure;
-            const LaneTensor<Dim> stress = load_packed<Dim>(Matrix<Dim>(inverse_measure * corrections.moment[i]));
             if (cells_.empty() || cells_.back() != cell) {
                 cells_.push_back(cell);
-                stresses_.push_back(stress);
-                normal_pushes_.push_back(Matrix<Dim>::Zero());
-            } else {
-                for (int j = 0; j < Dim; ++j) stresses_.back().col[j] += stress.col[j];
+                pushes_.emplace_back();
             }
-            if (const FreeCell<Dim>* free = finite.condensed(cell))
-                normal_pushes_.back() += inverse_measure * free->measure_over * corrections.energy_gradient[i] *
-                                         arrays.normal_of(corrections.faces[i]).transpose();
+            const BoundaryFace face = corrections.faces[i];
+            const double inverse_measure = arrays.cells[cell].inverse_measure;
+            const Matrix<Dim> stress = inverse_measure * corrections.moment[i];
+            CellPush<Dim>& push = pushes_.back();
+            const FreeCell<Dim>* free = finite.condensed_behind(face, cell);
+            if (!free) {
+                push.affine += stress;
+                continue;
+            }
+            push.condensed += stress;
+            if (!finite.is_free(face)) continue;
+            const Vector<Dim> moved = inverse_measure * free->to_faces * arrays.normal_of(face);
+            push.of_moved_faces += corrections.energy_gradient[i] * moved.transpose();
         }
     }
 
     void clear() {
         cells_.clear();
-        stresses_.clear();
-        normal_pushes_.clear();
+        pushes_.clear();
     }
 
-    /// visit(c, moment over |c|, normal push) for the cells from `begin` to before `end`. Normal push: the sum of p (x)
-    /// n d/|c| where free faces move by their normal columns of F, d being |c| over their area; else 0.
+    /// visit(c, push) for the cells from `begin` to before `end`.
     template <class Visit>
     void for_each(std::int32_t begin, std::int32_t end, const Visit& visit) const {
         for (auto i = static_cast<std::size_t>(std::ranges::lower_bound(cells_, begin) - cells_.begin());
              i < cells_.size() && cells_[i] < end; ++i)
-            visit(cells_[i], stresses_[i], normal_pushes_[i]);
+            visit(cells_[i], pushes_[i]);
     }
 
 private:
-    std::vector<std::int32_t> cells_;        // increasing
-    std::vector<LaneTensor<Dim>> stresses_;  // over |c|
-    std::vector<Matrix<Dim>> normal_pushes_;
+    std::vector<std::int32_t> cells_;  // increasing
+    std::vector<CellPush<Dim>> pushes_;
     std::vector<std::size_t> order_;  // work array
 };
 

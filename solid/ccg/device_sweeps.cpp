@@ -47,10 +47,10 @@ void DeviceSweeps<Dim>::run(const LoadCell& load_cell, const BoundaryLoad<Dim>& 
     const PlacedCorrections<Dim, double> placed(arrays_, finite_, element_.units, staged, moments_, corrections);
     moment_cells_.clear();
     moment_stresses_.clear();
-    moments_.for_each(0, arrays_.n_cells(), [&](std::int32_t c, const LaneTensor<Dim>& stress, const Matrix<Dim>&) {
+    moments_.for_each(0, arrays_.n_cells(), [&](std::int32_t c, const CellPush<Dim>& push) {
         moment_cells_.push_back(c);
         moment_stresses_.resize(moment_cells_.size() * Dim * Vectors::width);
-        store_tensor(stress, moment_stresses_, std::ssize(moment_cells_) - 1);
+        store_tensor(load_packed<Dim>(push.affine), moment_stresses_, std::ssize(moment_cells_) - 1);
     });
     parallel_each(arrays_.n_cells(), [&](std::ptrdiff_t c) { store(load_cell(c), staged.u.data, c); });
     const auto gradient = kernels_.gradient(plain<double>(load.displacement), plain<double>(load.traction),

@@ -52,8 +52,10 @@ struct FreeCell {
     /// Dim - 1 where all free faces have one normal, fewer at edges and corners. Normals less than 28 degrees apart are
     /// one: their mean
     int n_tangents;
-    Matrix<Dim> axes;     ///< orthonormal and right-handed, tangents first
-    double measure_over;  ///< |c| over the area of the free faces, seen along their normal [m]
+    Matrix<Dim> axes;  ///< orthonormal and right-handed, tangents first
+    /// M^-1 on what the normals span, M = sum |f|/|c| n n^T over the free faces; 0 beside it [m]. Where F is changed by X
+    /// such a face moves by X M^-1 n: of all motions that change F so, that of the least sum |f| |û|^2
+    Matrix<Dim> to_faces;
 
     [[nodiscard]] bool has_one_normal() const { return n_tangents == Dim - 1; }
     [[nodiscard]] Vector<Dim> normal() const { return axes.col(Dim - 1); }
@@ -61,6 +63,9 @@ struct FreeCell {
 
 /// nu' = lambda/(lambda + 2 mu): how a plane contracts across a stretch in it [-].
 [[nodiscard]] inline double contraction(double lambda, double mu) { return lambda / (lambda + 2.0 * mu); }
+
+/// nu [-].
+[[nodiscard]] inline double poisson_ratio(double lambda, double mu) { return 0.5 * lambda / (lambda + mu); }
 
 /// S of the condensed energy 1/2 S : E, which depends on E on the tangents alone; S n = 0 on each free face.
 template <int Dim>

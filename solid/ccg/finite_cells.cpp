@@ -21,21 +21,26 @@ struct FreeFace {
 
 /// The principal axes of what the normals span, those that they do not span first; right-handed.
 template <int Dim>
-FreeCell<Dim> free_cell(std::int32_t cell, double measure, const std::vector<FreeFace<Dim>>& faces) {
+FreeCell<Dim> cell_behind(std::int32_t cell, double measure, const std::vector<FreeFace<Dim>>& faces) {
     Matrix<Dim> sum = Matrix<Dim>::Zero();
     for (const FreeFace<Dim>& face : faces) sum += face.normal * face.normal.transpose();
     const SymmetricEigen<Dim> eigen = symmetric_eigen(sum);
-    FreeCell<Dim> free{.cell = cell, .n_tangents = 0, .axes = eigen.vectors, .measure_over = 0.0};
+    FreeCell<Dim> free{.cell = cell, .n_tangents = 0, .axes = eigen.vectors, .to_faces = Matrix<Dim>::Zero()};
     while (eigen.values[free.n_tangents] <= one_direction * eigen.values[Dim - 1]) ++free.n_tangents;
     if (free.has_one_normal() && eigen.values[Dim - 2] <= rounding * eigen.values[Dim - 1])
         free.axes.col(Dim - 1) = faces.front().normal;
     if (free.axes.determinant() < 0.0) free.axes.col(0) *= -1.0;
-    double area = 0.0;
-    for (const FreeFace<Dim>& face : faces) {
-        const double along = free.has_one_normal() ? face.normal.dot(free.normal()) : 1.0;
-        area += along * along * face.measure;
-    }
-    free.measure_over = measure / area;
+    Matrix<Dim> shares = Matrix<Dim>::Identity();  // M on the axes
+    for (int i = free.n_tangents; i < Dim; ++i)
+        for (int j = free.n_tangents; j < Dim; ++j) {
+            shares(i, j) = 0.0;
+            for (const FreeFace<Dim>& face : faces)
+                shares(i, j) +=
+                    face.measure / measure * face.normal.dot(free.axes.col(i)) * face.normal.dot(free.axes.col(j));
+        }
+    Matrix<Dim> inverse = shares.inverse();
+    for (int i = 0; i < free.n_tangents; ++i) inverse(i, i) = 0.0;
+    free.to_faces = free.axes * inverse * free.axes.transpose();
     return free;
 }
 
@@ -51,17 +56,20 @@ FiniteCells<Dim>::FiniteCells(const mesh::Mesh<Dim>& mesh, const FaceConditions<
         set_elastic(mesh, options);
     for (std::int32_t c = 0; c < mesh.n_cells(); ++c)
         if (properties_of(kinematics[static_cast<std::size_t>(mesh.cell_body[c])]).finite_strains) position_[c] = inside;
+    is_thick_ = conditions.is_thick;
+    is_free_.assign(mesh.boundary_faces.size(), 0);
     std::vector<std::vector<FreeFace<Dim>>> faces(position_.size());
     const auto is_loaded = conditions.are_loaded();  // what is behind these bears it, as it does a bond
     for (const BoundaryFace b : boundary_faces(mesh)) {
         const std::int32_t cell = cell_of(mesh, b), face = mesh_face(mesh, b);
         if (!contains(cell) || !conditions.prescribed[b].isZero(0.0) || is_loaded[b] || conditions.joined[b]) continue;
+        is_free_[b] = 1;
         faces[cell].push_back({mesh.face_normal[face], mesh.face_measure[face]});
     }
     for (std::int32_t c = 0; c < mesh.n_cells(); ++c) {
         if (faces[c].empty()) continue;
         position_[c] = static_cast<std::int32_t>(free_.size());
-        free_.push_back(free_cell<Dim>(c, mesh.cell_measure[c], faces[c]));
+        free_.push_back(cell_behind<Dim>(c, mesh.cell_measure[c], faces[c]));
     }
     if (std::ranges::any_of(options.inelastic, [](const auto& law) { return law != nullptr; })) set_inelastic(mesh, options);
 }

@@ -84,11 +84,28 @@ public:
     /// Position of a cell of such a body in `free`; -1 where it has no free face.
     [[nodiscard]] std::int32_t free_position(std::ptrdiff_t cell) const { return position_[static_cast<std::size_t>(cell)]; }
     [[nodiscard]] std::span<const FreeCell<Dim>> free() const { return free_; }
-    /// The cell with free faces of one normal, whose gradient is F_cond: in its traces, and at the corners that contact
-    /// sees. Null for others: at edges and corners, too, that of the affine faces is taken.
-    [[nodiscard]] const FreeCell<Dim>* condensed(std::ptrdiff_t cell) const {
+    /// The cell with free faces, of whose gradient contact sees F_cond; null for others.
+    [[nodiscard]] const FreeCell<Dim>* free_cell(std::ptrdiff_t cell) const {
         const std::int32_t position = any() ? position_[static_cast<std::size_t>(cell)] : linear;
-        return position >= 0 && free_[position].has_one_normal() ? &free_[position] : nullptr;
+        return position >= 0 ? &free_[position] : nullptr;
+    }
+    /// The same where all their normals are one; null for others, those at edges and corners, too.
+    [[nodiscard]] const FreeCell<Dim>* of_one_normal(std::ptrdiff_t cell) const {
+        const FreeCell<Dim>* free = free_cell(cell);
+        return free && free->has_one_normal() ? free : nullptr;
+    }
+    /// Whether F_cond is that of its traces, too: it has one normal, and is not of FaceConditions::is_thick. Else they
+    /// have that of the affine faces.
+    [[nodiscard]] bool has_condensed_traces(std::ptrdiff_t cell) const {
+        return of_one_normal(cell) && (is_thick_.empty() || is_thick_[static_cast<std::size_t>(cell)] == 0);
+    }
+    /// Whether it is one of the free faces of a FreeCell.
+    [[nodiscard]] bool is_free(BoundaryFace face) const { return is_free_[face] != 0; }
+    /// The free cell behind a boundary face if contact and bonds at this face see F_cond: at an edge or a corner only
+    /// where the face is free itself. Null: they see F of the affine faces.
+    [[nodiscard]] const FreeCell<Dim>* condensed_behind(BoundaryFace face, std::ptrdiff_t cell) const {
+        const FreeCell<Dim>* free = free_cell(cell);
+        return free && (free->has_one_normal() || is_free(face)) ? free : nullptr;
     }
 
 private:
@@ -102,6 +119,8 @@ private:
 
     std::vector<std::int32_t> position_;  // of each cell; empty where no body is finite
     std::vector<FreeCell<Dim>> free_;
+    IdVector<BoundaryFace, char> is_free_;
+    std::vector<char> is_thick_;
     bool takes_ends_ = false;
     std::vector<std::shared_ptr<const StoredEnergy<Dim>>> laws_;  // by body; empty without any
     std::vector<const StoredEnergy<Dim>*> law_;                   // of each cell; the same

@@ -4,26 +4,40 @@
 #include <vector>
 
 #include "abut/base/parallel.hpp"
+#include "abut/solid/ccg/edge_step.hpp"
 #include "abut/solid/ccg/sweeps.hpp"
 
 namespace abut::solid {
 
-/// Adds what contact adds: of a cell whose gradient is F_cond a moment on that, less what moves the free face from where the
-/// affine one is.
+/// Adds what contact adds: of a cell with free faces a moment on F_cond, less what moves these from where affine ones are.
 template <int Dim, class Real>
 void CcgSweeps<Dim, Real>::add_moments(std::int32_t begin, std::int32_t end) {
-    moments_.for_each(begin, end, [&](std::int32_t c, const LaneTensor<Dim>& moment, const Matrix<Dim>& normal_push) {
-        LaneTensor<Dim, Real> sum = load_tensor<Dim>(s_, c);
-        LaneTensor<Dim> added = moment;
-        if (finite_.condensed(c)) {
-            const Matrix<Dim> gradient = unload(moment) + normal_push;
-            const Matrix<Dim> pulled =
-                end_.empty() ? free_[finite_.free_position(c)].pull_back(gradient) : kept_.pull_back_contact(c, gradient);
-            added = load_packed<Dim>(Matrix<Dim>(pulled - normal_push));
+    moments_.for_each(begin, end, [&](std::int32_t c, const CellPush<Dim>& push) {
+        Matrix<Dim> added = push.affine;
+        if (finite_.free_cell(c)) {
+            const Matrix<Dim> gradient = push.condensed + push.of_moved_faces;
+            added += (end_.empty() ? pull_back(c, gradient) : kept_.pull_back_contact(c, gradient)) - push.of_moved_faces;
         }
-        for (int j = 0; j < Dim; ++j) sum.col[j] += element_.units.stress(added.col[j]);
+        LaneTensor<Dim, Real> sum = load_tensor<Dim>(s_, c);
+        const LaneTensor<Dim> packed = load_packed<Dim>(added);
+        for (int j = 0; j < Dim; ++j) sum.col[j] += element_.units.stress(packed.col[j]);
         store_tensor(sum, s_, c);
     });
+}
+
+/// dV/dF of a cell with free faces from dV/dF_cond, in the state or along the step that was evaluated last.
+template <int Dim, class Real>
+Matrix<Dim> CcgSweeps<Dim, Real>::pull_back(std::int32_t c, const Matrix<Dim>& gradient) const {
+    const FreeCell<Dim>& free = *finite_.free_cell(c);
+    const FreeEnd<Dim>& state = free_[finite_.free_position(c)];
+    if (free.has_one_normal()) return state.pull_back(gradient);
+    const Matrix<Dim> g = unload(load_tensor<Dim>(g_, c)), change = unload(load_tensor<Dim>(g_change_, c));
+    return EdgeStep<Dim>(free, poisson(c), {state.swelling, state.swelling}, g, change).pull_back(gradient);
+}
+
+template <int Dim, class Real>
+double CcgSweeps<Dim, Real>::poisson(std::int32_t c) const {
+    return poisson_ratio(coefficients_.cells[c].lambda, coefficients_.cells[c].mu);
 }
 
 /// û_f and G_c of a boundary face and the cell behind it, as contact sees them.
@@ -32,11 +46,14 @@ std::pair<Vector<Dim>, Matrix<Dim>> CcgSweeps<Dim, Real>::tilted_face(BoundaryFa
     const std::int32_t c = arrays_.cell_of(face);
     const Vector<Dim> affine = face_displacement(face);
     const Matrix<Dim> g = displacement_gradient(c);
-    const FreeCell<Dim>* free = finite_.condensed(c);
-    if (!free && plastic_ && plastic_->moves_faces(c)) return {affine + plastic_->moved(c, face), g + plastic_->tilted(c)};
+    if (plastic_ && plastic_->moves_faces(c)) return {affine + plastic_->moved(c, face), g + plastic_->tilted(c)};
+    const FreeCell<Dim>* free = finite_.condensed_behind(face, c);
     if (!free) return {affine, g};
-    const Matrix<Dim>& condensed = free_[finite_.free_position(c)].gradient();
-    return {affine + free->measure_over * ((condensed - g) * arrays_.normal_of(face)), condensed};
+    const FreeEnd<Dim>& state = free_[finite_.free_position(c)];
+    const Matrix<Dim> condensed =
+        free->has_one_normal() ? state.gradient() : EdgeStep<Dim>(*free, poisson(c), state.swelling, g).mean();
+    if (!finite_.is_free(face)) return {affine, condensed};
+    return {affine + (condensed - g) * (free->to_faces * arrays_.normal_of(face)), condensed};
 }
 
 template <int Dim, class Real>
@@ -55,7 +72,7 @@ CellStretch CcgSweeps<Dim, Real>::end_stretch(std::int32_t c) const {
     LaneTensor<Dim, Real> g = load_tensor<Dim>(g_, c);
     const LaneTensor<Dim, Real> change = load_tensor<Dim>(g_change_, c);
     for (int j = 0; j < Dim; ++j) g.col[j] += 0.5 * change.col[j];
-    const FreeCell<Dim>* free = finite_.condensed(c);
+    const FreeCell<Dim>* free = finite_.of_one_normal(c);
     return free ? condensed_stretch<Dim>(*free, contraction(cell.lambda, cell.mu), unload(g)) : cell_stretch<Dim>(unload(g));
 }
 
@@ -97,7 +114,7 @@ Matrix<Dim> CcgSweeps<Dim, Real>::cauchy_stress(std::int32_t c) const {
     const LaneTensor<Dim, Real> g = load_tensor<Dim>(g_, c);
     const Matrix<Dim> stress = unload(finite_stress(c, mean_green_strain(g, load_tensor<Dim>(g_change_, c))));
     Matrix<Dim> f = Matrix<Dim>::Identity();
-    f += finite_.condensed(c) ? free_[finite_.free_position(c)].gradient() : unload(g);
+    f += finite_.of_one_normal(c) ? free_[finite_.free_position(c)].gradient() : unload(g);
     return f * stress * f.transpose() / f.determinant();
 }
 

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <utility>
 
 #include "abut/base/parallel.hpp"
@@ -120,8 +121,7 @@ void CcgSweeps<Dim, Real>::take_stress_of_flow(std::int32_t c, const Matrix<Dim>
 template <int Dim, class Real>
 void CcgSweeps<Dim, Real>::set_push_of_contact(std::int32_t c) {
     Matrix<Dim> moment = Matrix<Dim>::Zero();
-    moments_.for_each(c, c + 1,
-                      [&](std::int32_t, const LaneTensor<Dim>& stress, const Matrix<Dim>&) { moment = unload(stress); });
+    moments_.for_each(c, c + 1, [&](std::int32_t, const CellPush<Dim>& push) { moment = push.affine; });
     plastic_->set_push(
         c, [&](BoundaryFace b) { return unload<Dim>(load_packed<Dim>(pair_gradient_, number_of(b))); }, moment);
 }
@@ -163,6 +163,7 @@ void CcgSweeps<Dim, Real>::set_finite_displacement_gradient(std::int32_t c) {
     const FreeCell<Dim>& free = finite_.free()[position];
     const CellGeometry<Dim, Real>& cell = coefficients_.cells[c];
     FreeEnd<Dim>& state = free_[position];
+    if (const ThermalStretch* stretch = finite_.stretch(c)) state.swelling = std::cbrt(stretch->volume());
     if (const StoredEnergy<Dim>* law = this->law(c)) {
         state.has_law = true;
         if (inelastic < 0) {
@@ -177,7 +178,7 @@ void CcgSweeps<Dim, Real>::set_finite_displacement_gradient(std::int32_t c) {
     } else if (free.has_one_normal()) {
         state.condensed = CondensedStep<Dim>(free, contraction(cell.lambda, cell.mu), unload(g), unload(change));
     }
-    element_.set_traces(c, free.has_one_normal() ? load_packed<Dim>(state.gradient()) : g);
+    element_.set_traces(c, finite_.has_condensed_traces(c) ? load_packed<Dim>(state.gradient()) : g);
 }
 
 /// Sets what an inelastic cell remembers at the end of the step, `g` of affine faces. Its free faces are where the step
@@ -226,7 +227,7 @@ template <int Dim, class Real>
 void CcgSweeps<Dim, Real>::set_finite_stress(std::int32_t c) {
     double defect = 0.0;
     LaneTensor<Dim, Real> sum = capped_ && capped_->contains(c) ? sum_capped_jumps(c, defect) : element_.sum_jumps(c);
-    if (finite_.condensed(c)) {
+    if (finite_.has_condensed_traces(c)) {
         FreeEnd<Dim>& state = free_[finite_.free_position(c)];
         state.jumps = unload(sum);
         state.pulled_jumps = state.pull_back(state.jumps);
@@ -364,7 +365,7 @@ void CcgSweeps<Dim, Real>::keep_end(std::int32_t c, const Response<Dim>& of_law,
     store_tensor(load_tensor<Dim>(g_, c), keeps_->g, c);
     store_tensor(sum, keeps_->s, c);
     store(direct, keeps_->direct, c);
-    if (finite_.condensed(c)) keeps_->free[finite_.free_position(c)] = free_[finite_.free_position(c)];
+    if (finite_.free_cell(c)) keeps_->free[finite_.free_position(c)] = free_[finite_.free_position(c)];
     if (finite_.has_law(c)) {
         keeps_->energy[c] = of_law.energy;
         store_tensor(load_packed<Dim>(of_law.stress), keeps_->stress, c);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "abut/solid/ccg/edge_step.hpp"
+
 namespace abut::solid {
 namespace {
 
@@ -64,7 +66,7 @@ std::pair<Matrix<Dim>, Matrix<Dim>> KeptEnds<Dim>::gradients(std::int32_t c) con
 template <int Dim>
 CondensedStep<Dim> KeptEnds<Dim>::step_of(std::int32_t c, const Matrix<Dim>& g_0, const Matrix<Dim>& g_1) const {
     const CellGeometry<Dim>& cell = coefficients_.cells[c];
-    return {*finite_.condensed(c), contraction(cell.lambda, cell.mu), 0.5 * (g_0 + g_1), g_1 - g_0};
+    return {*finite_.of_one_normal(c), contraction(cell.lambda, cell.mu), 0.5 * (g_0 + g_1), g_1 - g_0};
 }
 
 /// (P_0 + P_1)/2 : Delta F - Delta W. Where W is quadratic in E this is Delta S : (Delta F^T Delta F)/4, without a
@@ -105,7 +107,7 @@ void KeptEnds<Dim>::set_defect(std::int32_t c, bool flows, double of_capped_jump
         loss.in_cells = measure * std::max(0.0, energy);
         energy = std::min(0.0, energy);
     }
-    if (finite_.condensed(c)) {
+    if (finite_.has_condensed_traces(c)) {
         const auto position = static_cast<std::size_t>(finite_.free_position(c));
         const FreeEnd<Dim>&free_0 = start.free[position], &free_1 = end.free[position];
         const Matrix<Dim> jumps = 0.5 * (free_0.jumps + free_1.jumps);
@@ -135,7 +137,7 @@ StepDefect<Dim> KeptEnds<Dim>::defect(std::int32_t c) const {
     if (!finite_.has_law(c)) return defect;
     const double measure = 1.0 / coefficients_.cells[c].inverse_measure;
     double size = start.energy[c] + end.energy[c];
-    if (finite_.condensed(c)) {
+    if (finite_.free_cell(c)) {
         const auto position = static_cast<std::size_t>(finite_.free_position(c));
         size += 0.5 * (start.free[position].jumps + end.free[position].jumps).norm();
         if (!flows(c)) defect.energy += measure * of_contact_[position].energy;
@@ -155,7 +157,7 @@ template <int Dim>
 dynamics::Losses KeptEnds<Dim>::loss(std::int32_t c) const {
     if (!flows(c)) return {};
     dynamics::Losses loss = losses_[static_cast<std::size_t>(finite_.inelastic(c))];
-    if (finite_.condensed(c))
+    if (finite_.free_cell(c))
         loss.on_faces +=
             of_contact_[static_cast<std::size_t>(finite_.free_position(c))].energy / coefficients_.cells[c].inverse_measure;
     return loss;
@@ -172,6 +174,15 @@ template <int Dim>
 Matrix<Dim> KeptEnds<Dim>::pull_back_contact(std::int32_t c, const Matrix<Dim>& gradient) {
     const auto [g_0, g_1] = gradients(c);
     const auto position = static_cast<std::size_t>(finite_.free_position(c));
+    if (const FreeCell<Dim>& free = *finite_.free_cell(c); !free.has_one_normal()) {
+        const CellGeometry<Dim>& cell = coefficients_.cells[c];
+        const EdgeStep<Dim> step(free, poisson_ratio(cell.lambda, cell.mu),
+                                 {start.free[position].swelling, end.free[position].swelling}, 0.5 * (g_0 + g_1), g_1 - g_0);
+        const Matrix<Dim> pulled = step.pull_back(gradient);
+        if (finite_.has_law(c))
+            of_contact_[position].energy = product<Dim>(pulled, g_1 - g_0) - product<Dim>(gradient, step.change());
+        return pulled;
+    }
     if (!finite_.has_law(c)) return step_of(c, g_0, g_1).pull_back(gradient);
     const FreeEnd<Dim>&free_0 = start.free[position], &free_1 = end.free[position];
     const Matrix<Dim> pulled = 0.5 * (free_0.pull_back(gradient) + free_1.pull_back(gradient));

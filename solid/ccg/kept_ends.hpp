@@ -23,6 +23,7 @@ struct FreeEnd {
     bool has_law = false;
     Matrix<Dim> jumps = Matrix<Dim>::Zero();         // dV/dF of the jumps over |c|, by this F
     Matrix<Dim> pulled_jumps = Matrix<Dim>::Zero();  // by F of the affine faces
+    double swelling = 1.0;                           // EdgeStep's, where normals are several
 
     [[nodiscard]] const Matrix<Dim>& gradient() const { return has_law ? least.gradient() : condensed.mean(); }
     [[nodiscard]] Matrix<Dim> pull_back(const Matrix<Dim>& gradient) const {
@@ -96,7 +97,7 @@ public:
     /// Defect of the step from `start` to `end`, less the moment of `direct`.
     [[nodiscard]] StepDefect<Dim> defect(std::int32_t c) const;
 
-    // What contact adds to cells with one normal, by dV/dF over |c|, F as the traces take it. It acts along the step.
+    // What contact adds to cells with free faces, by dV/dF_cond over |c|. It acts along the step.
 
     void clear_contact();
     /// Such terms by F of the affine faces.

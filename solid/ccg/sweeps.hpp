@@ -181,6 +181,8 @@ private:
     /// Whether its cells are where the step ends, and not in its middle.
     [[nodiscard]] bool takes_end(std::int32_t chunk) const { return !end_.empty() && chunks_[chunk].has_finite; }
     void add_moments(std::int32_t begin, std::int32_t end);
+    [[nodiscard]] Matrix<Dim> pull_back(std::int32_t c, const Matrix<Dim>& gradient) const;
+    [[nodiscard]] double poisson(std::int32_t c) const;
     [[nodiscard]] std::pair<Vector<Dim>, Matrix<Dim>> tilted_face(BoundaryFace b) const;
     [[nodiscard]] Matrix<Dim> cauchy_stress(std::int32_t c) const;
 

@@ -6,6 +6,7 @@
 
 #include "abut/base/decompositions.hpp"
 #include "abut/base/rotation.hpp"
+#include "abut/solid/ccg/edge_step.hpp"
 #include "abut/solid/ccg/finite_cell.hpp"
 #include "abut/solid/material/material.hpp"
 #include "solid/scenes.hpp"
@@ -13,6 +14,7 @@
 using namespace abut;
 using namespace abut::test;
 using solid::CondensedStep;
+using solid::EdgeStep;
 using solid::FreeCell;
 
 namespace {
@@ -35,7 +37,7 @@ Matrix<Dim> random_rotation(unsigned seed) {
 
 template <int Dim>
 FreeCell<Dim> cell_with(int n_tangents, unsigned seed) {
-    return {.cell = 0, .n_tangents = n_tangents, .axes = random_rotation<Dim>(seed), .measure_over = 1.0};
+    return {.cell = 0, .n_tangents = n_tangents, .axes = random_rotation<Dim>(seed), .to_faces = Matrix<Dim>::Identity()};
 }
 
 template <int Dim>
@@ -130,6 +132,66 @@ TEMPLATE_TEST_CASE_SIG("gradients pulled back through a free face do the work of
             const Matrix<Dim> torque = pulled * affine.transpose() - p * mean.transpose();
             CHECK((torque - torque.transpose()).norm() <= 2e-14);
         }
+}
+
+TEMPLATE_TEST_CASE_SIG("at edges and corners what is pulled back does the work of the step, and has no moment of its own",
+                       "[solid][finite]", ((int Dim), Dim), 2, 3) {
+    for (int n_tangents = 0; n_tangents < Dim - 1; ++n_tangents)
+        for (const double size : {0.3, 1e-2, 1e-5, 1e-9, 1e-17})
+            for (const unsigned seed : {1u, 2u, 3u, 4u, 5u, 6u, 7u, 8u}) {
+                CAPTURE(n_tangents, size, seed);
+                const FreeCell<Dim> free = cell_with<Dim>(n_tangents, seed);
+                const Matrix<Dim> g =
+                    random_rotation<Dim>(seed + 10) * (Matrix<Dim>::Identity() + random_matrix<Dim>(seed + 20, 0.15)) -
+                    Matrix<Dim>::Identity();
+                const Matrix<Dim> change = random_matrix<Dim>(seed + 30, size), p = random_matrix<Dim>(seed + 40, 1.0);
+                const EdgeStep<Dim> step(free, material.poisson, {1.1, 1.1}, g, change);
+                const Matrix<Dim> pulled = step.pull_back(p);
+                const auto at = [&](double s) { return EdgeStep<Dim>(free, material.poisson, 1.1, g + s * change).mean(); };
+                const Matrix<Dim> start = at(-0.5), end = at(0.5);
+                CHECK((step.mean() - 0.5 * (start + end)).norm() <= 2e-15);
+                CHECK((step.change() - (end - start)).norm() <= 4e-15);
+                CHECK(std::abs(pulled.cwiseProduct(change).sum() - p.cwiseProduct(step.change()).sum()) <= 5e-15);
+                const Matrix<Dim> mean = Matrix<Dim>::Identity() + step.mean(), affine = Matrix<Dim>::Identity() + g;
+                const Matrix<Dim> torque = pulled * affine.transpose() - p * mean.transpose();
+                CHECK((torque - torque.transpose()).norm() <= 2e-14);
+            }
+}
+
+TEMPLATE_TEST_CASE_SIG("free faces at edges and corners bear nothing under strains that are small", "[solid][finite]",
+                       ((int Dim), Dim), 2, 3) {
+    for (int n_tangents = 0; n_tangents < Dim - 1; ++n_tangents)
+        for (const unsigned seed : {1u, 2u, 3u, 4u, 5u}) {
+            CAPTURE(n_tangents, seed);
+            const FreeCell<Dim> free = cell_with<Dim>(n_tangents, seed);
+            const double small = 1e-5;
+            const Matrix<Dim> turn = random_rotation<Dim>(seed + 10);
+            const Matrix<Dim> f = turn * (Matrix<Dim>::Identity() + random_matrix<Dim>(seed + 20, small));
+            const Matrix<Dim> condensed =
+                Matrix<Dim>::Identity() + EdgeStep<Dim>(free, material.poisson, 1.0, f - Matrix<Dim>::Identity()).mean();
+            for (int k = 0; k < n_tangents; ++k) CHECK(((condensed - f) * free.axes.col(k)).norm() <= 1e-15);
+            for (int k = n_tangents; k < Dim; ++k)
+                CHECK((condensed * stress_of<Dim>(condensed) * free.axes.col(k)).norm() <= 10.0 * small * small);
+            // It turns with its neighbours: what is left beside the tangents of the affine faces is a strain.
+            const Matrix<Dim> off = turn.transpose() * (condensed - f);
+            for (int i = n_tangents; i < Dim; ++i)
+                for (int j = i + 1; j < Dim; ++j) {
+                    const Vector<Dim>&a = free.axes.col(i), b = free.axes.col(j);
+                    CHECK(std::abs(a.dot(off * b) - b.dot(off * a)) <= 10.0 * small * small);
+                }
+        }
+}
+
+TEST_CASE("a corner turns with its cell by any angle, and swells with heat", "[solid][finite]") {
+    const FreeCell<3> free = cell_with<3>(0, 3);
+    const Matrix<3> turn = rotation_about(Vector<3>(0.6, 0.0, 0.8), 2.5);
+    const Matrix<3> stretched =
+        turn * (Matrix<3>::Identity() + Matrix<3>{{0.2, 0.1, 0.0}, {0.1, -0.1, 0.0}, {0.0, 0.0, 0.3}});
+    const EdgeStep<3> state(free, material.poisson, 1.0, stretched - Matrix<3>::Identity());
+    CHECK((state.mean() + Matrix<3>::Identity() - turn).norm() <= 1e-14);
+    // From 1 to 1.02 without a motion: an isotropic body in space swells by that.
+    const EdgeStep<3> heated(free, material.poisson, {1.0, 1.02}, stretched - Matrix<3>::Identity(), Matrix<3>::Zero());
+    CHECK((heated.change() - 0.02 * turn).norm() <= 1e-14);
 }
 
 TEMPLATE_TEST_CASE_SIG("in one state what is pulled back is the derivative", "[solid][finite]", ((int Dim), Dim), 2, 3) {

@@ -16,7 +16,8 @@ using solid::Kinematics;
 namespace {
 
 constexpr double block_pressure = 1e-7;  // of the modulus: what is of second order in the strain is below what is tested
-constexpr double allowed_error = 1e-6;
+/// Finite bodies have terms of second order: up to 12 times the strain in pyramids.
+double allowed_error(Kinematics kinematics) { return kinematics == Kinematics::finite ? 2e-6 : 1e-6; }
 const solid::Material elastic_block{.young = 1.0, .poisson = 0.3, .density = 1.0};
 constexpr double block_bottom = -0.3;  // of the boxes
 
@@ -62,8 +63,8 @@ void check_pile(const mesh::Mesh<Dim>& mesh, const solid::SolidOptions<Dim>& opt
         raise(worst_force, vectors<Dim>(force)[c].norm() / (block_pressure * area));
         raise(worst_stress, (solid.cells().stress(c) - exact).norm() / block_pressure);
     }
-    CHECK(worst_force < allowed_error);
-    CHECK(worst_stress < allowed_error);
+    CHECK(worst_force < allowed_error(options.kinematics[0]));
+    CHECK(worst_stress < allowed_error(options.kinematics[0]));
 }
 
 template <int Dim>
@@ -94,7 +95,7 @@ mesh::Mesh<Dim> two_blocks(CellShape shape) {
 
 TEST_CASE("a block of bricks that is pressed on a floor is at rest under a uniform stress, which every cell shows",
           "[solid][contact][fields]") {
-    const Kinematics kinematics = GENERATE(Kinematics::small, Kinematics::floating);
+    const Kinematics kinematics = GENERATE(Kinematics::small, Kinematics::floating, Kinematics::finite);
     check_block<2>(kinematics, ContactLaw::pair_potential);
     check_block<3>(kinematics, ContactLaw::pair_potential);
 }
@@ -107,7 +108,7 @@ TEST_CASE("under the modified reconstruction, too, every cell of a block on a fl
 
 TEST_CASE("blocks of bricks whose faces do not match press each other with a uniform stress, which every cell shows",
           "[solid][contact][fields]") {
-    const Kinematics kinematics = GENERATE(Kinematics::small, Kinematics::floating);
+    const Kinematics kinematics = GENERATE(Kinematics::small, Kinematics::floating, Kinematics::finite);
     check_pile<2>(two_blocks<2>(CellShape::quadrangle),
                   pressed_pile<2>(2, kinematics, ContactLaw::pair_potential, "upper.ymax"));
     for (const CellShape shape : {CellShape::hexahedron, CellShape::prism, CellShape::pyramid}) {
