@@ -107,6 +107,26 @@ TEST_CASE("under the same steps MEMM with its momenta kept does not converge, an
     CHECK(std::abs(memm.restart_jumps()) > 1e-3);
 }
 
+TEST_CASE("pairs keep order 2 and H~ with a discrete gradient, on a geometrically exact string", "[dynamics][pairs]") {
+    ElasticString string = string_of(5);
+    const Values q{0.0, 0.3, 0.1, 0.4, 0.0, 0.2, -0.1, 0.1}, p(8, 0.0);
+    const double end = 4.0;
+    const Values exact = reference(string, q, p, end, 20000);
+    const auto error = [&](double mean) {
+        Pairs pairs(string, q, p, unknown);
+        const double start = pairs.pseudo_energy();
+        double drift = 0.0;
+        for (const double d : steps(mean, end, false)) {
+            pairs.step(d);
+            raise(drift, std::abs(pairs.pseudo_energy() - start) / start);
+        }
+        CHECK(drift <= 1e-13);
+        return distance(pairs.q(), exact);
+    };
+    CHECK(std::log2(error(0.02) / error(0.01)) == Approx(2.0).margin(0.05));
+    CHECK(error(0.01) < 3e-4);
+}
+
 TEST_CASE("a kick that is held back changes nothing: pairs are A B A with 3 forces, and cost 2", "[dynamics][pairs]") {
     auto problem = duffing(), other = duffing();
     Pairs pairs(problem.system, problem.q, problem.p, unknown);
