@@ -240,6 +240,24 @@ TEST_CASE("compositions are stable up to omega dt of 5.44 and 6.26", "[dynamics]
     check(Composition::blanes_moan_6, 6.2, 6.3);
 }
 
+TEST_CASE("the difference between both copies grows in proportion to time on an orbit, and not where they are projected",
+          "[dynamics][composed]") {
+    const auto growth = [](bool project) {  // of H - H~ = |a - b|^2/8 from 10 to 100 orbits
+        auto problem = kepler();
+        Composed integrator(problem.system, problem.q, problem.p, 0.1, Composition::blanes_moan_4);
+        double excess = 0.0, after_ten = 0.0;
+        while (integrator.time() < 200.0 * std::numbers::pi) {
+            integrator.step();
+            raise(excess, integrator.energy_excess());
+            if (project) integrator.project();
+            if (integrator.time() < 20.0 * std::numbers::pi) after_ten = excess;
+        }
+        return excess / after_ten;
+    };
+    CHECK(growth(false) == Approx(100.0).epsilon(0.2));
+    CHECK(growth(true) == Approx(1.0).epsilon(0.1));
+}
+
 TEST_CASE("a projection leaves a rigid part of the momenta as it is", "[dynamics][composed]") {
     Chain chain = free_chain();
     const Values p{0.5, 0.4, 0.1, 0.3, 0.6, 0.2};
