@@ -105,7 +105,7 @@ struct Bond {
     std::int32_t first;
     std::int32_t second;
     Law law;
-    Vector<Law::dim> offset = Vector<Law::dim>::Zero();  ///< r = q_second - q_first + offset [m]
+    Vector<Law::dim> offset{};  ///< r = q_second - q_first + offset [m]; 0 by default
 };
 
 /// Particles and bonds: the small systems on which schemes are compared. A LocalSystem and a StiffnessSystem; unlike the

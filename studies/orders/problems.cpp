@@ -74,8 +74,7 @@ Problem<LineSpring> duffing() {
 Problem<dynamics::Attraction> kepler() {
     constexpr double time = 20.0;
     const auto start = on_ellipse(0.0), end = on_ellipse(time);
-    dynamics::Particles<dynamics::Attraction> system({1.0, 1.0},
-                                                     {{Bond<dynamics::Attraction>::fixed, 0, {}, Vector<2>::Zero()}});
+    dynamics::Particles<dynamics::Attraction> system({1.0, 1.0}, {{Bond<dynamics::Attraction>::fixed, 0, {}}});
     const Run run{{start[0], start[1]}, {start[2], start[3]}, {end[0], end[1]}, {end[2], end[3]}};
     return {system, {run}, time, 3.0, 1, 400, true};
 }

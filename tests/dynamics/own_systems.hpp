@@ -69,8 +69,7 @@ inline State on_ellipse(double t) {
 template <class Law = dynamics::Attraction>
 Problem<dynamics::Particles<Law>> kepler(double time = 20.0) {
     const State start = on_ellipse(0.0);
-    const std::vector<Bond<Law>> bonds{{-1, 0, Law{}, Vector<2>::Zero()}};
-    return {{{1.0, 1.0}, bonds}, start.q, start.p, time, on_ellipse(time)};
+    return {{{1.0, 1.0}, {{-1, 0, {}}}}, start.q, start.p, time, on_ellipse(time)};
 }
 
 /// Kepler's potential with a discrete gradient along the mean position, which is no integral along the path; `is_exact` is
