@@ -141,20 +141,20 @@ template <int Dim>
 void detail::gather_points(const Ranks& ranks, std::span<const std::size_t> own, std::span<PatchPoint<Dim>> points) {
     if (ranks.is_one()) return;
     constexpr std::size_t n_values = 2 + 3 * Dim;  // place among the points, mass, vectors
-    std::vector<double> mine;
+    std::vector<double> values;
     for (const std::size_t i : own) {
         const PatchPoint<Dim>& point = points[i];
-        mine.insert(mine.end(), {static_cast<double>(i), point.mass});
+        values.insert(values.end(), {static_cast<double>(i), point.mass});
         for (const Vector<Dim>* vector : {&point.position, &point.momentum, &point.parasitic})
-            mine.insert(mine.end(), vector->begin(), vector->end());
+            values.insert(values.end(), vector->begin(), vector->end());
     }
-    const std::vector<double> all = ranks.gather(mine);
-    for (auto values = all.begin(); values != all.end(); values += n_values) {
-        PatchPoint<Dim>& point = points[static_cast<std::size_t>(values[0])];
-        point.mass = values[1];
-        auto from = values + 2;
+    values = ranks.gather(values);
+    for (auto value = values.begin(); value != values.end(); value += n_values) {
+        PatchPoint<Dim>& point = points[static_cast<std::size_t>(value[0])];
+        point.mass = value[1];
+        auto from = value + 2;
         for (Vector<Dim>* vector : {&point.position, &point.momentum, &point.parasitic})
-            for (double& value : *vector) value = *from++;
+            for (double& component : *vector) component = *from++;
     }
 }
 

@@ -13,31 +13,34 @@
 
 namespace abut::dynamics {
 
-/// A spring on a line of elongation x: V = k/2 x^2 + b/4 x^4, of a one-sided spring only where x < 0 (a contact).
+/// A spring on a line of elongation x: V = k/2 x^2 + a/3 x^3 + b/4 x^4, of a one-sided spring only where x < 0 (a contact).
 struct LineSpring {
     static constexpr int dim = 1;
-    double stiffness = 0.0;  ///< k [N/m]
-    double quartic = 0.0;    ///< b [N/m^3]
+    static constexpr bool mean_is_exact = true;  ///< see `mean_is_exact` of a system
+    double stiffness = 0.0;                      ///< k [N/m]
+    double cubic = 0.0;                          ///< a [N/m^2]
+    double quartic = 0.0;                        ///< b [N/m^3]
     bool one_sided = false;
 
     [[nodiscard]] double energy(const Vector<1>& r) const {
-        const double square = acting(r[0]) * acting(r[0]);
-        return square * (0.5 * stiffness + 0.25 * quartic * square);
+        const double x = acting(r[0]), square = x * x;
+        return square * (0.5 * stiffness + cubic / 3.0 * x + 0.25 * quartic * square);
     }
     /// dV/dr
     [[nodiscard]] Vector<1> tension(const Vector<1>& r) const {
         const double x = acting(r[0]);
-        return Vector<1>(x * (stiffness + quartic * x * x));
+        return Vector<1>(x * (stiffness + cubic * x + quartic * x * x));
     }
     /// Mean of the tension along the straight path; exact, cut where a one-sided spring begins or ends to act.
     [[nodiscard]] Vector<1> mean_tension(const Vector<1>& r_0, const Vector<1>& r_1) const {
         const double a = acting(r_0[0]), b = acting(r_1[0]);
-        const double whole = 0.5 * (a + b) * (stiffness + 0.5 * quartic * (a * a + b * b));
+        const double whole =
+            0.5 * (a + b) * (stiffness + 0.5 * quartic * (a * a + b * b)) + cubic / 3.0 * (a * a + a * b + b * b);
         return Vector<1>(begins_or_ends(r_0, r_1) ? whole * std::abs((b - a) / (r_1[0] - r_0[0])) : whole);
     }
     [[nodiscard]] Matrix<1> stiffness_at(const Vector<1>& r) const {
         if (one_sided && r[0] >= 0.0) return Matrix<1>::Zero();
-        return Matrix<1>(stiffness + 3.0 * quartic * r[0] * r[0]);
+        return Matrix<1>(stiffness + 2.0 * cubic * r[0] + 3.0 * quartic * r[0] * r[0]);
     }
 
 private:
@@ -51,6 +54,7 @@ private:
 /// An elastic string between two points of the plane, geometrically exact: V = k/2 (|r| - L)^2.
 struct StringSegment {
     static constexpr int dim = 2;
+    static constexpr bool mean_is_exact = false;
     double stiffness = 0.0;  ///< k [N/m]
     double length = 0.0;     ///< L, without tension [m]
 
@@ -73,6 +77,27 @@ struct StringSegment {
     }
 };
 
+/// Attraction in the plane by the inverse square of the distance, as of Kepler's planets: V = -k/|r|. Not a number where the
+/// two ends coincide, or a straight path leads from one side of the other end to the opposite one.
+struct Attraction {
+    static constexpr int dim = 2;
+    static constexpr bool mean_is_exact = true;
+    double strength = 1.0;  ///< k [N m^2]
+
+    [[nodiscard]] double energy(const Vector<2>& r) const { return -strength / r.norm(); }
+    [[nodiscard]] Vector<2> tension(const Vector<2>& r) const { return strength / (r.squaredNorm() * r.norm()) * r; }
+    /// Exact: the integrals of 1/|r|^3 and s/|r|^3 along a segment are 1/(|r_0| |r_1| + r_0 . r_1) times sums of 1/|r_i|.
+    [[nodiscard]] Vector<2> mean_tension(const Vector<2>& r_0, const Vector<2>& r_1) const {
+        const double at_0 = r_0.norm(), at_1 = r_1.norm();
+        return strength / (at_0 * at_1 + r_0.dot(r_1)) * (r_0 / at_0 + r_1 / at_1);
+    }
+    [[nodiscard]] Matrix<2> stiffness_at(const Vector<2>& r) const {
+        const double distance = r.norm();
+        const Vector<2> n = r / distance;
+        return strength / (distance * distance * distance) * (Matrix<2>::Identity() - 3.0 * n * n.transpose());
+    }
+};
+
 /// Two particles and what acts between them; a bond to `fixed` holds a particle to where it began.
 template <class Law>
 struct Bond {
@@ -80,7 +105,7 @@ struct Bond {
     std::int32_t first;
     std::int32_t second;
     Law law;
-    Vector<Law::dim> offset = Vector<Law::dim>::Zero();  ///< r = q_second - q_first + offset [m]
+    Vector<Law::dim> offset{};  ///< r = q_second - q_first + offset [m]; 0 by default
 };
 
 /// Particles and bonds: the small systems on which schemes are compared. A LocalSystem and a StiffnessSystem; unlike the
@@ -111,6 +136,7 @@ public:
 
     [[nodiscard]] std::size_t size() const { return inverse_mass_.size(); }
     [[nodiscard]] const Mass& inverse_mass() const { return inverse_mass_; }
+    [[nodiscard]] static constexpr bool mean_is_exact() { return Law::mean_is_exact; }  ///< that of its bonds
 
     void force(std::span<const double> q, std::span<double> force) {
         evaluate(force, [&](const Bond<Law>& bond) { return bond.law.tension(separation(bond, q)); });

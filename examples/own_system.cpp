@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "abut/dynamics/bilbao.hpp"
+#include "abut/dynamics/composed.hpp"
 #include "abut/dynamics/energy_momentum.hpp"
 #include "abut/dynamics/leapfrog.hpp"
 #include "abut/dynamics/memm.hpp"
@@ -34,6 +35,8 @@ public:
     void mean_force(std::span<const double> q_0, std::span<const double> q_1, double, double, std::span<double> f) {
         f[0] = mean(q_0[0], q_1[0]);
     }
+    /// That mean is the integral, which compositions of order 4 and 6 ask for.
+    [[nodiscard]] static bool mean_is_exact() { return true; }
     /// d^2V/dq^2, for the implicit scheme.
     void append_stiffness(std::span<const double> q, double factor, std::vector<dynamics::MatrixEntry>& entries) const {
         entries.push_back({0, 0, factor * (k + 3.0 * b * q[0] * q[0])});
@@ -81,6 +84,7 @@ int main() {
     const std::vector<double> q{amplitude}, p{0.0};
     bool good = run("memm", Memm<Duffing>(system, q, p, dt), 1e-13);
     good = run("memm_async", MemmAsync<Duffing>(system, q, p, dt, {.parts = {1}, .level = {0}}), 1e-13) && good;
+    good = run("blanes_moan_4", Composed<Duffing>(system, q, p, dt, Composition::blanes_moan_4), 1e-13) && good;
     good = run("leapfrog", Leapfrog<Duffing>(system, q, p, dt), 1e-2) && good;
     good = run("bilbao", Bilbao<Duffing>(system, q, p, dt, 1.0), 1e-13) && good;
     good = run("energy_momentum", EnergyMomentum<Duffing>(system, q, p, dt), 1e-13) && good;

@@ -6,10 +6,12 @@
 #include <functional>
 #include <limits>
 #include <span>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "abut/dynamics/bilbao.hpp"
+#include "abut/dynamics/composed.hpp"
 #include "abut/dynamics/energy_momentum.hpp"
 #include "abut/dynamics/leapfrog.hpp"
 #include "abut/dynamics/memm.hpp"
@@ -91,6 +93,23 @@ struct AsyncScheme {
     }
 };
 
+/// The composition of order 2; those of higher order are in test_composed.cpp.
+struct StrangScheme {
+    static constexpr bool one_step = false;
+    static constexpr bool two_step = false;
+    static constexpr double stability = 4.0;
+    static constexpr bool conserves_nonlinear = true;
+    template <class S>
+    static auto make(S& system, Values q, const Values& p, double dt) {
+        return dynamics::Composed<S>(system, std::move(q), p, dt, dynamics::Composition::strang);
+    }
+};
+
+/// Ratio between errors of energies with steps of dt and dt/2: H - H~ = |a - b|^2/8 of a composition, where a - b is of order
+/// dt^2, and of order dt^2 elsewhere.
+template <class Scheme>
+inline constexpr double energy_ratio = std::is_same_v<Scheme, StrangScheme> ? 16.0 : 4.0;
+
 /// Six masses between two walls, springs of the fourth order.
 inline Chain held_chain() {
     std::vector<Bond<LineSpring>> bonds;
@@ -115,9 +134,13 @@ inline ElasticString string_of(int n) {
     return ElasticString(Values(static_cast<std::size_t>(2 * (n - 1)), 1.0), bonds);
 }
 
-/// q at `time` by many small steps of the fourth-order Runge-Kutta scheme.
+struct State {
+    Values q, p;
+};
+
+/// q and p at `time` by many small steps of the fourth-order Runge-Kutta scheme.
 template <class S>
-Values reference(S& system, const Values& q_0, const Values& p_0, double time, int steps) {
+State reference_state(S& system, const Values& q_0, const Values& p_0, double time, int steps) {
     const std::size_t n = q_0.size();
     const double h = time / steps;
     Values q = q_0, p = p_0, f(n);
@@ -140,7 +163,11 @@ Values reference(S& system, const Values& q_0, const Values& p_0, double time, i
             p[j] += dp[j];
         }
     }
-    return q;
+    return {q, p};
+}
+template <class S>
+Values reference(S& system, const Values& q_0, const Values& p_0, double time, int steps) {
+    return reference_state(system, q_0, p_0, time, steps).q;
 }
 
 inline double distance(std::span<const double> a, std::span<const double> b) {
@@ -161,5 +188,6 @@ inline double rate(const std::function<double(int)>& error_of, int steps) {
 
 }  // namespace abut::test
 
-#define ABUT_ALL_INTEGRATORS \
-    MemmExact, MemmGauss1, MemmGauss2, MemmGauss3, LeapfrogScheme, BilbaoScheme, EnergyMomentumScheme, AsyncScheme
+#define ABUT_ALL_INTEGRATORS                                                                                        \
+    MemmExact, MemmGauss1, MemmGauss2, MemmGauss3, LeapfrogScheme, BilbaoScheme, EnergyMomentumScheme, AsyncScheme, \
+        StrangScheme

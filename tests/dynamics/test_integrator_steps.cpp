@@ -67,7 +67,7 @@ TEMPLATE_TEST_CASE("every integrator reports by how much a restart with another 
     if (TestType::one_step)
         CHECK(coarse == 0.0);
     else
-        CHECK(coarse / fine == Approx(4.0).epsilon(0.25));
+        CHECK(coarse / fine == Approx(energy_ratio<TestType>).epsilon(0.25));
 }
 
 TEMPLATE_TEST_CASE("kept steps a, b, a, b: two-step schemes solve with the acceleration times 4ab/(a+b)^2, others are right",

@@ -94,7 +94,7 @@ TEMPLATE_TEST_CASE("the true energy of every integrator stays near its start", "
         return worst / start;
     };
     CHECK(error(400) < 0.02);
-    CHECK((error(800) < 1e-12 || error(400) / error(800) == Approx(4.0).epsilon(0.3)));
+    CHECK((error(800) < 1e-12 || error(400) / error(800) == Approx(energy_ratio<TestType>).epsilon(0.3)));
 }
 
 TEMPLATE_TEST_CASE("every integrator keeps linear momentum to round-off", "[dynamics][integrators]", ABUT_ALL_INTEGRATORS) {
@@ -134,7 +134,7 @@ TEMPLATE_TEST_CASE("every integrator is stable at 0.99 of its limit and explodes
     };
     if (std::isfinite(TestType::stability)) {
         CHECK(growth(0.99 * TestType::stability / 2.0) < 20.0);
-        CHECK(growth(1.01 * TestType::stability / 2.0) > 1e6);
+        CHECK_FALSE(growth(1.01 * TestType::stability / 2.0) <= 1e6);  // it may overflow
     } else {
         CHECK(growth(1.01) < 10.0);
         CHECK(growth(20.0) < 1e3);  // the start with a step far too long gives it speed; it grows no more

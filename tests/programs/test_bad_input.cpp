@@ -75,6 +75,7 @@ const std::vector<Refusal> bad_options_of_the_strip = {
 };
 
 const std::vector<std::pair<std::string, Refusal>> bad_options_of_comparisons = {
+    {"study orders", {"--halvings 30", {"--halvings: 30", "at most 12"}}},
     {"study fpu",
      {"--integrator euler", {"--integrator", "euler", "all, memm, leapfrog, bilbao, energy_momentum, memm_async"}}},
     {"study fpu", {"--mean 4", {"--mean", "4", "system, 1, 2, 3"}}},

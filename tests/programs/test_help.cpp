@@ -30,6 +30,7 @@ const std::vector<std::pair<std::string, std::string>> explained = {
      "--largest-motion --distance --depth --self --rings --facing --area --broad-phase --skin --max-pairs "
      "--max-memory --verify --verify-tests --verify-samples --seed --out --no-files --write-every --threads"},
     {"study fpu", "--omega --dt --time --integrator --mean --gauge --parts --fast --start --out --interval"},
+    {"study orders", "--halvings --out"},
     {"study hertz",
      "--dim --support --load --radius --young --poisson --ratio --coarse --faces --tolerance --weighting --area "
      "--free-faces --corners --out"},

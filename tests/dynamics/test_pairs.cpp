@@ -1,0 +1,265 @@
+// Steps whose length changes, taken in pairs of sub-steps. Known errors and rates were found by other programs.
+#include <catch2/catch.hpp>
+#include <random>
+#include <utility>
+
+#include "abut/base/error.hpp"
+#include "abut/dynamics/composed.hpp"
+#include "abut/dynamics/pairs.hpp"
+#include "dynamics/own_systems.hpp"
+
+using namespace abut;
+using namespace abut::test;
+using Catch::Contains;
+using dynamics::Composed;
+using dynamics::Composition;
+using dynamics::Memm;
+using dynamics::Pairs;
+using dynamics::StepChange;
+
+namespace {
+
+constexpr double unknown = std::numeric_limits<double>::infinity();
+
+/// Steps of 0.4 and 1.6 of `mean` in turn, or at random between 0.2 and 1.8 of it, up to `end`.
+std::vector<double> steps(double mean, double end, bool at_random) {
+    std::mt19937 random(3);
+    std::vector<double> steps;
+    for (double t = 0.0; t < end - 1e-12; t += steps.back()) {
+        const double part = at_random               ? 0.2 + 1.6 * static_cast<double>(random()) / std::mt19937::max()
+                            : steps.size() % 2 == 0 ? 0.4
+                                                    : 1.6;
+        steps.push_back(std::min(part * mean, end - t));
+    }
+    return steps;
+}
+
+struct PairsOutcome {
+    double error, drift;
+};
+
+PairsOutcome run_duffing(double mean, bool at_random) {
+    auto problem = duffing();
+    Pairs pairs(problem.system, problem.q, problem.p, unknown);
+    const double start = problem.energy();
+    double drift = 0.0;
+    for (const double d : steps(mean, problem.time, at_random)) {
+        pairs.step(d);
+        raise(drift, std::abs(pairs.pseudo_energy() - start) / start);
+    }
+    CHECK(pairs.time() == Approx(problem.time).epsilon(1e-13));
+    const auto state = pairs.synchronised();
+    return {problem.error(state.q, state.p_before, state.p_after), drift};
+}
+
+double run_memm(double mean, StepChange change) {
+    auto problem = duffing();
+    const auto lengths = steps(mean, problem.time, false);
+    Memm memm(problem.system, problem.q, problem.p, lengths.front());
+    for (const double d : lengths) memm.step(d, change);
+    return problem.error(memm);
+}
+
+/// H - H~ over K0 at most in 5,000 steps of 1.3 h/c of a chain of 100; `exchanges` takes B A B after A B A.
+double largest_excess(bool exchanges) {
+    constexpr int n = 100;
+    std::vector<Bond<LineSpring>> bonds;
+    for (std::int32_t i = -1; i < n; ++i) bonds.push_back({i, i == n - 1 ? -1 : i + 1, {.stiffness = 1.0}});
+    Chain chain(Values(n, 1.0), bonds);
+    Values p(n);
+    for (int i = 0; i < n; ++i) p[i] = std::exp(-std::pow((i - 30) / 8.0, 2));
+    Composed run(chain, Values(n, 0.0), p, 1.3, Composition::strang);
+    const double start = run.energy();
+    double excess = 0.0;
+    for (int i = 0; i < 5000 && excess <= 1e3; ++i) {
+        run.step();
+        raise(excess, run.energy_excess() / start);
+        if (!exchanges) continue;
+        dynamics::IntegratorState state = run.state();
+        std::swap(state.p_before, state.p_after);
+        run.restore(state);
+    }
+    return excess;
+}
+
+Chain oscillator() { return Chain({1.0}, {{-1, 0, {.stiffness = 1.0}}}); }
+
+}  // namespace
+
+TEST_CASE("pairs keep order 2 and H~ under steps that vary, with the errors known for Duffing's oscillator",
+          "[dynamics][pairs]") {
+    for (const bool at_random : {false, true}) {
+        const PairsOutcome coarse = run_duffing(0.025, at_random), fine = run_duffing(0.00625, at_random);
+        CHECK(0.5 * std::log2(coarse.error / fine.error) == Approx(2.0).margin(0.05));
+        CHECK(std::max(coarse.drift, fine.drift) <= 2e-14);
+    }
+    for (const auto& [mean, known] : {std::pair{0.1, 0.041}, {0.05, 0.010}, {0.025, 0.0026}, {0.0125, 6.5e-4}})
+        CHECK(run_duffing(mean, false).error == Approx(known).epsilon(0.05));
+}
+
+TEST_CASE("under the same steps MEMM with its momenta kept does not converge, and restarts move H~", "[dynamics][pairs]") {
+    CHECK(run_memm(0.1, StepChange::keep) == Approx(0.41).epsilon(0.05));
+    CHECK(run_memm(0.0125, StepChange::keep) == Approx(0.41).epsilon(0.05));
+    CHECK(run_memm(0.1, StepChange::restart) == Approx(0.21).epsilon(0.05));
+    auto problem = duffing();
+    Memm memm(problem.system, problem.q, problem.p, 0.04);
+    for (const double d : steps(0.1, problem.time, false)) memm.step(d, StepChange::restart);
+    CHECK(std::abs(memm.restart_jumps()) > 1e-3);
+}
+
+TEST_CASE("pairs keep order 2 and H~ with a discrete gradient, on a geometrically exact string", "[dynamics][pairs]") {
+    ElasticString string = string_of(5);
+    const Values q{0.0, 0.3, 0.1, 0.4, 0.0, 0.2, -0.1, 0.1}, p(8, 0.0);
+    const double end = 4.0;
+    const Values exact = reference(string, q, p, end, 20000);
+    const auto error = [&](double mean) {
+        Pairs pairs(string, q, p, unknown);
+        const double start = pairs.pseudo_energy();
+        double drift = 0.0;
+        for (const double d : steps(mean, end, false)) {
+            pairs.step(d);
+            raise(drift, std::abs(pairs.pseudo_energy() - start) / start);
+        }
+        CHECK(drift <= 1e-13);
+        return distance(pairs.q(), exact);
+    };
+    CHECK(std::log2(error(0.02) / error(0.01)) == Approx(2.0).margin(0.05));
+    CHECK(error(0.01) < 3e-4);
+}
+
+TEST_CASE("a kick that is held back changes nothing: pairs are A B A with 3 forces, and cost 2", "[dynamics][pairs]") {
+    auto problem = duffing(), other = duffing();
+    Pairs pairs(problem.system, problem.q, problem.p, unknown);
+    Composed three(other.system, other.q, other.p, 1.0, Composition::strang);
+    const auto lengths = steps(0.05, problem.time, true);
+    const std::int64_t before = problem.system.evaluations();
+    double worst = 0.0;
+    for (const double d : lengths) {
+        pairs.step(d);
+        three.step(d, StepChange::keep);
+        raise(worst, std::abs(pairs.q()[0] - three.q()[0]));
+    }
+    CHECK(problem.system.evaluations() - before == 2 * static_cast<std::int64_t>(lengths.size()));
+    const auto state = pairs.synchronised();
+    raise(worst, std::abs(state.p_before[0] - three.p_before()[0]));
+    raise(worst, std::abs(state.p_after[0] - three.p_after()[0]));
+    CHECK(worst < 1e-12);
+    CHECK(state.q[0] == pairs.q()[0]);
+}
+
+TEST_CASE("A B A in every step holds where A B A and B A B in turn are lost", "[dynamics][pairs]") {
+    CHECK(largest_excess(false) <= 1e-4);
+    CHECK(largest_excess(true) > 1e3);
+}
+
+TEST_CASE("random steps pump an oscillator at the rate known for omega d of 1.5 and ratio 4, and H~ does not see it",
+          "[dynamics][pairs]") {
+    constexpr std::int64_t n = 2'000'000;
+    Chain spring = oscillator();
+    Pairs pairs(spring, {1.0}, std::vector{0.3}, 2.0);
+    std::mt19937 random(1);
+    double log_growth = 0.0, drift = 0.0;
+    for (std::int64_t i = 1; i <= n; ++i) {
+        pairs.step(0.6 + 1.8 * static_cast<double>(random()) / std::mt19937::max());
+        if (i == 500) drift = std::abs(pairs.pseudo_energy() / 0.545 - 1.0);
+        if (i % 1000 != 0) continue;
+        dynamics::IntegratorState state = pairs.state();
+        const double size = std::max({std::abs(state.q[0]), std::abs(state.p_before[0]), std::abs(state.p_after[0])});
+        log_growth += std::log(size);
+        for (auto* values : {&state.q, &state.p_before, &state.p_after}) (*values)[0] /= size;
+        pairs.restore(state);
+    }
+    CHECK(log_growth / static_cast<double>(n) == Approx(1.92e-3).epsilon(0.05));
+    CHECK(drift < 1e-12);
+    CHECK(pairs.report().may_grow);
+}
+
+TEST_CASE("pairs warn of modes that may grow after ten changes of a step above a quarter of the stable one",
+          "[dynamics][pairs]") {
+    const auto report = [](double d, double factor, int n) {
+        Chain spring = oscillator();
+        Pairs pairs(spring, {1.0}, std::vector{0.3}, 2.0);
+        for (int i = 0; i < n; ++i) pairs.step(i % 2 == 0 ? d : factor * d);
+        return pairs.report();
+    };
+    CHECK(report(0.6, 1.2, 12).may_grow);
+    CHECK(report(0.6, 1.2, 12).changes == 11);
+    CHECK(report(0.6, 1.2, 12).longest == Approx(0.72));
+    CHECK_FALSE(report(0.6, 1.2, 11).may_grow);
+    CHECK_FALSE(report(0.6, 1.05, 100).may_grow);
+    CHECK_FALSE(report(0.4, 1.2, 100).may_grow);
+    // Steps that change slowly are compared with the last one counted.
+    Chain spring = oscillator();
+    Pairs pairs(spring, {1.0}, std::vector{0.3}, 2.0);
+    for (int i = 0; i < 400; ++i) pairs.step(0.6 * (1.0 + 0.3 * std::sin(0.1 * i)));
+    CHECK(pairs.report().may_grow);
+}
+
+TEST_CASE("a load that varies from step to step acts with order 2", "[dynamics][pairs]") {
+    constexpr double end = 3.0;  // q'' = -q + cos 2t from rest at 0: q = (cos t - cos 2t)/3
+    struct Loaded {
+        Values inverse_masses{1.0};
+        double load = 0.0;
+        std::size_t size() const { return 1; }
+        std::span<const double> inverse_mass() const { return inverse_masses; }
+        double potential(std::span<const double> q) const { return 0.5 * q[0] * q[0]; }
+        void force(std::span<const double> q, std::span<double> f) const { f[0] = load - q[0]; }
+        void mean_force(std::span<const double> q_0, std::span<const double> q_1, double, double,
+                        std::span<double> f) const {
+            f[0] = load - 0.5 * (q_0[0] + q_1[0]);
+        }
+    };
+    const auto error = [](double mean) {
+        Loaded system;
+        Pairs pairs(system, {0.0}, std::vector{0.0}, unknown);
+        double last = 0.0;
+        for (const double d : steps(mean, end, true)) {
+            const double now = std::cos(2.0 * (pairs.time() + 0.5 * d));
+            pairs.step(d,
+                       [&](double before, double after) { system.load = (before * last + after * now) / (before + after); });
+            last = now;
+        }
+        return std::abs(pairs.q()[0] - (std::cos(end) - std::cos(2.0 * end)) / 3.0);
+    };
+    CHECK(0.5 * std::log2(error(0.04) / error(0.01)) == Approx(2.0).margin(0.2));
+}
+
+TEST_CASE("pairs go on with the same bits from a saved state, and after a look at their momenta", "[dynamics][pairs]") {
+    Chain chain = held_chain(), other = held_chain();
+    Pairs pairs(chain, held_q, held_p, unknown), restored(other, Values(6, 0.0), Values(6, 0.0), unknown);
+    const auto lengths = steps(0.1, 2.0, true);
+    const std::size_t half = lengths.size() / 2;
+    for (std::size_t i = 0; i < half; ++i) pairs.step(lengths[i]);
+    restored.restore(pairs.state());
+    for (std::size_t i = half; i < lengths.size(); ++i) {
+        pairs.step(lengths[i]);
+        restored.step(lengths[i]);
+        static_cast<void>(restored.synchronised());
+    }
+    CHECK(std::ranges::equal(pairs.q(), restored.q()));
+    CHECK(pairs.state().p_before == restored.state().p_before);
+    CHECK(pairs.time() == restored.time());
+    CHECK(restored.steps() == static_cast<std::int64_t>(lengths.size()));
+    CHECK_FALSE(std::ranges::equal(pairs.q(), held_q));
+}
+
+TEST_CASE("pairs refuse steps and states that are none, by name, and stay as they are", "[dynamics][pairs][errors]") {
+    Chain spring = oscillator();
+    Pairs pairs(spring, {1.0}, std::vector{0.3}, 2.0);
+    pairs.step(0.1);
+    const dynamics::IntegratorState good = pairs.state();
+    for (const double d : {0.0, -0.1, std::nan(""), unknown})
+        CHECK_THROWS_WITH(pairs.step(d), Contains("time step is") && Contains("> 0"));
+    dynamics::IntegratorState wrong = good;
+    wrong.of_scheme.clear();
+    CHECK_THROWS_WITH(pairs.restore(wrong), Contains("Pairs") && Contains("held back"));
+    wrong = good;
+    wrong.q[0] = std::nan("");
+    CHECK_THROWS_AS(pairs.restore(wrong), BadInput);
+    CHECK(pairs.state().q == good.q);
+    CHECK(pairs.state().p_before == good.p_before);
+    CHECK(pairs.state().of_scheme == good.of_scheme);
+    CHECK(pairs.steps() == 1);
+    const auto make = [&](double stable_step) { Pairs(spring, {1.0}, std::vector{0.3}, stable_step); };
+    for (const double stable_step : {0.0, -1.0, std::nan("")}) CHECK_THROWS_WITH(make(stable_step), Contains("stable step"));
+}
