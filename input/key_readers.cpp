@@ -10,7 +10,7 @@
 #include "abut/contact/option_table.hpp"
 #include "abut/input/keys.hpp"
 #include "abut/run/option_table.hpp"
-#include "abut/solid/kinematics/capabilities.hpp"
+#include "abut/solid/combinations/combinations.hpp"
 #include "abut/solid/kinematics/properties.hpp"
 #include "abut/solid/material/material_numbers.hpp"
 #include "abut/solid/options/option_words.hpp"
@@ -37,8 +37,8 @@ public:
         : chosen_by_pilot_(options.kinematics == run::BodyKinematics::automatic),
           kinematics_(run::kinematics_of_all(options.kinematics).value_or(body.kinematics)) {}
 
-    [[nodiscard]] bool has(solid::Capability capability) const {
-        return chosen_by_pilot_ || solid::has(kinematics_, capability);
+    [[nodiscard]] bool has(solid::Feature feature) const {
+        return chosen_by_pilot_ || solid::go_together(solid::feature_of(kinematics_), feature);
     }
     [[nodiscard]] bool deforms() const { return chosen_by_pilot_ || solid::properties_of(kinematics_).deforms; }
     [[nodiscard]] bool has_finite_strains() const {
@@ -66,7 +66,7 @@ void read_number(const BodySettings& body, const Mover& mover, const solid::Mate
         case solid::MaterialUse::deformation:
             return given.read_with(mover.deforms(), number.name, with_deformation);
         case solid::MaterialUse::damping:
-            return given.read_with(mover.has(solid::Capability::damping), number.name, with_deformation);
+            return given.read_with(mover.has(solid::Feature::damping), number.name, with_deformation);
         case solid::MaterialUse::temperature:
             return given.read_with(body.temperature_rise.has_value(), number.name, "temperature_rise");
     }
@@ -91,7 +91,7 @@ void read_keys(const BodySettings& body, const Settings& settings) {
     const Mover mover(body, settings.options);
     for (const char* key : {"material", "kinematics", "place", "turn", "velocity", "spin"}) body.given.read(key);
     read_material(body, mover);
-    body.given.read_with(mover.has(solid::Capability::temperature), "temperature_rise", with_deformation);
+    body.given.read_with(mover.has(solid::Feature::temperature), "temperature_rise", with_deformation);
     if (settings.contact)
         body.given.read_with(mover.deforms(), "self", with_deformation);
     else
@@ -151,17 +151,13 @@ bool is_of_contact(const OptionFacts& option) {
 
 std::string path_of(const OptionFacts& option) { return option.table + "." + option.scene_key(); }
 
-solid::ContactLaw acting_law(const Settings& settings) {
-    const solid::ContactLaw law = settings.options.law;
-    return law == solid::ContactLaw::automatic ? solid::ContactLaw::pair_potential : law;
-}
-
 /// Whether the chosen scheme and law read an option; else the key is left with the names of those that do.
 bool read_by_scheme_and_law(const Settings& settings, const OptionFacts& option, const std::string& path) {
     const auto is_in = [](const std::vector<std::string>& all, const std::string& word) {
         return all.empty() || std::ranges::find(all, word) != all.end();
     };
-    const std::string scheme = name_of(settings.options.integrator), law = word_of(solid::law_words, acting_law(settings));
+    const std::string scheme = name_of(settings.options.integrator),
+                      law = word_of(solid::law_words, acting_law(settings.options.law));
     const bool has_scheme = is_in(option.schemes, scheme);
     const bool has_law = is_in(option.laws, law);
     if (!has_scheme) settings.given.read_with(false, path, words("run.integrator", option.schemes));
@@ -191,7 +187,7 @@ bool depends_on_others(const Settings& settings, const std::string& path) {
         const bool may_be_bonded = !settings.bonds.empty() || any_body(settings, [](const BodySettings& body) {
             return body.shape == Shape::file || !body.parts.empty();
         });
-        const bool by_pairs = !settings.contact || acting_law(settings) == solid::ContactLaw::pair_potential;
+        const bool by_pairs = !settings.contact || acting_law(settings.options.law) == solid::ContactLaw::pair_potential;
         return given.read_with(may_be_bonded || !by_pairs, path, words("contact.law", {"reconstruction"})), true;
     }
     if (path == "contact.self") {

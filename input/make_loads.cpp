@@ -12,7 +12,7 @@
 #include "abut/input/names.hpp"
 #include "abut/input/values.hpp"
 #include "abut/mesh/interpenetration.hpp"
-#include "abut/solid/kinematics/capabilities.hpp"
+#include "abut/solid/combinations/combinations.hpp"
 
 namespace abut::input {
 namespace {
@@ -33,19 +33,19 @@ public:
     Movers(const run::Scene<Dim>& scene, const Settings& settings)
         : scene_(scene), of_all_(run::kinematics_of_all(settings.options.kinematics)) {}
 
-    struct Body {
-        std::string name;
-        std::string kinematics;
-    };
-    /// The first body that does not have what a load asks for.
-    [[nodiscard]] std::optional<Body> first_without(const std::string& group, solid::Capability capability) const {
+    /// The first fault of a body of the group that does not go with a feature, in the name of what asks for it.
+    [[nodiscard]] bool allow(const std::string& group, solid::Feature feature, const std::string& where,
+                             const std::string& name, std::vector<Fault>& faults) const {
         const mesh::Mesh<Dim>& mesh = scene_.mesh;
         for (const std::int32_t face : mesh.group(group).faces) {
             const auto body = static_cast<std::size_t>(mesh.cell_body[mesh.face_cells[face][0]]);
             const solid::Kinematics kinematics = of_all_.value_or(scene_.solid.kinematics[body]);
-            if (!solid::has(kinematics, capability)) return Body{mesh.body_names[body], run::name_of(kinematics)};
+            const auto conflict = solid::first_conflict({solid::feature_of(kinematics), feature}, {feature});
+            if (!conflict) continue;
+            faults.push_back({where, name + ": " + solid::text_of(*conflict, "body '" + mesh.body_names[body] + "'")});
+            return false;
         }
-        return std::nullopt;
+        return true;
     }
 
 private:
@@ -54,30 +54,14 @@ private:
 };
 
 template <int Dim>
-bool can_hold(const SupportSettings& support, const Movers<Dim>& movers, std::vector<Fault>& faults) {
-    if (const auto body = movers.first_without(support.group, solid::Capability::clamp)) {
-        faults.push_back(
-            {support.where, fmt::format("supports.{} holds body '{}', which is {}: only small and finite bodies can be "
-                                        "held so. Hold it by [springs.NAME].",
-                                        support.name, body->name, body->kinematics)});
-        return false;
-    }
-    if (support.constraint == solid::Constraint::full && !varies(support.value)) return true;
-    const auto body = movers.first_without(support.group, solid::Capability::guide);
-    if (!body) return true;
-    faults.push_back({support.where, fmt::format("supports.{} holds body '{}', which is {}: it can be clamped, with "
-                                                 "constraint = \"full\" and a constant value. Do so, or hold it by "
-                                                 "[springs.NAME].",
-                                                 support.name, body->name, body->kinematics)});
-    return false;
-}
-
-template <int Dim>
 void add_supports(run::Scene<Dim>& scene, const Settings& settings, const Names<Dim>& names, std::vector<Fault>& faults) {
     const Movers<Dim> movers(scene, settings);
     for (const SupportSettings& support : settings.supports) {
         if (!names.has_group(support.group, support.where, "supports." + support.name + ".group")) continue;
-        if (!can_hold(support, movers, faults)) continue;
+        const bool is_clamp = support.constraint == solid::Constraint::full && !varies(support.value);
+        if (!movers.allow(support.group, is_clamp ? solid::Feature::clamp : solid::Feature::guide, support.where,
+                          "supports." + support.name, faults))
+            continue;
         solid::DirichletCondition<Dim> condition;
         condition.group = support.group;
         condition.constraint = support.constraint;
@@ -137,10 +121,9 @@ void require_symmetric(const run::Scene<Dim>& scene, std::int32_t body, solid::K
     const auto b = static_cast<std::size_t>(body);
     const std::string name = "cuts body '" + scene.mesh.body_names[b] + "', ";
     constexpr double rounding = 1e-12;
-    if (!solid::has(kinematics, solid::Capability::symmetry))
-        throw BadInput(name +
-                       "which may turn: only small bodies can be held on a plane. Give it kinematics = \"small\", or run "
-                       "the whole of it.");
+    if (const auto conflict =
+            solid::first_conflict({solid::feature_of(kinematics), solid::Feature::symmetry}, {solid::Feature::symmetry}))
+        throw BadInput(solid::text_of(*conflict, "meets body '" + scene.mesh.body_names[b] + "', which"));
     const Vector<Dim> velocity = scene.velocity[b];
     if (std::abs(normal.dot(velocity)) > rounding * velocity.norm())
         throw BadInput(
@@ -231,23 +214,11 @@ void add_pressure(run::Scene<Dim>& scene, const TractionSettings& traction) {
 
 template <int Dim>
 bool can_follow(const TractionSettings& traction, const Movers<Dim>& movers, std::vector<Fault>& faults) {
-    if (traction.follows.value_or(false) && traction.value)
-        if (const auto body = movers.first_without(traction.group, solid::Capability::following_traction)) {
-            faults.push_back({traction.where, fmt::format("tractions.{} follows body '{}', which is {}: of such a body "
-                                                          "a pressure alone turns with the faces. Leave follows out, or "
-                                                          "give a pressure.",
-                                                          traction.name, body->name, body->kinematics)});
-            return false;
-        }
-    if (traction.follows.value_or(true) || !traction.pressure) return true;
-    const auto body = movers.first_without(traction.group, solid::Capability::dead_pressure);
-    if (!body) return true;
-    faults.push_back({traction.where, fmt::format("tractions.{} is a pressure on body '{}', which is {}, and follows "
-                                                  "is false: the forces would stay as they are while its faces "
-                                                  "turn, and spin a body up that is pressed from all sides. Leave "
-                                                  "follows out, or give a value, which keeps its direction.",
-                                                  traction.name, body->name, body->kinematics)});
-    return false;
+    const auto allow = [&](solid::Feature feature) {
+        return movers.allow(traction.group, feature, traction.where, "tractions." + traction.name, faults);
+    };
+    if (traction.follows.value_or(false) && traction.value && !allow(solid::Feature::following_traction)) return false;
+    return traction.follows.value_or(true) || !traction.pressure || allow(solid::Feature::dead_pressure);
 }
 
 template <int Dim>

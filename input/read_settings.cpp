@@ -400,33 +400,6 @@ void merge_overrides(Node& document, const std::vector<std::string>& set, std::v
     for (const Node& node : given) merge(document, node);
 }
 
-/// The first body or obstacle that may turn, as the file calls it; empty: none.
-std::string first_that_turns(const Settings& settings) {
-    const auto of_all = run::kinematics_of_all(settings.options.kinematics);
-    const auto turns = [&](const BodySettings& body) {
-        return solid::properties_of(of_all.value_or(body.kinematics)).turns;
-    };
-    for (const BodySettings& body : settings.bodies) {
-        if (turns(body)) return "bodies." + body.name;
-        for (const BodySettings& part : body.parts)
-            if (turns(part)) return "bodies." + body.name + "." + part.name;
-    }
-    for (const ObstacleSettings& obstacle : settings.obstacles)
-        if (obstacle.rotation || !obstacle.spin.isZero(0.0)) return "obstacles." + obstacle.name;
-    return "";
-}
-
-void check_law(const Settings& settings, std::vector<Fault>& faults) {
-    if (!settings.contact || settings.options.law != solid::ContactLaw::reconstruction) return;
-    const std::string turns = first_that_turns(settings);
-    if (turns.empty()) return;
-    faults.push_back(
-        {settings.file.string(),
-         fmt::format("contact.law is 'reconstruction', which knows normals at rest alone, and {} may turn. Take "
-                     "\"automatic\" or \"pair_potential\".",
-                     turns)});
-}
-
 /// Checks what no key by itself can know.
 void check_options(const Settings& settings, std::vector<Fault>& faults) {
     const std::string where = settings.file.string();
@@ -435,7 +408,6 @@ void check_options(const Settings& settings, std::vector<Fault>& faults) {
         faults.push_back({where, "nothing says when the run ends. Give run.time [s] or run.steps."});
     if (options.allow_unstable && std::isnan(options.dt))
         faults.push_back({where, "run.allow_unstable is for run.dt, which is missing. Give it, or leave both out."});
-    check_law(settings, faults);
     try {
         run::check(options);
     } catch (const BadInput& error) {

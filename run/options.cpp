@@ -11,6 +11,7 @@
 #include "abut/base/error.hpp"
 #include "abut/run/option_table.hpp"
 #include "abut/run/user_words.hpp"
+#include "abut/solid/combinations/combinations.hpp"
 #include "abut/solid/kinematics/properties.hpp"
 
 namespace abut::run {
@@ -43,6 +44,20 @@ std::optional<solid::Kinematics> kinematics_of_all(BodyKinematics kinematics) {
             return solid::Kinematics::rigid;
     }
     return std::nullopt;
+}
+
+solid::FeatureSet features_of(const RunOptions& options) {
+    using solid::Feature;
+    solid::FeatureSet features;
+    features.add(Feature::local_steps, options.integrator == SolidIntegrator::memm_async);
+    features.add(Feature::end_forces,
+                 options.integrator == SolidIntegrator::leapfrog || options.integrator == SolidIntegrator::bilbao);
+    features.add(Feature::bilbao, options.integrator == SolidIntegrator::bilbao);
+    features.add(Feature::pilot, options.kinematics == BodyKinematics::automatic);
+    features.add(Feature::settling, options.settle);
+    features.add(Feature::pieces, options.pieces);
+    features.add(Feature::xdmf, options.format == FrameFormat::xdmf);
+    return features;
 }
 
 template <int Dim>
@@ -123,10 +138,7 @@ void check_together(const RunOptions& options) {
         if (option.name != "cfl") check_value("", as_flag, value, by_default);  // choose_step judges the step of a cfl
         check_scheme(option, value, by_default, name_of(options.integrator));
     }
-    if (options.format == FrameFormat::xdmf && options.pieces)
-        throw BadInput(
-            "--pieces: ranks write pieces of frames as vtu alone. Leave --pieces out: rank 0 then writes the whole as "
-            "xdmf; or leave --format xdmf out.");
+    solid::require_together("", "", features_of(options));
     if (const auto& [full, none] = options.facing; !(full < none))
         throw BadInput(
             fmt::format("--facing-full, --facing-none: pairs of faces fade out from {:g} to {:g}; -1 <= facing_full < "

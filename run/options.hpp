@@ -12,6 +12,7 @@
 #include "abut/solid/boundary/boundary_conditions.hpp"
 #include "abut/solid/ccg/precision.hpp"
 #include "abut/solid/ccg/step_device.hpp"
+#include "abut/solid/combinations/features.hpp"
 #include "abut/solid/kinematics/kinematics.hpp"
 
 namespace abut::run {
@@ -80,6 +81,8 @@ struct RunOptions {
 using dynamics::name_of;  ///< "memm"
 /// "floating"
 [[nodiscard]] std::string name_of(solid::Kinematics kinematics);
+/// Features that these alone tell of a run: its scheme, the start and its files.
+[[nodiscard]] solid::FeatureSet features_of(const RunOptions& options);
 /// Kinematics of all bodies; nothing where the scene or a pilot run decides.
 [[nodiscard]] std::optional<solid::Kinematics> kinematics_of_all(BodyKinematics kinematics);
 

@@ -10,9 +10,9 @@
 
 #include "abut/base/error.hpp"
 #include "abut/dynamics/ranks.hpp"
-#include "abut/run/scheme_capabilities.hpp"
 #include "abut/solid/cell_view.hpp"
 #include "abut/solid/kinematics/properties.hpp"
+#include "abut/solid/options/made_features.hpp"
 #include "abut/solid/run_remedies.hpp"
 
 namespace abut::run {
@@ -100,17 +100,31 @@ bool has_friction(const Scene<Dim>& scene, const RunOptions& options) {
 }
 
 template <int Dim>
-void check_scheme(const Scene<Dim>& scene, const RunOptions& options) {
-    const auto require = [&](SchemeCapability capability, const std::string& asked) {
-        if (has(options.integrator, capability)) return;
-        throw BadInput(fmt::format("--integrator {}: {}, and {}. {}", name_of(options.integrator), asked,
-                                   row_of(capability).reason, row_of(capability).remedy));
-    };
-    for (std::size_t body = 0; body < scene.solid.materials.size(); ++body)
-        if (scene.solid.materials[body].remembers())
-            require(SchemeCapability::memory,
-                    fmt::format("body '{}' is of a material that flows or is damped", scene.mesh.body_names[body]));
-    if (has_friction(scene, options)) require(SchemeCapability::friction, "bodies rub");
+solid::FeatureSet features_of(const Scene<Dim>& scene, const RunOptions& options, const solid::SolidOptions<Dim>& solid,
+                              const dynamics::Ranks& ranks) {
+    using solid::Feature;
+    const auto spins = [](const AxialVector<Dim>& spin) { return !spin.isZero(0.0); };
+    const bool any_rigid = !solid::all_bodies(solid.kinematics, &solid::KinematicsProperties::deforms);
+    solid::FeatureSet features = features_of(options) | solid::features_of(ranks);
+    features.add(Feature::step_watcher, bool(scene.after_step));
+    features.add(Feature::displaced_start, bool(scene.displacement));
+    features.add(Feature::spin_of_rigid, any_rigid && (scene.added_velocity || std::ranges::any_of(scene.spin, spins)));
+    return features;
+}
+
+template <int Dim>
+void check_features(const Scene<Dim>& scene, const RunOptions& options, const dynamics::Ranks& ranks) {
+    using solid::Feature;
+    const bool by_pilot = options.kinematics == BodyKinematics::automatic;
+    RunOptions of_scene = options;
+    if (by_pilot) of_scene.kinematics = BodyKinematics::scene;
+    const solid::SolidOptions<Dim> solid = solid_options(scene, of_scene);
+    solid::FeatureSet features = features_of(scene, options, solid, ranks), unknown;
+    if (by_pilot) {
+        features.remove({Feature::spin_of_rigid});
+        unknown = {Feature::small, Feature::floating, Feature::finite, Feature::rigid, Feature::turn};
+    }
+    solid::require_together(scene.mesh, solid, features, unknown);
 }
 
 template <int Dim>
@@ -153,10 +167,7 @@ std::vector<double> momentum_at_start(const Scene<Dim>& scene, const solid::Soli
     if (!scene.spin.empty() && scene.spin.size() != scene.mesh.body_names.size())
         throw BadInput(fmt::format("Scene::spin: {} are given, the scene has {} bodies. Give one for each, or none.",
                                    scene.spin.size(), scene.mesh.n_bodies()));
-    if (scene.displacement && solid.has_constraints())
-        throw BadInput(
-            "Scene::spin, Scene::added_velocity: a rigid body takes its spin from velocities of its cells at rest, and "
-            "Scene::displacement moves it from there. Turn its mesh instead, and leave the displacement out.");
+    solid::require_together(scene.mesh.name, "", features_of(scene, {}, solid.options(), solid.ranks()));
     std::vector<Vector<Dim>> added_to_cells;
     dynamics::agreed(solid.ranks(), [&] { added_to_cells = added_velocities(scene, solid.mesh()); });
     const std::vector<double> added = solid.cells().to_p(added_to_cells);
@@ -164,13 +175,15 @@ std::vector<double> momentum_at_start(const Scene<Dim>& scene, const solid::Soli
     return momentum;
 }
 
-#define ABUT_INSTANTIATE(Dim)                                                                             \
-    template solid::SolidOptions<Dim> solid_options<Dim>(const Scene<Dim>&, const RunOptions&);           \
-    template bool has_friction<Dim>(const Scene<Dim>&, const RunOptions&);                                \
-    template void check_scheme<Dim>(const Scene<Dim>&, const RunOptions&);                                \
-    template RunOptions with_restart<Dim>(RunOptions, const Scene<Dim>&);                                 \
-    template solid::Kinematics kinematics_of<Dim>(const Scene<Dim>&, const RunResult<Dim>&, std::size_t); \
-    template std::vector<double> displacement_at_start<Dim>(const Scene<Dim>&, const solid::Solid<Dim>&); \
+#define ABUT_INSTANTIATE(Dim)                                                                                          \
+    template solid::SolidOptions<Dim> solid_options<Dim>(const Scene<Dim>&, const RunOptions&);                        \
+    template bool has_friction<Dim>(const Scene<Dim>&, const RunOptions&);                                             \
+    template solid::FeatureSet features_of<Dim>(const Scene<Dim>&, const RunOptions&, const solid::SolidOptions<Dim>&, \
+                                                const dynamics::Ranks&);                                               \
+    template void check_features<Dim>(const Scene<Dim>&, const RunOptions&, const dynamics::Ranks&);                   \
+    template RunOptions with_restart<Dim>(RunOptions, const Scene<Dim>&);                                              \
+    template solid::Kinematics kinematics_of<Dim>(const Scene<Dim>&, const RunResult<Dim>&, std::size_t);              \
+    template std::vector<double> displacement_at_start<Dim>(const Scene<Dim>&, const solid::Solid<Dim>&);              \
     template std::vector<double> momentum_at_start<Dim>(const Scene<Dim>&, const solid::Solid<Dim>&);
 ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)

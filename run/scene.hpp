@@ -140,10 +140,14 @@ template <int Dim>
 /// Whether some bodies or obstacles of a run rub.
 template <int Dim>
 [[nodiscard]] bool has_friction(const Scene<Dim>& scene, const RunOptions& options);
-/// Throws BadInput where bodies rub under a scheme that has no friction, or are of a material that remembers under one
-/// that does not take mean forces.
+/// Features of a run beside those of its solid, whose options these are.
 template <int Dim>
-void check_scheme(const Scene<Dim>& scene, const RunOptions& options);
+[[nodiscard]] solid::FeatureSet features_of(const Scene<Dim>& scene, const RunOptions& options,
+                                            const solid::SolidOptions<Dim>& solid, const dynamics::Ranks& ranks);
+/// Throws BadInput for features of scene, options and ranks that do not go together (solid/combinations). Kinematics that a
+/// pilot run chooses are not known yet.
+template <int Dim>
+void check_features(const Scene<Dim>& scene, const RunOptions& options, const dynamics::Ranks& ranks);
 /// With `restart` filled in, by friction and the kinematics that the bodies are run with; with friction the filter, too.
 template <int Dim>
 [[nodiscard]] RunOptions with_restart(RunOptions options, const Scene<Dim>& scene);

@@ -29,7 +29,7 @@ template <int Dim>
 RunResult<Dim> simulated(const Scene<Dim>& scene, const RunOptions& given, Observer<Dim>& observer, const Checkpoint* from,
                          const Share<Dim>& share) {
     check(given);
-    check_scheme(scene, given);
+    check_features(scene, given, share.ranks);
     RunOptions options = with_defaults<Dim>(with_restart(given, scene));
     std::optional<global_control> threads;
     if (options.threads > 0)
@@ -40,7 +40,6 @@ RunResult<Dim> simulated(const Scene<Dim>& scene, const RunOptions& given, Obser
         const Stopwatch whole(seconds.total);
         {
             const Stopwatch watch(seconds.setup);
-            check_for_ranks(share.ranks, scene, options);
             on_first(share.ranks, [&] {
                 if (!scene.contact) return;
                 auto may_overlap =

@@ -13,7 +13,6 @@
 #include "abut/dynamics/ranks.hpp"
 #include "abut/run/of_all_ranks.hpp"
 #include "abut/run/rest_energy.hpp"
-#include "abut/run/scheme_capabilities.hpp"
 #include "abut/run/settling.hpp"
 #include "abut/run/start_contact.hpp"
 #include "abut/solid/bond_view.hpp"
@@ -22,6 +21,7 @@
 #include "abut/solid/contact_view.hpp"
 #include "abut/solid/kinematics/properties.hpp"
 #include "abut/solid/local_steps.hpp"
+#include "abut/solid/options/made_features.hpp"
 
 namespace abut::run {
 namespace {
@@ -96,17 +96,12 @@ std::vector<std::array<std::int32_t, 2>> bonded_faces(const solid::Solid<Dim>& s
 }
 
 template <int Dim>
-void check_for_ranks(const dynamics::Ranks& ranks, const Scene<Dim>& scene, const RunOptions& options) {
-    dynamics::refuse_ranks(ranks, {{"a pilot run (--kinematics automatic)", options.kinematics == BodyKinematics::automatic},
-                                   {"local steps (memm_async)", !has(options.integrator, SchemeCapability::ranks)},
-                                   {"a scene that looks at each step (Scene::after_step)", bool(scene.after_step)}});
-}
-
-template <int Dim>
 Start<Dim>::Start(const Scene<Dim>& of, const RunOptions& given, std::optional<PilotReport> pilot, const Share<Dim>& share,
                   Observer<Dim>& observer)
     : scene(of), options(given), first_share(share) {
-    solid.emplace(share.part, solid_options<Dim>(scene, options, pilot), share.ranks);
+    const solid::SolidOptions<Dim> chosen = solid_options<Dim>(scene, options, pilot);
+    if (pilot) solid::require_together(scene.mesh, chosen, features_of(scene, options, chosen, share.ranks));
+    solid.emplace(share.part, chosen, share.ranks);
     result.pilot = std::move(pilot);
     if (!share.ranks.is_one()) on_first(share.ranks, [&] { whole.emplace(scene.mesh, run::solid_options(scene, options)); });
     result.stable = dynamics::stable_step(*solid);
@@ -182,13 +177,6 @@ void Start<Dim>::set_state() {
 template <int Dim>
 void Start<Dim>::settle(Observer<Dim>& observer) {
     const dynamics::Ranks& ranks = solid->ranks();
-    const auto is_any = [](const auto& values) {
-        return std::ranges::any_of(values, [](const auto& value) { return !value.isZero(0.0); });
-    };
-    if (solid->has_constraints() && (scene.added_velocity || is_any(scene.spin)))
-        throw BadInput(
-            "--settle: a rigid body takes its spin from velocities of its cells where they are at rest, and comes to rest "
-            "elsewhere. Leave spin and added velocities of the scene out, or --settle.");
     double seconds = 0.0;
     {
         const Stopwatch watch(seconds);
@@ -236,10 +224,9 @@ double gauge(const Start<Dim>& start) {
     return required_gauge(0.5 * dynamics::mass_product_over(start.solid->ranks(), p, inverse_mass, p));
 }
 
-#define ABUT_INSTANTIATE(Dim)                                                                         \
-    template EnergyScale known_scale<Dim>(EnergyScale, const RunResult<Dim>&);                        \
-    template void check_for_ranks<Dim>(const dynamics::Ranks&, const Scene<Dim>&, const RunOptions&); \
-    template struct Start<Dim>;                                                                       \
+#define ABUT_INSTANTIATE(Dim)                                                  \
+    template EnergyScale known_scale<Dim>(EnergyScale, const RunResult<Dim>&); \
+    template struct Start<Dim>;                                                \
     template double gauge<Dim>(const Start<Dim>&);
 ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)

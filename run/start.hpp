@@ -11,10 +11,6 @@
 
 namespace abut::run {
 
-/// Refuses what is not made for several ranks, before anything is set up. Throws BadInput.
-template <int Dim>
-void check_for_ranks(const dynamics::Ranks& ranks, const Scene<Dim>& scene, const RunOptions& options);
-
 /// With the value that it has so far where the scene gives none and anything has moved, and then with the name E unless
 /// that is K0. Throws BadInput for one without a name.
 template <int Dim>

@@ -6,6 +6,7 @@
 
 #include "abut/base/error.hpp"
 #include "abut/solid/body/bodies.hpp"
+#include "abut/solid/options/made_features.hpp"
 #include "abut/solid/part/body_cells.hpp"
 #include "abut/solid/part/rank_part.hpp"
 #include "abut/solid/solid.hpp"
@@ -99,7 +100,7 @@ std::span<const Vector<Dim>> CellView<Dim>::own_points_of(std::size_t rigid, std
 
 template <int Dim>
 std::vector<Vector<Dim>> CellView<Dim>::vertex_displacement(std::span<const double> q) const {
-    dynamics::refuse_ranks(solid_.ranks(), {{"displacements of vertices"}});
+    solid_.require(features_of(solid_.ranks()) | FeatureSet{Feature::vertex_displacement});
     const std::vector<Vector<Dim>> of_cells = displacement(q);
     std::vector<Vector<Dim>> result(solid_.mesh_.vertices.size(), Vector<Dim>::Zero());
     std::vector<int> n_cells(solid_.mesh_.vertices.size(), 0);

@@ -6,6 +6,7 @@
 #include "abut/contact/report.hpp"
 #include "abut/dynamics/mass.hpp"
 #include "abut/solid/contact_view.hpp"
+#include "abut/solid/options/made_features.hpp"
 #include "abut/solid/solid.hpp"
 
 namespace abut::solid {
@@ -42,7 +43,8 @@ double friction_of(const Solid<Dim>& solid) {
 template <int Dim>
 Change<Dim> change(Solid<Dim>& before, const dynamics::IntegratorState& motion, Solid<Dim>& after,
                    std::span<const std::int32_t> old_cells) {
-    for (const Solid<Dim>* solid : {&before, &after}) dynamics::refuse_ranks(solid->ranks(), {{"a change of the mesh"}});
+    for (const Solid<Dim>* solid : {&before, &after})
+        require_together(solid->mesh(), solid->options(), features_of(solid->ranks()) | FeatureSet{Feature::mesh_change});
     Change<Dim> changed;
     dynamics::IntegratorState& now = changed.state.motion = after.take_over(before, motion, old_cells);
     changed.state.solid = after.state();

@@ -27,11 +27,6 @@ template <int Dim>
 LocalLevels<Dim>::LocalLevels(const mesh::Mesh<Dim>& mesh, Ccg<Dim>& ccg, const Loads<Dim>& loads, std::int32_t n_levels,
                               std::span<const std::int32_t> level)
     : ccg_(ccg), loads_(loads), all_cells_(static_cast<std::size_t>(mesh.n_cells())) {
-    if (loads.vary())
-        throw BadInput(
-            mesh.name +
-            ": a boundary condition has a history or is set from outside, or a temperature varies, and local time steps "
-            "do not follow it. Take one step for all cells.");
     for (std::size_t i = 0; i < level.size(); ++i)
         if (level[i] != level[i - i % Dim])
             throw BadInput(mesh.name + ": the components of cell " + std::to_string(mesh.cell_label[i / Dim]) +

@@ -12,7 +12,7 @@
 #include "abut/base/sort_unique.hpp"
 #include "abut/dynamics/mode_search.hpp"
 #include "abut/solid/contact_view.hpp"
-#include "abut/solid/local_step_checks.hpp"
+#include "abut/solid/options/made_features.hpp"
 #include "abut/solid/solid.hpp"
 
 namespace abut::solid {
@@ -237,9 +237,7 @@ std::vector<std::int32_t> contact_cells(Solid<Dim>& solid) {
 
 template <int Dim>
 SolidLocalSteps local_steps(Solid<Dim>& solid, const dynamics::StableStep& stable, const LocalStepOptions& options) {
-    dynamics::refuse_ranks(solid.ranks(), {{"local steps"}});
-    require_local_steps(solid.mesh().name, solid.options(),
-                        !solid.options().contact || (solid.contact().reconstruction() && !solid.options().has_friction()));
+    require_together(solid.mesh(), solid.options(), features_of(solid.ranks()) | FeatureSet{Feature::local_steps});
     const auto& [most_levels, contact_margin, contact_levels] = options;
     if (most_levels < 1 || most_levels > 20 || contact_margin < 0 || contact_levels < 0 || contact_levels > 10)
         throw BadInput("local steps: " + std::to_string(most_levels) + " levels, a margin of " +

@@ -12,7 +12,6 @@
 #include "abut/solid/body/turning_tractions.hpp"
 #include "abut/solid/bond/bonds.hpp"
 #include "abut/solid/bond/find_bond_places.hpp"
-#include "abut/solid/contact/acting_law.hpp"
 #include "abut/solid/contact/pair_potential_driver.hpp"
 #include "abut/solid/contact/reconstruction_driver.hpp"
 #include "abut/solid/kinematics/properties.hpp"
@@ -22,6 +21,7 @@
 #include "abut/solid/load/point_loads.hpp"
 #include "abut/solid/local_levels.hpp"
 #include "abut/solid/options/law_options.hpp"
+#include "abut/solid/options/made_features.hpp"
 #include "abut/solid/part/body_cells.hpp"
 #include "abut/solid/part/rank_part.hpp"
 #include "abut/solid/part/rank_rows.hpp"
@@ -39,12 +39,7 @@ void check_for_ranks(const dynamics::Ranks& ranks, const mesh::Mesh<Dim>& mesh, 
             first == last && !properties_of(options.kinematics[static_cast<std::size_t>(body)]).deforms)
             throw BadInput(mesh.name + ": rigid body " + std::to_string(body) +
                            " has no cells in the part of a rank. Give each rank the whole of it (solid::part_of).");
-    const bool from_outside = std::ranges::any_of(options.boundary.traction, &TractionCondition<Dim>::from_outside);
-    dynamics::refuse_ranks(ranks, {{"a load from outside", from_outside},
-                                   {"bonds under the modified reconstruction",
-                                    !options.bonds.empty() && options.contact && options.law == ContactLaw::reconstruction},
-                                   {"a bulk in single precision", options.precision == Precision::single_precision},
-                                   {"a bulk on a device", options.device != StepDevice::host}});
+    require_together(mesh, options, {Feature::ranks});
 }
 
 template <int Dim>
@@ -55,6 +50,13 @@ std::unique_ptr<Bodies<Dim>> bodies_of(const mesh::Mesh<Dim>& mesh, const SolidO
     return dynamics::agreed(ranks, [&] { return std::make_unique<Bodies<Dim>>(mesh, options, std::move(holds)); });
 }
 
+template <int Dim>
+FeatureSet all_features(const mesh::Mesh<Dim>& mesh, const SolidOptions<Dim>& options) {
+    FeatureSet all = features_of(options);
+    for (std::size_t body = 0; body < mesh.body_names.size(); ++body) all = all | features_of(options, body);
+    return all;
+}
+
 /// By what contact acts on them, if there is anything that a body could touch.
 template <int Dim>
 FreeFaces free_faces_of(const Bodies<Dim>& bodies) {
@@ -62,7 +64,7 @@ FreeFaces free_faces_of(const Bodies<Dim>& bodies) {
     const bool has_partner = bodies.mesh().n_bodies() > 1 || !options.obstacles.empty();
     const bool may_touch = options.contact && (has_partner || options.contact->search.self_contact);
     if (!may_touch) return FreeFaces::stay_alone;
-    return acting_law(bodies) == ContactLaw::reconstruction ? FreeFaces::are_moved : FreeFaces::are_pushed;
+    return acting_law(options.law) == ContactLaw::reconstruction ? FreeFaces::are_moved : FreeFaces::are_pushed;
 }
 
 /// The points of cells are placed once ranks can be brought together.
@@ -84,6 +86,7 @@ template <int Dim>
 Solid<Dim>::Solid(const mesh::Mesh<Dim>& mesh, SolidOptions<Dim> options, const dynamics::Ranks& ranks)
     : mesh_(mesh),
       options_(std::move(options)),
+      features_(all_features(mesh, options_)),
       bodies_(bodies_of(mesh, options_, ranks)),
       part_(part_of_rank<Dim>(ranks, *bodies_)),
       ccg_(dynamics::agreed(ranks,
@@ -116,12 +119,8 @@ Solid<Dim>::Solid(const mesh::Mesh<Dim>& mesh, SolidOptions<Dim> options, const 
         closure_ = std::make_unique<TrapezoidClosure<Dim>>(*bodies_, *part_, ccg_);
     bonds_ = std::make_unique<Bonds<Dim>>(*bodies_, ccg_, *frames_, *part_);
     if (!options_.contact) return;
-    const ContactLaw law = acting_law(*bodies_);
+    const ContactLaw law = acting_law(options_.law);
     refuse_choices_of_other_law(law, options_);
-    if (law == ContactLaw::reconstruction && any_inelastic())
-        throw BadInput(mesh_.name +
-                       ": a body yields (law = \"j2\"), which is not made under the modified reconstruction. Take law = "
-                       "\"pair_potential\" (contact.law), or another material.");
     if (law == ContactLaw::pair_potential) {
         contact_ = std::make_unique<PairPotentialDriver<Dim>>(*bodies_, ccg_, *loads_, *frames_, times_, *part_, *bonds_);
     } else {

@@ -9,6 +9,7 @@
 #include "abut/dynamics/point_system.hpp"
 #include "abut/dynamics/ranks.hpp"
 #include "abut/solid/ccg/ccg.hpp"
+#include "abut/solid/combinations/features.hpp"
 #include "abut/solid/load/outside_work.hpp"
 #include "abut/solid/options/options.hpp"
 
@@ -257,7 +258,8 @@ private:
     [[nodiscard]] bool any_inelastic() const { return ccg_.any_inelastic(); }
     /// Whether a material remembers and dissipates: only schemes that call `mean_force` may run it.
     [[nodiscard]] bool any_memory() const { return any_inelastic() || ccg_.any_damped(); }
-    void refuse_memory(const char* why) const;
+    /// Throws BadInput where a use of the solid does not go with what it has (solid::require_together).
+    void require(FeatureSet of_use) const;
     [[nodiscard]] dynamics::IntegratorState take_over(const Solid& before, const dynamics::IntegratorState& motion,
                                                       std::span<const std::int32_t> old_cells);
     void check_old_cells(const Solid& before, std::span<const std::int32_t> old_cells) const;
@@ -270,6 +272,7 @@ private:
 
     const mesh::Mesh<Dim>& mesh_;
     SolidOptions<Dim> options_;
+    FeatureSet features_;  // of all bodies and of the whole
     std::unique_ptr<Bodies<Dim>> bodies_;
     std::unique_ptr<RankPart<Dim>> part_;  // of this rank
     Ccg<Dim> ccg_;                         // of the bodies that deform

@@ -140,8 +140,7 @@ dynamics::IntegratorState Solid<Dim>::take_over(const Solid& before, const dynam
                                                 std::span<const std::int32_t> old_cells) {
     check_bodies(before.mesh_, mesh_);
     check_old_cells(before, old_cells);
-    if (levels_ || before.levels_)
-        refuse_change(mesh_.name, "a change of the mesh is not made with local steps (memm_async). Take another scheme.");
+    if (levels_ || before.levels_) require({Feature::mesh_change, Feature::local_steps});
     const std::vector<std::int32_t> faces = old_faces(before.mesh_, mesh_, old_cells);
     const std::vector<std::int32_t> boundary = old_boundary_faces(before.mesh_, mesh_, std::span<const std::int32_t>(faces));
     if (contact_) check_corners(before.mesh_, mesh_, std::span<const std::int32_t>(boundary));

@@ -18,7 +18,7 @@
 #include "abut/solid/load/outside_loads.hpp"
 #include "abut/solid/load/point_loads.hpp"
 #include "abut/solid/local_levels.hpp"
-#include "abut/solid/local_step_checks.hpp"
+#include "abut/solid/options/made_features.hpp"
 #include "abut/solid/part/rank_part.hpp"
 #include "abut/solid/solid.hpp"
 
@@ -100,11 +100,7 @@ void Solid<Dim>::mean_force(std::span<const double> q_0, std::span<const double>
 template <int Dim>
 void Solid<Dim>::end_force(std::span<const double> q_0, std::span<const double> q_1, double time, double dt,
                            std::span<double> force) {
-    refuse_memory("with a scheme that takes forces at the ends of steps");
-    if (bonds_->any_breaks())
-        throw BadInput(mesh_.name +
-                       ": a bond has a strength, and breaking is not made with a scheme that takes forces at the ends of "
-                       "steps. Take the scheme memm, or leave the strength out.");
+    require({Feature::end_forces});
     require_start(time, dt);
     const auto [u_0, u_1] = ends_here(q_0, q_1);
     const auto gradient = result_here(force);
@@ -268,13 +264,10 @@ void Solid<Dim>::book_losses() {
             book(of);
 }
 
+/// The first look is at all features at once, since it may be made at each step.
 template <int Dim>
-void Solid<Dim>::refuse_memory(const char* why) const {
-    if (any_memory())
-        throw BadInput(mesh_.name +
-                       ": a material remembers what happens to it, as one of the law j2 or a damped one does, which is not "
-                       "made " +
-                       why + ". Take the scheme memm.");
+void Solid<Dim>::require(FeatureSet of_use) const {
+    if (first_conflict(features_ | of_use, of_use)) require_together(mesh_, options_, of_use);
 }
 
 /// Bodies of Kinematics::finite are where they are, and what is linear is asked for in its frame.
@@ -324,20 +317,9 @@ void Solid<Dim>::end_step(double time) {
 
 template <int Dim>
 void Solid<Dim>::set_levels(std::int32_t n_levels, std::span<const std::int32_t> level) {
-    dynamics::refuse_ranks(ranks(), {{"local steps"}});
-    refuse_memory("with local steps");
-    if (!options_.bonds.empty())
-        throw BadInput(mesh_.name + ": local steps are not made with bonds. Take one step for all cells (memm).");
-    require_local_steps(mesh_.name, options_, !contact_ || contact_->makes_parts());
-    if (options_.precision == Precision::single_precision)
-        throw BadInput(mesh_.name +
-                       ": local steps are made in double precision alone. Take Precision::double_precision, or one step for "
-                       "all cells (memm).");
-    if (options_.device != StepDevice::host)
-        throw BadInput(
-            mesh_.name +
-            ": local steps are made on the host alone. Take StepDevice::host (--device host), or one step for all "
-            "cells (memm).");
+    FeatureSet local{Feature::local_steps};
+    local.add(Feature::varying_load, loads_->vary());
+    require(local | features_of(ranks()));
     levels_ = std::make_unique<LocalLevels<Dim>>(mesh_, ccg_, *loads_, n_levels, level);
 }
 
@@ -365,6 +347,7 @@ void Solid<Dim>::add_contact_impulse(const dynamics::FreeFlight& flight, double 
 }
 
 #define ABUT_INSTANTIATE(Dim)                                                                              \
+    template void Solid<Dim>::require(FeatureSet) const;                                                   \
     template void Solid<Dim>::mean_force(std::span<const double>, std::span<const double>, double, double, \
                                          std::span<double>);                                               \
     template void Solid<Dim>::end_force(std::span<const double>, std::span<const double>, double, double,  \

@@ -16,7 +16,7 @@
 #include "abut/dynamics/sparse.hpp"
 #include "abut/solid/boundary/boundary_face.hpp"
 #include "abut/solid/contact_view.hpp"
-#include "abut/solid/kinematics/capabilities.hpp"
+#include "abut/solid/options/made_features.hpp"
 #include "abut/solid/rigid_motions.hpp"
 
 namespace abut::solid {
@@ -303,16 +303,9 @@ std::string words_of_ending(Ending ending, const StaticOptions& options) {
 template <int Dim>
 void check_start(const Solid<Dim>& solid, std::span<const double> q) {
     const SolidOptions<Dim>& options = solid.options();
-    const auto all_have = [&](Capability capability) {
-        return std::ranges::all_of(options.kinematics, [&](Kinematics of_body) { return has(of_body, capability); });
-    };
-    if (!all_have(Capability::rest))
-        throw BadInput(
-            "statics: a body is floating or rigid; bodies at rest are sought for Kinematics::small and ::finite alone.");
-    if (!all_have(Capability::loaded_rest) && (!options.boundary.traction.empty() || !options.moments.empty()))
-        throw BadInput(
-            "statics: tractions and moments on a body of Kinematics::finite have no potential. Load it by "
-            "SolidOptions::body_load, acceleration or springs.");
+    FeatureSet sought{Feature::rest};
+    sought.add(Feature::loaded_rest, !options.boundary.traction.empty() || !options.moments.empty());
+    require_together(solid.mesh(), options, sought);
     if (q.size() != solid.size())
         throw BadInput("statics: q_0 has " + std::to_string(q.size()) + " numbers, the solid has " +
                            std::to_string(solid.size()) + " degrees of freedom. Give one per component of each cell.",

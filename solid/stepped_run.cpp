@@ -6,6 +6,7 @@
 
 #include "abut/base/error.hpp"
 #include "abut/base/throw_again.hpp"
+#include "abut/solid/options/made_features.hpp"
 
 namespace abut::solid {
 
@@ -13,7 +14,7 @@ template <int Dim>
 SteppedRun<Dim>::SteppedRun(std::unique_ptr<Solid<Dim>> solid, std::vector<double> q, std::span<const double> p, double dt,
                             const RunRemedies& remedies)
     : given_(remedies), solid_(std::move(solid)) {
-    dynamics::refuse_ranks(solid_->ranks(), {{"a run that is taken step by step"}});
+    require_together(solid_->mesh(), solid_->options(), features_of(solid_->ranks()) | FeatureSet{Feature::stepped_run});
     memm_.emplace(*solid_, std::move(q), p, dt);
     remedies_.emplace(*solid_, given_.filter, given_.restart);
     remedies_->prepare(*memm_);

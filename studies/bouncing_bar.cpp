@@ -14,10 +14,10 @@
 #include "abut/base/error.hpp"
 #include "abut/dynamics/remedies.hpp"
 #include "abut/run/options.hpp"
-#include "apps/support/comparison.hpp"
 #include "studies/program/entry.hpp"
 #include "studies/scenes/bar_host.hpp"
 #include "studies/scenes/bars.hpp"
+#include "studies/schemes/comparison.hpp"
 
 namespace abut::studies::bouncing_bar_study {
 namespace {
@@ -33,7 +33,7 @@ const apps::Program program{
     .footer = "The bar: L = 10 m, E = 900 Pa, rho = 1 kg/m^3; it hits the wall, 5 m away, at 10 m/s."};
 
 struct BounceOptions {
-    apps::SchemeOptions schemes{.gauge = 2.0 * impact_energy, .fast = 4, .parts = 4};  // V sinks by H0 as the bar falls
+    SchemeOptions schemes{.gauge = 2.0 * impact_energy, .fast = 4, .parts = 4};  // V sinks by H0 as the bar falls
     int cells = 100;
     double gravity = 10.0;  // [m/s^2]
     double cfl = 0.5;       // c dt/h [-]
@@ -54,9 +54,9 @@ void add_options(Flags& flags, BounceOptions& options) {
     flags.number("--cfl", options.cfl, "Courant number c dt/h",
                  {.above = 0.0, .below = 1.0, .closed = true, .remedy = "Above 1 the explicit schemes are unstable."});
     flags.count("--steps", options.steps, "steps of the run; 0: three periods (16 s) with gravity, 2 s without", 0);
-    apps::add_integrator(flags, options.schemes);
-    apps::add_gauge(flags, options.schemes);
-    apps::add_local_steps(flags, options.schemes);
+    add_integrator(flags, options.schemes);
+    add_gauge(flags, options.schemes);
+    add_local_steps(flags, options.schemes);
     flags.group("Schemes");
     const apps::Flag filter = flags.choice(
         "--filter", options.filter, "of memm: energy-neutral filter of the parasitic mode, after each step in contact",
@@ -66,18 +66,17 @@ void add_options(Flags& flags, BounceOptions& options) {
     const apps::Flag restart =
         flags.count("--restart", options.restart,
                     "of memm: steps between neutral restarts, which clear that mode everywhere; 0: none", 0);
-    for (const apps::Flag& option : {filter, patch, restart})
-        apps::restrict_to(option, options.schemes, {apps::Scheme::memm});
+    for (const apps::Flag& option : {filter, patch, restart}) restrict_to(option, options.schemes, {Scheme::memm});
     flags.out(options.out);
-    apps::add_interval_option(flags, options.interval);
+    add_interval_option(flags, options.interval);
 }
 
 /// Watches what happens at the wall.
-class Impacts : public apps::Watcher {
+class Impacts : public Watcher {
 public:
     explicit Impacts(double gravity) : exact_(gravity), weight_(the_bar.mass() * gravity) {}
 
-    void look(const apps::Node& node) override {
+    void look(const Node& node) override {
         double momentum = 0.0;
         for (std::size_t i = 0; i < node.q.size(); ++i) momentum += node.momentum(i);
         const bool pressed = node.q[0] + height < 0.0;  // the lowest mass on the wall
@@ -169,7 +168,7 @@ private:
 };
 
 /// The end of the bar, energies and drifts over time.
-apps::Picture picture(const std::vector<apps::SchemeRun>& runs, double end) {
+Picture picture(const std::vector<SchemeRun>& runs, double end) {
     constexpr std::array colours = {"#2a78d6", "#eb6834", "#1f9e6e", "#8a4fc7", "#c2a100"};
     const auto lines = [&](const std::string& what, const std::string& style) {
         std::string plots;
@@ -202,7 +201,7 @@ apps::Picture picture(const std::vector<apps::SchemeRun>& runs, double end) {
 run::NamedValues named_values(const BounceOptions& options, std::int64_t steps) {
     run::NamedValues values = {
         {"cells", options.cells}, {"gravity", options.gravity}, {"cfl", options.cfl}, {"steps", steps}};
-    apps::append(values, apps::named_values(options.schemes));
+    apps::append(values, named_values(options.schemes));
     values.push_back({"filter", options.filter ? "neutral" : "none"});
     if (options.filter) values.push_back({"patch", options.patch});
     apps::append(values, {{"restart", options.restart}, {"out", options.out.string()}});
@@ -210,18 +209,17 @@ run::NamedValues named_values(const BounceOptions& options, std::int64_t steps) 
 }
 
 void check(const BounceOptions& options) {
-    apps::check(options.schemes);
+    studies::check(options.schemes);
     if (options.patch > options.cells)
         throw BadInput(
             fmt::format("--patch: {} masses, the bar has {}. Give at most that many.", options.patch, options.cells));
 }
 
-apps::SchemeRun run_scheme(apps::Scheme scheme, const BounceOptions& options, const apps::Start& start,
-                           const apps::Schedule& schedule) {
+SchemeRun run_scheme(Scheme scheme, const BounceOptions& options, const Start& start, const Schedule& schedule) {
     BarHost bar({.gap = height, .gravity = options.gravity}, options.cells, options.patch);
     dynamics::Remedies remedies(bar, options.filter, options.restart);
     Impacts impacts(options.gravity);
-    apps::SchemeRun run = apps::follow(scheme, bar, start, options.schemes, schedule, impacts, [&](auto& integrator) {
+    SchemeRun run = studies::follow(scheme, bar, start, options.schemes, schedule, impacts, [&](auto& integrator) {
         using Integrator = std::remove_reference_t<decltype(integrator)>;
         if constexpr (Integrator::takes_node_restart) remedies.prepare(integrator);
     });
@@ -236,25 +234,25 @@ apps::SchemeRun run_scheme(apps::Scheme scheme, const BounceOptions& options, co
 
 void run_study(const BounceOptions& options) {
     check(options);
-    const run::FolderLock lock = apps::prepare_results(program, options.out);
+    const run::FolderLock lock = prepare_results(program, options.out);
     const auto n = static_cast<std::size_t>(options.cells);
     const double h = the_bar.length / options.cells, dt = options.cfl * h / the_bar.wave_speed();
     const double speed = options.gravity > 0.0 ? 0.0 : -impact_speed;
-    const apps::Start start{.q = std::vector<double>(n, 0.0),
-                            .p = std::vector<double>(n, the_bar.density * h * speed),
-                            .dt = dt,
-                            .local_steps = apps::local_steps_of_first(options.schemes, n)};
-    apps::Schedule schedule{.steps = options.steps, .energy_scale = impact_energy};
+    const Start start{.q = std::vector<double>(n, 0.0),
+                      .p = std::vector<double>(n, the_bar.density * h * speed),
+                      .dt = dt,
+                      .local_steps = local_steps_of_first(options.schemes, n)};
+    Schedule schedule{.steps = options.steps, .energy_scale = impact_energy};
     if (options.steps == 0) schedule.steps = run::steps_until(options.gravity > 0.0 ? 3.0 * period : 2.0, dt);
-    schedule.interval = apps::rows_interval(options.interval, schedule.steps);
-    apps::Comparison comparison{
+    schedule.interval = rows_interval(options.interval, schedule.steps);
+    Comparison comparison{
         .title = fmt::format("{} masses, {} steps of {:.6g} s (c dt/h = {:g}), gravity {:g} m/s^2, H0 = {:g} J", n,
                              schedule.steps, dt, options.cfl, options.gravity, impact_energy),
         .options = named_values(options, schedule.steps)};
-    for (const apps::Scheme scheme : options.schemes.schemes)
+    for (const Scheme scheme : options.schemes.schemes)
         comparison.runs.push_back(run_scheme(scheme, options, start, schedule));
     comparison.picture = picture(comparison.runs, static_cast<double>(schedule.steps) * dt);
-    apps::report(program, options.out, comparison);
+    studies::report(program, options.out, comparison);
 }
 
 const bool is_listed = list(entry_of(program, BounceOptions{}, add_options, run_study));

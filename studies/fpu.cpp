@@ -16,8 +16,8 @@
 
 #include "abut/dynamics/particles.hpp"
 #include "abut/run/options.hpp"
-#include "apps/support/comparison.hpp"
 #include "studies/program/entry.hpp"
+#include "studies/schemes/comparison.hpp"
 
 namespace abut::studies::fpu_study {
 namespace {
@@ -29,7 +29,7 @@ const apps::Program program{.name = "fpu",
                             .footer = "Six unit masses between two walls; stiff linear and soft quartic springs in turn."};
 
 struct FpuOptions {
-    apps::SchemeOptions schemes;
+    SchemeOptions schemes;
     double omega = 50.0;  // [1/s]
     double dt = 0.01;     // [s]
     double time = 200.0;  // [s]
@@ -44,13 +44,13 @@ void add_options(Flags& flags, FpuOptions& options) {
     flags.group("Time");
     flags.number("--dt", options.dt, "time step", time);
     flags.number("--time", options.time, "end of the run", time);
-    apps::add_integrator(flags, options.schemes);
-    apps::add_mean(flags, options.schemes);
-    apps::add_gauge(flags, options.schemes);
-    apps::add_local_steps(flags, options.schemes);
-    apps::add_start(flags, options.schemes);
+    add_integrator(flags, options.schemes);
+    add_mean(flags, options.schemes);
+    add_gauge(flags, options.schemes);
+    add_local_steps(flags, options.schemes);
+    add_start(flags, options.schemes);
     flags.out(options.out);
-    apps::add_interval_option(flags, options.interval);
+    add_interval_option(flags, options.interval);
 }
 
 Chain chain(double omega) {
@@ -64,11 +64,11 @@ Chain chain(double omega) {
 }
 
 /// The energies of the three stiff springs.
-class Oscillators : public apps::Watcher {
+class Oscillators : public Watcher {
 public:
     explicit Oscillators(double omega) : omega_(omega) {}
 
-    void look(const apps::Node& node) override {
+    void look(const Node& node) override {
         for (std::size_t i = 0; i < 3; ++i) {
             const double y = (node.q[2 * i + 1] - node.q[2 * i]) / std::sqrt(2.0);
             const double speed = (node.momentum(2 * i + 1) - node.momentum(2 * i)) / std::sqrt(2.0);
@@ -103,7 +103,7 @@ private:
 };
 
 /// One panel an integrator.
-apps::Picture picture(const std::vector<apps::SchemeRun>& runs, double time) {
+Picture picture(const std::vector<SchemeRun>& runs, double time) {
     const int n = static_cast<int>(runs.size());
     const double height = 100.0 + 210.0 * n;  // [pixels]
     std::string script = fmt::format(
@@ -111,7 +111,7 @@ apps::Picture picture(const std::vector<apps::SchemeRun>& runs, double time) {
         "set key top right horizontal samplen 1.5\nset yrange [0:1.4]\nset ytics 0.5\n"
         "set ylabel \"energy [J]\"\nset xrange [0:{}]\nset format x \"\"\n",
         n, 65.0 / height, 1.0 - 35.0 / height, 30.0 / height, time);
-    for (const apps::SchemeRun& run : runs) {
+    for (const SchemeRun& run : runs) {
         const char* title = &run == &runs.front() ? "title" : "notitle";
         if (&run == &runs.back()) script += "set xlabel \"time [s]\"\nset format x \"%g\"\n";
         script += fmt::format("set title \"{}{}\" noenhanced offset 0,-0.7\n", run.name,
@@ -131,32 +131,32 @@ apps::Picture picture(const std::vector<apps::SchemeRun>& runs, double time) {
 
 run::NamedValues named_values(const FpuOptions& options) {
     run::NamedValues values = {{"omega", options.omega}, {"dt", options.dt}, {"time", options.time}};
-    apps::append(values, apps::named_values(options.schemes));
+    apps::append(values, named_values(options.schemes));
     values.push_back({"out", options.out.string()});
     return values;
 }
 
 void run_study(const FpuOptions& options) {
-    apps::check(options.schemes);
-    const run::FolderLock lock = apps::prepare_results(program, options.out);
+    studies::check(options.schemes);
+    const run::FolderLock lock = prepare_results(program, options.out);
     const double omega = options.omega, root = std::sqrt(2.0);
-    const apps::Start start{.q = {(1.0 - 1.0 / omega) / root, (1.0 + 1.0 / omega) / root, 0.0, 0.0, 0.0, 0.0},
-                            .p = {0.0, root, 0.0, 0.0, 0.0, 0.0},
-                            .dt = options.dt,
-                            .local_steps = apps::local_steps_of_first(options.schemes, 6)};
-    apps::Schedule schedule{.steps = run::steps_until(options.time, options.dt),
-                            .energy_scale = chain(omega).potential(start.q) + 1.0};
-    schedule.interval = apps::rows_interval(options.interval, schedule.steps);
-    apps::Comparison comparison{.title = fmt::format("{} steps of {:g} s, omega dt = {:g}, H0 = {:.9g} J", schedule.steps,
-                                                     options.dt, omega * options.dt, schedule.energy_scale),
-                                .options = named_values(options)};
-    for (const apps::Scheme scheme : options.schemes.schemes) {
+    const Start start{.q = {(1.0 - 1.0 / omega) / root, (1.0 + 1.0 / omega) / root, 0.0, 0.0, 0.0, 0.0},
+                      .p = {0.0, root, 0.0, 0.0, 0.0, 0.0},
+                      .dt = options.dt,
+                      .local_steps = local_steps_of_first(options.schemes, 6)};
+    Schedule schedule{.steps = run::steps_until(options.time, options.dt),
+                      .energy_scale = chain(omega).potential(start.q) + 1.0};
+    schedule.interval = rows_interval(options.interval, schedule.steps);
+    Comparison comparison{.title = fmt::format("{} steps of {:g} s, omega dt = {:g}, H0 = {:.9g} J", schedule.steps,
+                                               options.dt, omega * options.dt, schedule.energy_scale),
+                          .options = named_values(options)};
+    for (const Scheme scheme : options.schemes.schemes) {
         Chain system = chain(omega);
         Oscillators oscillators(omega);
-        comparison.runs.push_back(apps::follow(scheme, system, start, options.schemes, schedule, oscillators));
+        comparison.runs.push_back(studies::follow(scheme, system, start, options.schemes, schedule, oscillators));
     }
     comparison.picture = picture(comparison.runs, options.time);
-    apps::report(program, options.out, comparison);
+    studies::report(program, options.out, comparison);
 }
 
 const bool is_listed = list(entry_of(program, FpuOptions{}, add_options, run_study));

@@ -13,8 +13,8 @@
 #include "abut/base/error.hpp"
 #include "abut/dynamics/particles.hpp"
 #include "abut/run/options.hpp"
-#include "apps/support/comparison.hpp"
 #include "studies/program/entry.hpp"
+#include "studies/schemes/comparison.hpp"
 
 namespace abut::studies::slow_fast_wave_study {
 namespace {
@@ -31,7 +31,7 @@ const apps::Program program{.name = "slow_fast_wave",
                             .footer = "The interval [0, 1] m, wave speeds of 10 m/s left of 1/2 and 1 m/s right of it."};
 
 struct WaveOptions {
-    apps::SchemeOptions schemes{.schemes = {apps::Scheme::memm, apps::Scheme::memm_async, apps::Scheme::leapfrog}};
+    SchemeOptions schemes{.schemes = {Scheme::memm, Scheme::memm_async, Scheme::leapfrog}};
     int cells = 4000;
     double cfl = 0.5;       // of the fast half [-]
     int ratio = 10;         // steps of the fast half in one of the slow half
@@ -48,11 +48,11 @@ void add_options(Flags& flags, WaveOptions& options) {
     flags.group("Time");
     flags.number("--cfl", options.cfl, "Courant number c dt/h of the fast half",
                  {.above = 0.0, .below = 1.0, .closed = true, .remedy = "Above 1 every scheme here is unstable."});
-    apps::add_integrator(flags, options.schemes);
+    add_integrator(flags, options.schemes);
     flags.group("Schemes");
     const apps::Flag ratio =
         flags.count("--ratio", options.ratio, "of memm_async: steps of the fast half in one of the slow half", 1);
-    apps::restrict_to(ratio, options.schemes, {apps::Scheme::memm_async});
+    restrict_to(ratio, options.schemes, {Scheme::memm_async});
     flags.group("Wave");
     flags.count("--refinements", options.refinements,
                 "how many coarser meshes, each of half the cells, the order is fitted over; 0: none", 0);
@@ -135,21 +135,20 @@ Errors errors(const Mesh& mesh, std::span<const double> q, double time) {
 }
 
 /// One scheme on one mesh, to the very end of the time.
-apps::SchemeRun run_on(const Mesh& mesh, apps::Scheme scheme, const WaveOptions& options) {
+SchemeRun run_on(const Mesh& mesh, Scheme scheme, const WaveOptions& options) {
     const auto long_steps = static_cast<double>(
         run::steps_until(options.time, options.ratio * options.cfl * mesh.h / fast_speed));  // as many for all schemes
-    const int parts = scheme == apps::Scheme::memm_async ? 1 : options.ratio;
-    apps::Start start{.dt = options.time / (long_steps * parts), .local_steps = mesh.local_steps(options.ratio)};
+    const int parts = scheme == Scheme::memm_async ? 1 : options.ratio;
+    Start start{.dt = options.time / (long_steps * parts), .local_steps = mesh.local_steps(options.ratio)};
     for (std::size_t i = 0; i < mesh.size(); ++i) {
         start.q.push_back(Exact().displacement(mesh.position(i), 0.0));
         start.p.push_back(mesh.h * Exact().velocity(mesh.position(i), 0.0));
     }
     Chain chain = mesh.chain();
     const double energy = chain.potential(start.q) + 0.5 * dynamics::mass_product(start.p, chain.inverse_mass(), start.p);
-    const apps::Schedule schedule{
-        .steps = static_cast<std::int64_t>(long_steps) * parts, .look = parts, .energy_scale = energy};
-    apps::Watcher watcher;
-    return apps::follow(scheme, chain, start, options.schemes, schedule, watcher);
+    const Schedule schedule{.steps = static_cast<std::int64_t>(long_steps) * parts, .look = parts, .energy_scale = energy};
+    Watcher watcher;
+    return studies::follow(scheme, chain, start, options.schemes, schedule, watcher);
 }
 
 /// Minus the slope of a straight line through (log cells, log error).
@@ -164,9 +163,9 @@ double fitted_order(const std::vector<std::pair<int, double>>& errors) {
 }
 
 /// On all meshes; the run on the finest one, or the first that breaks off.
-apps::SchemeRun run_refined(apps::Scheme scheme, const WaveOptions& options) {
+SchemeRun run_refined(Scheme scheme, const WaveOptions& options) {
     std::vector<std::pair<int, double>> refined;
-    apps::SchemeRun run;
+    SchemeRun run;
     Errors last;
     for (int k = options.refinements; k >= 0 && !run.broken_off; --k) {
         const Mesh mesh(options.cells >> k);
@@ -183,11 +182,11 @@ apps::SchemeRun run_refined(apps::Scheme scheme, const WaveOptions& options) {
 }
 
 /// The local steps against the fine ones.
-std::vector<run::Finding> ratios(const std::vector<apps::SchemeRun>& runs) {
-    const auto find = [&](apps::Scheme scheme) {
-        return std::ranges::find_if(runs, [&](const apps::SchemeRun& run) { return run.name == name_of(scheme); });
+std::vector<run::Finding> ratios(const std::vector<SchemeRun>& runs) {
+    const auto find = [&](Scheme scheme) {
+        return std::ranges::find_if(runs, [&](const SchemeRun& run) { return run.name == name_of(scheme); });
     };
-    const auto fine = find(apps::Scheme::memm), local = find(apps::Scheme::memm_async);
+    const auto fine = find(Scheme::memm), local = find(Scheme::memm_async);
     if (fine == runs.end() || local == runs.end() || fine->broken_off || local->broken_off) return {};
     const double error = std::get<double>(local->findings[0].value) / std::get<double>(fine->findings[0].value);
     const double work = static_cast<double>(local->evaluations) / static_cast<double>(fine->evaluations);
@@ -196,23 +195,23 @@ std::vector<run::Finding> ratios(const std::vector<apps::SchemeRun>& runs) {
             {"seconds_ratio", "memm_async / memm: time of the steps", local->seconds / fine->seconds}};
 }
 
-std::vector<apps::SchemeRun> complete(std::vector<apps::SchemeRun> runs) {
-    std::erase_if(runs, [](const apps::SchemeRun& run) { return run.broken_off.has_value(); });
+std::vector<SchemeRun> complete(std::vector<SchemeRun> runs) {
+    std::erase_if(runs, [](const SchemeRun& run) { return run.broken_off.has_value(); });
     return runs;
 }
 
-apps::Table profile(const Mesh& mesh, const std::vector<apps::SchemeRun>& runs, double time) {
+apps::Table profile(const Mesh& mesh, const std::vector<SchemeRun>& runs, double time) {
     apps::Table table{.columns = {"x", "exact"}};
-    for (const apps::SchemeRun& run : runs) table.columns.push_back(run.name);
+    for (const SchemeRun& run : runs) table.columns.push_back(run.name);
     for (std::size_t i = 0; i < mesh.size(); ++i) {
         table.rows.push_back({mesh.position(i), Exact().displacement(mesh.position(i), time)});
-        for (const apps::SchemeRun& run : runs) table.rows.back().push_back(run.q[i]);
+        for (const SchemeRun& run : runs) table.rows.back().push_back(run.q[i]);
     }
     return table;
 }
 
 /// The profiles, and what is wrong with them.
-apps::Picture picture(const std::vector<apps::SchemeRun>& runs, double time) {
+Picture picture(const std::vector<SchemeRun>& runs, double time) {
     constexpr std::array styles = {"lw 3 lc rgb \"#2a78d6\"", "lw 1.8 lc rgb \"#eb6834\"", "lw 1.8 dt 3 lc rgb \"#1b1b1a\""};
     std::string above = "\"profile.csv\" using \"x\":\"exact\" with lines lw 5 lc rgb \"#b9b8b4\" title \"exact\"",
                 below = "0 with lines lc rgb \"#b9b8b4\" notitle";
@@ -234,7 +233,7 @@ apps::Picture picture(const std::vector<apps::SchemeRun>& runs, double time) {
 }
 
 void check(const WaveOptions& options) {
-    apps::check(options.schemes);
+    studies::check(options.schemes);
     if (options.refinements > most_refinements)
         throw BadInput(
             fmt::format("--refinements: {}, at most {} are allowed. Take fewer.", options.refinements, most_refinements));
@@ -258,25 +257,25 @@ run::NamedValues named_values(const WaveOptions& options) {
                                {"cfl", options.cfl},
                                {"ratio", options.ratio},
                                {"refinements", options.refinements}};
-    apps::append(values, apps::named_values(options.schemes));
+    apps::append(values, named_values(options.schemes));
     values.push_back({"out", options.out.string()});
     return values;
 }
 
 void run_study(const WaveOptions& options) {
     check(options);
-    const run::FolderLock lock = apps::prepare_results(program, options.out, {"profile.csv"});
-    apps::Comparison comparison{.options = named_values(options)};
-    for (const apps::Scheme scheme : options.schemes.schemes) comparison.runs.push_back(run_refined(scheme, options));
+    const run::FolderLock lock = prepare_results(program, options.out, {"profile.csv"});
+    Comparison comparison{.options = named_values(options)};
+    for (const Scheme scheme : options.schemes.schemes) comparison.runs.push_back(run_refined(scheme, options));
     const double fine =
-        comparison.runs.front().dt / (options.schemes.schemes.front() == apps::Scheme::memm_async ? options.ratio : 1);
+        comparison.runs.front().dt / (options.schemes.schemes.front() == Scheme::memm_async ? options.ratio : 1);
     comparison.title = fmt::format("{} cells, fine steps of {:.4g} s (c dt/h = {:.4g} and {:.4g})", options.cells, fine,
                                    fine * fast_speed * options.cells, fine * slow_speed * options.cells);
     comparison.findings = ratios(comparison.runs);
     const auto shown = complete(comparison.runs);
     apps::write_csv(options.out / "profile.csv", profile(Mesh(options.cells), shown, options.time));
     comparison.picture = picture(shown, options.time);
-    apps::report(program, options.out, comparison);
+    studies::report(program, options.out, comparison);
 }
 
 const bool is_listed = list(entry_of(program, WaveOptions{}, add_options, run_study));

@@ -12,7 +12,6 @@
 
 #include "abut/base/error.hpp"
 #include "abut/mesh/extract.hpp"
-#include "abut/solid/kinematics/capabilities.hpp"
 #include "abut/solid/material/law_check.hpp"
 #include "abut/solid/material/orthotropic.hpp"
 #include "abut/solid/material/warm_laws.hpp"
@@ -235,15 +234,6 @@ void Bodies<Dim>::set_laws() {
         if (!stored[i] && !inelastic[i]) continue;
         const std::int32_t body = deformable_bodies_[i];
         const std::string who = mesh_.name + ": body '" + mesh_.body_names[static_cast<std::size_t>(body)] + "' ";
-        if (!has(kinematics(body), Capability::large_strains))
-            throw BadInput(
-                who +
-                "has a law of large strains, which bodies of Kinematics::finite alone know. Take that (--kinematics "
-                "finite), or MaterialLaw::st_venant_kirchhoff.");
-        if (options_.finite.mean_force == MeanForce::discrete_gradient)
-            throw BadInput(who +
-                           "has a law of large strains, for which there is no MeanForce::discrete_gradient. Take "
-                           "MeanForce::closed_trapezoid.");
         if (stored[i] && inelastic[i]) throw BadInput(who + "is given an elastic law and an inelastic one. Leave one out.");
         const LawCheck<Dim> check(material, who);
         if (stored[i])

@@ -130,15 +130,12 @@ public:
 
 private:
     void check() const;
-    void check_material(std::int32_t body) const;
-    void check_temperature(std::int32_t body) const;
-    void check_directions(const Material& material, std::int32_t body, const std::string& who) const;
+    void check_temperature(std::size_t body) const;
+    void check_directions(std::size_t body) const;
     void check_pairs() const;
     void keep_groups();
     void join_pulled_faces();
     void set_laws();
-    void refuse_on_turning_bodies(const DirichletCondition<Dim>& condition) const;
-    void refuse_following(const TractionCondition<Dim>& condition) const;
     void check_outside(const TractionCondition<Dim>& condition) const;
     [[nodiscard]] double cell_mass(std::int32_t cell) const;
     [[nodiscard]] std::vector<Vector<Dim>> of_deformable_cells(std::span<const Vector<Dim>> of_points) const;

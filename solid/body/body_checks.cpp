@@ -5,7 +5,7 @@
 #include "abut/base/error.hpp"
 #include "abut/contact/interference.hpp"
 #include "abut/solid/body/bodies.hpp"
-#include "abut/solid/kinematics/capabilities.hpp"
+#include "abut/solid/options/made_features.hpp"
 
 namespace abut::solid {
 
@@ -21,12 +21,12 @@ void Bodies<Dim>::check() const {
     };
     require_one_each(options_.materials.size(), "materials");
     for (std::size_t body = 0; body < n_bodies; ++body) solid::check(options_.materials[body], static_cast<int>(body));
-    for (std::size_t body = 0; body < n_bodies; ++body) check_material(static_cast<std::int32_t>(body));
+    for (std::size_t body = 0; body < n_bodies; ++body) check_directions(body);
     if (!options_.acceleration.empty()) require_one_each(options_.acceleration.size(), "accelerations");
     if (!options_.kinematics.empty()) require_one_each(options_.kinematics.size(), "kinematics");
     if (!options_.temperature_rise.empty()) {
         require_one_each(options_.temperature_rise.size(), "temperatures");
-        for (std::size_t body = 0; body < n_bodies; ++body) check_temperature(static_cast<std::int32_t>(body));
+        for (std::size_t body = 0; body < n_bodies; ++body) check_temperature(body);
     }
     for (std::size_t body = 0; body < options_.acceleration.size(); ++body)
         if (!options_.acceleration[body].allFinite())
@@ -41,61 +41,26 @@ void Bodies<Dim>::check() const {
                        ": contact is to be ignored by bodies of its surface, which a solid numbers as it likes. Give "
                        "SolidOptions::ignored_pairs instead.");
     check_pairs();
-    for (const auto& condition : options_.boundary.dirichlet) refuse_on_turning_bodies(condition);
-    for (const auto& condition : options_.boundary.traction) {
-        refuse_following(condition);
+    require_together(mesh_, options_);
+    for (const auto& condition : options_.boundary.traction)
         if (condition.from_outside) check_outside(condition);
-    }
 }
 
+/// A body that is warm must expand.
 template <int Dim>
-void Bodies<Dim>::check_material(std::int32_t body) const {
-    const Material& material = options_.materials[static_cast<std::size_t>(body)];
-    const std::string who = mesh_.name + ": body '" + mesh_.body_names[static_cast<std::size_t>(body)] + "' ";
-    if (material.law == MaterialLaw::j2 && !has(kinematics(body), Capability::flow))
-        throw BadInput(who + "is rigid, and has a material that yields. Take other kinematics, or another law.");
-    if (!material.is_isotropic()) check_directions(material, body, who);
-    if (!material.is_damped()) return;
-    if (!has(kinematics(body), Capability::damping))
-        throw BadInput(who +
-                       "is rigid, and has a damped or viscous material. Leave damping out, and give it a brake "
-                       "(SolidOptions::moments) or dashpots.");
-    if (is_finite(body) && options_.finite.mean_force == MeanForce::discrete_gradient)
-        throw BadInput(who +
-                       "has a damped or viscous material, for which there is no MeanForce::discrete_gradient. Take "
-                       "MeanForce::closed_trapezoid.");
+void Bodies<Dim>::check_temperature(std::size_t body) const {
+    if (!options_.temperature_rise[body].value || options_.materials[body].expands()) return;
+    throw BadInput(mesh_.name + ": body '" + mesh_.body_names[body] +
+                   "' is given a temperature, and its material has a thermal_expansion of 0. Give one, or leave "
+                   "SolidOptions::temperature_rise out.");
 }
 
+/// Axes of a material are given by an angle in the plane, and by two vectors in space.
 template <int Dim>
-void Bodies<Dim>::check_temperature(std::int32_t body) const {
-    if (!options_.temperature_rise[static_cast<std::size_t>(body)].value) return;
-    const std::string who = mesh_.name + ": body '" + mesh_.body_names[static_cast<std::size_t>(body)] + "' ";
-    if (!has(kinematics(body), Capability::temperature))
-        throw BadInput(
-            who +
-            "is given a temperature, and is rigid. Take other kinematics, or leave SolidOptions::temperature_rise "
-            "out.");
-    if (!options_.materials[static_cast<std::size_t>(body)].expands())
-        throw BadInput(who +
-                       "is given a temperature, and its material has a thermal_expansion of 0. Give one, or leave "
-                       "SolidOptions::temperature_rise out.");
-    if (!is_finite(body)) return;
-    if (options_.finite.mean_force == MeanForce::discrete_gradient)
-        throw BadInput(
-            who +
-            "is of Kinematics::finite and given a temperature, for which there is no MeanForce::discrete_gradient. "
-            "Take MeanForce::closed_trapezoid.");
-    const auto is_given = [&](const auto& laws) { return !laws.empty() && laws[static_cast<std::size_t>(body)]; };
-    if (Dim == 2 && (is_given(options_.finite.stored_energy) || is_given(options_.finite.inelastic)))
-        throw BadInput(
-            who +
-            "is in the plane, given a temperature, and of a law of its own (FiniteOptions). Heat stretches it out of "
-            "the plane, too, which such a law does not know. Take a law of MaterialLaw, or a body in space.");
-}
-
-template <int Dim>
-void Bodies<Dim>::check_directions(const Material& material, std::int32_t body, const std::string& who) const {
-    const Material plain;
+void Bodies<Dim>::check_directions(std::size_t body) const {
+    const Material &material = options_.materials[body], plain;
+    if (material.is_isotropic()) return;
+    const std::string who = mesh_.name + ": body '" + mesh_.body_names[body] + "' ";
     if (Dim == 2 && (material.axis_1 != plain.axis_1 || material.axis_2 != plain.axis_2))
         throw BadInput(
             who + "is in the plane, where axis_angle says how the axes of its material lie. Leave axis_1 and axis_2 out.");
@@ -103,13 +68,6 @@ void Bodies<Dim>::check_directions(const Material& material, std::int32_t body, 
         throw BadInput(
             who + "is in space, where axis_1 and axis_2 say how the axes of its material lie. Leave axis_angle out.",
             {.value = material.axis_angle});
-    const bool has_stress_of_rate =
-        material.stiffness_damping > 0.0 || material.linear_viscosity > 0.0 || material.quadratic_viscosity > 0.0;
-    if (has_stress_of_rate && is_finite(body))
-        throw BadInput(
-            who +
-            "is of Kinematics::finite and of an orthotropic material, of which stiffness_damping and viscosity are "
-            "not made. Take mass_damping, or kinematics \"floating\".");
 }
 
 /// Friction and contact of pairs that are named by number.
@@ -152,36 +110,6 @@ void Bodies<Dim>::check_pairs() const {
                                    "; bodies and obstacles are counted from 0 to " + std::to_string(n_all - 1) +
                                    ". Correct SolidOptions::ignored_pairs.",
                                {.value = static_cast<double>(body), .allowed = static_cast<double>(n_all - 1)});
-}
-
-/// A frame that turns has no place for a displacement that is given in space; a body of Kinematics::finite has no frame.
-template <int Dim>
-void Bodies<Dim>::refuse_on_turning_bodies(const DirichletCondition<Dim>& condition) const {
-    for (const std::int32_t face : mesh_.group(condition.group).faces) {
-        const std::int32_t body = mesh_.cell_body[mesh_.face_cells[face][0]];
-        const auto who = [&] { return mesh_.name + ": body '" + mesh_.body_names[body] + "'"; };
-        if (!has(kinematics(body), Capability::clamp))
-            throw BadInput(who() + " may turn, and has a prescribed displacement ('" + condition.group +
-                           "'), which only bodies of Kinematics::small and ::finite can have. Hold it by "
-                           "SolidOptions::springs.");
-        if ((condition.constraint != Constraint::full || condition.history) && !has(kinematics(body), Capability::guide))
-            throw BadInput(who() + " is of Kinematics::finite, and the displacement prescribed on '" + condition.group +
-                           (condition.history ? "' varies." : "' leaves directions free.") +
-                           " Such a body can be clamped (Constraint::full without a history), or held by "
-                           "SolidOptions::springs.");
-    }
-}
-
-/// What turns with a face of a body of Kinematics::finite is what acts along its normal; a program outside knows normals.
-template <int Dim>
-void Bodies<Dim>::refuse_following(const TractionCondition<Dim>& condition) const {
-    if (!condition.follows || !condition.from_outside) return;
-    for (const std::int32_t face : mesh_.group(condition.group).faces)
-        if (const std::int32_t body = mesh_.cell_body[mesh_.face_cells[face][0]];
-            !has(kinematics(body), Capability::following_from_outside))
-            throw BadInput(mesh_.name + ": body '" + mesh_.body_names[body] +
-                           "' is of Kinematics::finite, and the traction from outside on '" + condition.group +
-                           "' follows. Give one that keeps its direction in space.");
 }
 
 template <int Dim>

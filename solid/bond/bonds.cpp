@@ -10,8 +10,8 @@
 #include "abut/base/decompositions.hpp"
 #include "abut/base/error.hpp"
 #include "abut/base/sort_unique.hpp"
-#include "abut/solid/kinematics/capabilities.hpp"
 #include "abut/solid/material/orthotropic.hpp"
+#include "abut/solid/options/made_features.hpp"
 
 namespace abut::solid {
 namespace {
@@ -30,6 +30,14 @@ std::size_t position_of(const FaceCorrections<Dim>& corrections, BoundaryFace fa
     const auto at = std::ranges::lower_bound(corrections.faces, face);
     return at != corrections.faces.end() && *at == face ? static_cast<std::size_t>(at - corrections.faces.begin())
                                                         : corrections.faces.size();
+}
+
+/// Throws BadInput where a body does not go with the bond that it has.
+template <int Dim>
+void require_bondable(const Bodies<Dim>& bodies, std::int32_t body, Feature bond) {
+    const auto b = static_cast<std::size_t>(body);
+    require_together(bodies.mesh().name, "body '" + bodies.mesh().body_names[b] + "'",
+                     features_of(bodies.options(), b) | FeatureSet{bond});
 }
 
 }  // namespace
@@ -66,30 +74,16 @@ Bonds<Dim>::Bonds(const Bodies<Dim>& bodies, Ccg<Dim>& ccg, const BodyFrames<Dim
 
 template <int Dim>
 void Bonds<Dim>::check_bodies() const {
-    const mesh::Mesh<Dim>& mesh = bodies_.mesh();
     for (const BondPlace<Dim>& place : places_)
-        for (const std::int32_t body : place.bodies) {
-            const std::string who = mesh.name + ": body '" + mesh.body_names[static_cast<std::size_t>(body)] + "' ";
-            if (!has(bodies_.kinematics(body), Capability::bond))
-                throw BadInput(who +
-                               "is rigid and cannot be bonded. Let it deform (Kinematics::small, ::floating or ::finite), "
-                               "or join it by SolidOptions::springs.");
-        }
+        for (const std::int32_t body : place.bodies) require_bondable(bodies_, body, Feature::bond);
 }
 
 /// The return of a cell takes the change of its gradient in a step from its displacements, without delta, and its
 /// bonded face as a free one: no balance of energy would show it.
 template <int Dim>
 void Bonds<Dim>::check_metal(std::span<const std::size_t> of_joints) const {
-    const mesh::Mesh<Dim>& mesh = bodies_.mesh();
     for (const std::size_t p : of_joints)
-        for (const std::int32_t body : places_[p].bodies)
-            if (bodies_.options().materials[static_cast<std::size_t>(body)].law == MaterialLaw::j2)
-                throw BadInput(
-                    mesh.name + ": body '" + mesh.body_names[static_cast<std::size_t>(body)] +
-                    "' yields (law = \"j2\") and is bonded to another small one: its cells behind the bond would yield "
-                    "as if nothing pulled there. Let one of both be floating or finite (kinematics), or take another "
-                    "material.");
+        for (const std::int32_t body : places_[p].bodies) require_bondable(bodies_, body, Feature::small_joint);
 }
 
 template <int Dim>

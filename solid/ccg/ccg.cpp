@@ -10,6 +10,7 @@
 #include "abut/solid/ccg/device_sweeps.hpp"
 #include "abut/solid/ccg/region.hpp"
 #include "abut/solid/ccg/single_sweeps.hpp"
+#include "abut/solid/combinations/combinations.hpp"
 #include "abut/solid/kinematics/properties.hpp"
 
 namespace abut::solid {
@@ -26,25 +27,13 @@ std::span<const Material> checked(const mesh::Mesh<Dim>& mesh, std::span<const M
     return materials;
 }
 
+/// Bodies of which the chosen way of making steps does not know something are named.
 template <int Dim>
-void refuse_finite(const mesh::Mesh<Dim>& mesh, std::span<const Kinematics> kinematics, const std::string& steps,
-                   const std::string& remedy) {
-    for (std::size_t body = 0; body < kinematics.size(); ++body)
-        if (properties_of(kinematics[body]).finite_strains)
-            throw BadInput(mesh.name + ": body '" + mesh.body_names[body] +
-                           "' is of Kinematics::finite, whose steps are not made " + steps + ". Take " + remedy +
-                           ", or other kinematics.");
-}
-
-template <int Dim>
-void refuse_materials(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials) {
+void check_steps(const mesh::Mesh<Dim>& mesh, std::span<const Kinematics> kinematics, std::span<const Material> materials,
+                 FeatureSet steps) {
     for (std::size_t body = 0; body < materials.size(); ++body)
-        if (materials[body].remembers() || !materials[body].is_isotropic())
-            throw BadInput(mesh.name + ": body '" + mesh.body_names[body] +
-                           "' is of a material that flows, is damped or orthotropic, whose steps are made in double "
-                           "precision on the host "
-                           "alone. Take Precision::double_precision and StepDevice::host (--device "
-                           "host), or another material.");
+        require_together(mesh.name, "body '" + mesh.body_names[body] + "'",
+                         features_of(kinematics_of(kinematics, body), materials[body]) | steps);
 }
 
 /// Null where steps are made in double precision on the host.
@@ -54,14 +43,11 @@ std::unique_ptr<StepSweeps<Dim>> step_sweeps(const mesh::Mesh<Dim>& mesh, std::s
                                              const FiniteCells<Dim>& finite, const CcgSweeps<Dim>& sweeps,
                                              Precision precision, StepDevice device) {
     const bool is_single = precision == Precision::single_precision;
-    if (is_single || device != StepDevice::host) refuse_materials(mesh, materials);
-    if (is_single) refuse_finite(mesh, kinematics, "in single precision", "Precision::double_precision");
+    FeatureSet steps;
+    steps.add(Feature::single_precision, is_single);
+    steps.add(Feature::device, device != StepDevice::host);
+    if (!steps.is_empty()) check_steps(mesh, kinematics, materials, steps);
     if (device == StepDevice::host) return is_single ? std::make_unique<SingleSweeps<Dim>>(arrays, finite) : nullptr;
-    refuse_finite(mesh, kinematics, "on a device", "StepDevice::host (--device host)");
-    if (is_single)
-        throw BadInput(mesh.name +
-                       ": steps on a device are made in double precision alone. Take Precision::double_precision, or "
-                       "StepDevice::host (--device host).");
     return std::make_unique<DeviceSweeps<Dim>>(arrays, finite, sweeps);
 }
 

@@ -25,5 +25,9 @@ enum class ContactLaw {
     reconstruction,  ///< faces that are moved as a whole, normals at rest. docs/method.md, Contact
     pair_potential,  ///< the potential of pairs of faces that tilt and turn. docs/method.md, The potential of a pair
 };
+/// The one that acts where this one is chosen.
+[[nodiscard]] constexpr ContactLaw acting_law(ContactLaw chosen) {
+    return chosen == ContactLaw::automatic ? ContactLaw::pair_potential : chosen;
+}
 
 }  // namespace abut::solid

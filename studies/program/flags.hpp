@@ -11,7 +11,7 @@
 namespace abut::studies {
 
 /// The options of a study's command line. A call adds one option, whose default is the present value; the value is set when
-/// the command line is read. What a call returns is for apps::restrict_to, and says then whether the option was given.
+/// the command line is read. What a call returns is for restrict_to, and says then whether the option was given.
 class Flags {
 public:
     explicit Flags(apps::CommandParser& parser) : parser_(parser) {}

@@ -12,10 +12,10 @@
 #include "abut/run/option_table.hpp"
 #include "abut/run/simulation.hpp"
 #include "abut/solid/contact_view.hpp"
-#include "apps/support/comparison.hpp"
 #include "apps/support/log.hpp"
 #include "apps/support/run_options.hpp"
 #include "studies/program/flags.hpp"
+#include "studies/schemes/comparison.hpp"
 
 namespace abut::studies {
 namespace {
@@ -40,12 +40,12 @@ std::vector<std::int64_t> nodes_at(const std::vector<double>& times, double dt) 
 }
 
 /// Keeps what a run of the chain shows.
-class ChainKeeper : public apps::Watcher {
+class ChainKeeper : public Watcher {
 public:
     ChainKeeper(const BarOnWall& scene, int cells, std::vector<std::int64_t> nodes, BarRun& run)
         : scene_(scene), cells_(cells), nodes_(std::move(nodes)), run_(run) {}
 
-    void look(const apps::Node& node) override {
+    void look(const Node& node) override {
         double momentum = 0.0;
         for (std::size_t i = 0; i < node.q.size(); ++i) momentum += node.momentum(i);
         ContactHistory& history = run_.history;
@@ -62,7 +62,7 @@ private:
     [[nodiscard]] dynamics::LineSpring foot() const {
         return {.stiffness = 2.0 * scene_.bar.young * cells_ / scene_.bar.length, .one_sided = true};
     }
-    void keep_profile(const apps::Node& node) {
+    void keep_profile(const Node& node) {
         const double h = scene_.bar.length / cells_, share = 1.0 / cells_;
         run_.profiles.push_back({node.time, {}});
         for (int i = 0; i < cells_; ++i)
@@ -132,15 +132,15 @@ std::int64_t count_roots(const ContactHistory& history) {
 BarRun run_chain(const BarOnWall& scene, int cells, double dt, int steps, const std::vector<double>& profile_times) {
     const auto n = static_cast<std::size_t>(cells);
     const double h = scene.bar.length / cells;
-    apps::Start start{
+    Start start{
         .q = std::vector<double>(n, 0.0), .p = std::vector<double>(n, -scene.bar.density * h * scene.speed), .dt = dt};
     if (scene.displacement)
         for (int i = 0; i < cells; ++i) start.q[static_cast<std::size_t>(i)] = scene.displacement(scene.gap + (i + 0.5) * h);
     BarRun run;
     ChainKeeper keeper(scene, cells, nodes_at(profile_times, dt), run);
     BarChain chain = bar_chain(scene, cells);
-    const apps::Schedule schedule{.steps = steps, .interval = 1, .energy_scale = scene.energy};
-    const apps::SchemeRun result = apps::follow(apps::Scheme::memm, chain, start, apps::SchemeOptions{}, schedule, keeper);
+    const Schedule schedule{.steps = steps, .interval = 1, .energy_scale = scene.energy};
+    const SchemeRun result = studies::follow(Scheme::memm, chain, start, SchemeOptions{}, schedule, keeper);
     if (result.broken_off)
         throw std::runtime_error(fmt::format("chain of {} masses, step {}, t = {:.4g} s: {}", cells, result.broken_off->step,
                                              result.broken_off->time, result.broken_off->why));

@@ -199,7 +199,7 @@ struct BarStudy {
     std::function<BarRun(std::size_t level)> run;
     std::function<Level(const BarRun& run, std::size_t level)> level;
     apps::Table exact;                       ///< left as exact.csv
-    apps::Picture picture;                   ///< of history.csv and exact.csv
+    Picture picture;                         ///< of history.csv and exact.csv
     std::vector<std::string> more_curves{};  ///< names of those that `complete` adds
     std::function<void(Study&)> complete{};  ///< adds what else there is, after the last run; may be empty
 };

@@ -162,7 +162,7 @@ run::FolderLock prepare_study(const apps::Program& program, const std::filesyste
 void report(const apps::Program& program, const std::filesystem::path& out, const Study& study) {
     for (const auto& [name, table] : study.curves) apps::write_csv(out / (name + ".csv"), table);
     std::vector<std::string> without_picture;
-    for (const apps::Picture& picture : study.pictures)
+    for (const Picture& picture : study.pictures)
         if (std::string why = draw(out, picture); !why.empty()) without_picture.push_back(std::move(why));
     std::vector<ValueLine> lines;
     for (const Level& level : study.levels)

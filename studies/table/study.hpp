@@ -11,9 +11,9 @@
 #include "abut/run/folder_lock.hpp"
 #include "abut/run/scene.hpp"
 #include "apps/support/csv.hpp"
-#include "apps/support/gnuplot.hpp"
 #include "apps/support/program.hpp"
 #include "apps/support/run_options.hpp"
+#include "studies/schemes/gnuplot.hpp"
 #include "studies/table/figures.hpp"
 
 namespace abut::studies {
@@ -81,7 +81,7 @@ struct Study {
     std::string reference;  ///< where the known answers come from, a sentence
     std::vector<Level> levels;
     std::vector<std::pair<std::string, apps::Table>> curves;  ///< "pressure" is left as pressure.csv
-    std::vector<apps::Picture> pictures;
+    std::vector<Picture> pictures;
     run::NamedValues options;  ///< as they were used
     std::vector<OrderTarget> orders{};
 };

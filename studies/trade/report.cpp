@@ -11,8 +11,8 @@
 
 #include "abut/run/files.hpp"
 #include "apps/support/csv.hpp"
-#include "apps/support/gnuplot.hpp"
 #include "apps/support/preset.hpp"
+#include "studies/schemes/gnuplot.hpp"
 #include "studies/table/columns.hpp"
 
 namespace abut::studies::trade {
@@ -205,7 +205,7 @@ std::string panel(std::size_t i, const std::vector<Row>& rows) {
                        fmt::join(lines, ", \\\n     "));
 }
 
-apps::Picture picture(const std::vector<Row>& rows) {
+Picture picture(const std::vector<Row>& rows) {
     std::string script =
         "set multiplot\nset logscale xy\nset format x \"10^{%T}\"\nset format y \"10^{%T}\"\nset xlabel \"seconds\"\n"
         "set key at screen 0.97,0.44 right top\n";

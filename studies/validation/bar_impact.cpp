@@ -70,7 +70,7 @@ apps::Table exact_table() {
             {0.0, 0.0, -v}, {hit, 0.0, -v}, {hit, pressure, -v}, {release, pressure, v}, {release, 0.0, v}, {end, 0.0, v}}};
 }
 
-apps::Picture picture(const BarOptions& options) {
+Picture picture(const BarOptions& options) {
     const std::string script = fmt::format(
         "set multiplot\nset xrange [0.4:1.3]\nset key bottom center\n"
         "set origin 0,0.45\nset size 1,0.55\nset ylabel \"contact pressure [Pa]\"\nset yrange [-20:480]\n"

@@ -8,10 +8,10 @@
 #include <fmt/format.h>
 
 #include "abut/base/stopwatch.hpp"
-#include "apps/support/comparison.hpp"
 #include "studies/program/entry.hpp"
 #include "studies/scenes/boxes.hpp"
 #include "studies/scenes/patch_test.hpp"
+#include "studies/schemes/comparison.hpp"
 #include "studies/table/study.hpp"
 
 namespace abut::studies::bulk_patch_study {
@@ -107,7 +107,7 @@ apps::Table curve(const Study& study) {
 }
 
 /// Errors of the stress on each mesh, on a logarithmic axis with the limit.
-apps::Picture picture(const Study& study) {
+Picture picture(const Study& study) {
     std::string tics;
     for (std::size_t i = 0; i < study.levels.size(); ++i) {
         const std::string& name = study.levels[i].name;

@@ -7,9 +7,9 @@
 #include <algorithm>
 #include <array>
 
-#include "apps/support/comparison.hpp"
 #include "studies/program/entry.hpp"
 #include "studies/scenes/contact_patch.hpp"
+#include "studies/schemes/comparison.hpp"
 #include "studies/table/study.hpp"
 
 namespace abut::studies::contact_patch_study {
@@ -105,7 +105,7 @@ std::string axis(const std::vector<std::string>& mesh_names) {
     return script + fmt::format("set xtics ({}) rotate by -40 noenhanced\nset xrange [-0.5:{}]\n", tics, place - 0.5);
 }
 
-apps::Picture picture(const std::string& title, const std::vector<std::string>& mesh_names) {
+Picture picture(const std::string& title, const std::vector<std::string>& mesh_names) {
     static constexpr std::array<const char*, 6> points{"pt 7 ps 1.5 lc rgb \"#2a78d6\"",  "pt 5 ps 1.4 lc rgb \"#2f9e57\"",
                                                        "pt 9 ps 1.7 lc rgb \"#eb6834\"",  "pt 8 ps 1.7 lc rgb \"#eb6834\"",
                                                        "pt 13 ps 1.7 lc rgb \"#7a4fbf\"", "pt 12 ps 1.7 lc rgb \"#7a4fbf\""};

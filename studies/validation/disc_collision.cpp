@@ -8,10 +8,10 @@
 #include <array>
 
 #include "abut/run/option_table.hpp"
-#include "apps/support/comparison.hpp"
 #include "apps/support/preset.hpp"
 #include "studies/program/entry.hpp"
 #include "studies/scenes/impacts.hpp"
+#include "studies/schemes/comparison.hpp"
 #include "studies/table/study.hpp"
 
 namespace abut::studies::disc_collision_study {
@@ -91,7 +91,7 @@ std::string panel(const std::vector<double>& sizes, double offset, int axis) {
 }
 
 /// Head-on on the left, off-centre on the right; x above, y below. One legend is enough.
-apps::Picture picture(const std::vector<double>& sizes) {
+Picture picture(const std::vector<double>& sizes) {
     std::string script =
         "set multiplot\nset size 0.5,0.5\nset xlabel \"time [s]\"\nset autoscale xfix\nset yrange [-0.06:0.06]\n"
         "set key center right samplen 2 opaque\n";

@@ -9,10 +9,10 @@
 #include <cmath>
 
 #include "abut/run/option_table.hpp"
-#include "apps/support/comparison.hpp"
 #include "apps/support/preset.hpp"
 #include "studies/program/entry.hpp"
 #include "studies/scenes/impacts.hpp"
+#include "studies/schemes/comparison.hpp"
 #include "studies/table/study.hpp"
 
 namespace abut::studies::disc_on_plane_study {
@@ -69,7 +69,7 @@ std::string lines(const std::vector<double>& cells, const std::string& value, co
 }
 
 /// The whole motion above; below it, from just before the contact, what the velocity has gained over free fall.
-apps::Picture picture(const std::vector<double>& cells) {
+Picture picture(const std::vector<double>& cells) {
     const std::string velocity = "column(\"velocity\")";
     const std::string script = fmt::format(
         "set multiplot\nset samples 1000\nset size 1,0.55\nset origin 0,0.45\n"

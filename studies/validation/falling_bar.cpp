@@ -84,7 +84,7 @@ apps::Table exact_table() {
     return table;
 }
 
-apps::Picture picture(const BarOptions& options) {
+Picture picture(const BarOptions& options) {
     const std::string script = fmt::format(
         "set multiplot\nset key top right\n"
         "set origin 0,0.68\nset size 1,0.32\nset ylabel \"contact pressure [Pa]\"\nset xrange [0:{0}]\nset yrange "

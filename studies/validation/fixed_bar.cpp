@@ -128,7 +128,7 @@ std::string profile_lines(int cells) {
     return lines;
 }
 
-apps::Picture picture(const BarOptions& options) {
+Picture picture(const BarOptions& options) {
     const int finest = std::ranges::max(options.cells);
     const std::string script = fmt::format(
         "set multiplot\nset key top right horizontal\n"

@@ -12,8 +12,8 @@
 #include <string>
 
 #include "abut/run/option_table.hpp"
-#include "apps/support/comparison.hpp"
 #include "studies/program/entry.hpp"
+#include "studies/schemes/comparison.hpp"
 #include "studies/table/study.hpp"
 
 namespace abut::studies::hertz_study {
@@ -97,7 +97,7 @@ apps::Table curve(const HertzResult<Dim>& result) {
 
 std::string curve_name(double faces) { return fmt::format("pressure_{:g}", faces); }
 
-apps::Picture picture(const Options& options, const std::string& title) {
+Picture picture(const Options& options, const std::string& title) {
     std::string script = fmt::format(R"gp(set title "{}" font ",15" noenhanced
 set xlabel "{}"
 set ylabel "pressure / p_0"

@@ -8,10 +8,10 @@
 #include <algorithm>
 
 #include "abut/base/stopwatch.hpp"
-#include "apps/support/comparison.hpp"
 #include "studies/program/entry.hpp"
 #include "studies/scenes/boxes.hpp"
 #include "studies/scenes/manufactured.hpp"
+#include "studies/schemes/comparison.hpp"
 #include "studies/table/study.hpp"
 
 namespace abut::studies::manufactured_study {
@@ -75,7 +75,7 @@ apps::Table curve(std::span<const Level> levels) {
 }
 
 /// Errors over the size of the cells, with the slopes 2 and 1 through the last points of the first mesh.
-apps::Picture picture(const Study& study, const std::string& title) {
+Picture picture(const Study& study, const std::string& title) {
     static constexpr std::array<const char*, 5> colours{"#2a78d6", "#eb6834", "#2f9e57", "#8a4fd3", "#b58900"};
     const auto& last = study.curves.front().second.rows.back();
     double smallest = last[0], largest = last[0];

@@ -15,10 +15,10 @@
 
 #include "abut/base/stopwatch.hpp"
 #include "abut/dynamics/stable_step.hpp"
-#include "apps/support/comparison.hpp"
 #include "studies/program/entry.hpp"
 #include "studies/scenes/dense_stiffness.hpp"
 #include "studies/scenes/plane_wave.hpp"
+#include "studies/schemes/comparison.hpp"
 #include "studies/table/study.hpp"
 
 namespace abut::studies::spectrum_study {
@@ -171,7 +171,7 @@ void add_level(Study& study, const SpectrumOptions& options) {
     study.levels.push_back(level);
 }
 
-const apps::Picture picture{
+const Picture picture{
     .name = "spectrum",
     .purpose = "Frequencies of the discrete operator and their closed form",
     .width = 1100,

@@ -13,10 +13,10 @@
 #include <cmath>
 
 #include "abut/run/option_table.hpp"
-#include "apps/support/comparison.hpp"
 #include "apps/support/preset.hpp"
 #include "studies/program/entry.hpp"
 #include "studies/scenes/impacts.hpp"
+#include "studies/schemes/comparison.hpp"
 #include "studies/table/study.hpp"
 
 namespace abut::studies::sphere_collision_study {
@@ -106,7 +106,7 @@ std::string lines(const std::vector<double>& faces, const std::string& of_hertz,
     return script + "\n";
 }
 
-apps::Picture picture(const std::vector<double>& faces) {
+Picture picture(const std::vector<double>& faces) {
     const std::string approach = "1e6*column(\"approach\")";
     const std::string script =
         "set multiplot\nset size 1,0.5\nset key top right samplen 2\nset xrange [0:*]\nset autoscale xfixmax\n"

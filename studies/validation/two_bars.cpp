@@ -105,7 +105,7 @@ apps::Table exact_table(const Options& options) {
                      {bars.time, 0.0, v_2, v_1}}};
 }
 
-apps::Picture picture(const Options& options) {
+Picture picture(const Options& options) {
     const auto& cells = options.bars.cells;
     const double pressure = 0.5 * Bar{}.impedance() * options.closing_speed(), margin = 0.05 * options.closing_speed();
     const std::string script = fmt::format(

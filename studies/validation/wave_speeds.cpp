@@ -17,10 +17,10 @@
 #include <numbers>
 
 #include "abut/base/stopwatch.hpp"
-#include "apps/support/comparison.hpp"
 #include "studies/program/entry.hpp"
 #include "studies/scenes/half_plane.hpp"
 #include "studies/scenes/plane_wave.hpp"
+#include "studies/schemes/comparison.hpp"
 #include "studies/table/study.hpp"
 
 namespace abut::studies::wave_speeds_study {
@@ -224,7 +224,7 @@ void add_half_plane(Study& study, const run::RunOptions& run, const HalfPlaneOpt
 
 /// Traces of the receivers on the surface at their distances, with the times at which the waves of the middle of the source
 /// arrive.
-apps::Picture seismogram_picture() {
+Picture seismogram_picture() {
     std::string traces;
     const auto n = receivers_on_surface().size();
     for (std::size_t i = 1; i <= n; ++i)
@@ -249,7 +249,7 @@ apps::Picture seismogram_picture() {
                 (static_cast<double>(n) + 2.2) * rayleigh_wavelength(), traces, lines)};
 }
 
-const apps::Picture dispersion_picture{
+const Picture dispersion_picture{
     .name = "dispersion",
     .purpose = "Phase speeds of plane waves on squares, and the scheme's closed form",
     .width = 1100,

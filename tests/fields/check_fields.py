@@ -12,14 +12,10 @@ import tempfile
 
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent / "support"))
-from abut_runs import Run, main, near, require  # noqa: E402
+from abut_meshes import ring  # noqa: E402
+from abut_runs import Claims, Run, main, near, require  # noqa: E402
 
-CLAIMS = {}
-
-
-def claim(function):
-    CLAIMS[function.__name__] = function
-    return function
+claim = Claims()
 
 
 # A block between two planes ----------------------------------------------------------------------------------------------
@@ -39,20 +35,24 @@ def table_of_pressed_blocks():
     return {(shape, int(across)): dict(zip(KINEMATICS, map(float, ratios))) for shape, across, *ratios in rows}
 
 
-def pressed_block(programs, shape, across, kinematics, layer=0, heated=0.0):
-    """The last force on the press, and stresses along it of a layer of cells; 0: that which it touches. `heated`: the block is, by
-    this strain, and the press stands still."""
+def pressed_block(programs, shape, across, kinematics, layer=None, heated=0.0):
+    """The last force on the press. With `layer` the stresses along it of a layer of cells in the plane, too; 0: that which it touches.
+    `heated`: the block is, by this strain, and the press stands still."""
+    dim = 3 if shape in ("hexahedron", "tetrahedron") else 2
+    vector = lambda first, rest: "[" + ", ".join([first] + [rest] * (dim - 1)) + "]"
+    shortened = 0 if heated else 1 - STRETCH
+    cells = [] if layer is None else range(across)
     probes = "".join(f'[output.probes.cell_{i}]\nbody = "block"\npoint = [{1 - (layer + 0.5) / across}, {(i + 0.5) / across}]\n'
-                     for i in range(across))
+                     for i in cells)
     with tempfile.TemporaryDirectory() as folder:
         scene = pathlib.Path(folder) / "block.toml"
-        scene.write_text(f"""dim = 2
+        scene.write_text(f"""dim = {dim}
 energy_scale = 1e-5
 [bodies.block]
 shape = "structured_box"
-lower = [0, 0]
-upper = [1, 1]
-counts = [{across}, {across}]
+lower = {vector("0", "0")}
+upper = {vector("1", "1")}
+counts = {vector(str(across), str(across))}
 cells = "{shape}"
 young = 1.0
 poisson = 0.0
@@ -63,13 +63,13 @@ thermal_expansion = 1.0
 temperature_rise = "{heated}*min(t/20, 1)"
 [obstacles.wall]
 shape = "plane"
-point = [0, 0]
-normal = [1, 0]
+point = {vector("0", "0")}
+normal = {vector("1", "0")}
 [obstacles.press]
 shape = "plane"
-point = [1, 0]
-normal = [-1, 0]
-path = ["-{0 if heated else 1 - STRETCH:g}*min(t/20, 1)", 0]
+point = {vector("1", "0")}
+normal = {vector("-1", "0")}
+path = {vector(f'"-{shortened:g}*min(t/20, 1)"', "0")}
 [run]
 time = 45.0
 [output]
@@ -77,10 +77,12 @@ frames = 0
 forces = true
 interval = 49
 {probes}""")
-        done = Run(programs, scene).require_end()
+        done = Run(programs, scene, seconds=None if dim == 3 else 240).require_end()
         force = [row["normal_force"] for row in done.rows("forces.csv") if "press" in (row["body_1"], row["body_2"])][-1]
+        if layer is None:
+            return force
         last = done.rows("probes.csv")[-1]
-        return force, [-last[f"cell_{i}.stress_xx"] for i in range(across)]
+        return force, [-last[f"cell_{i}.stress_xx"] for i in cells]
 
 
 @claim
@@ -89,7 +91,7 @@ def finite_blocks_that_planes_press_bear_what_the_table_says(programs):
     table = table_of_pressed_blocks()
     for shape, across in (("quadrangle", 4), ("quadrangle", 8), ("triangle", 8)):
         off = abs(table[shape, across]["finite"] - 1) + 5e-4  # as the table is rounded
-        force, _ = pressed_block(programs, shape, across, "finite")
+        force = pressed_block(programs, shape, across, "finite")
         near(force / EXACT["finite"], 1.0, off, f"the force on {across} {shape}s across over the exact one")
 
 
@@ -104,7 +106,7 @@ def a_section_of_a_finite_block_carries_the_force_that_presses_it(programs):
 def blocks_that_planes_press_show_the_stress_in_each_cell_that_touches(programs):
     """Within 1 % where eight cells are across, corners included; finite ones show what they bear."""
     for kinematics in KINEMATICS:
-        force, stresses = pressed_block(programs, "quadrangle", 8, kinematics)
+        force, stresses = pressed_block(programs, "quadrangle", 8, kinematics, layer=0)
         near(force / EXACT[kinematics], 1.0, 0.005 if kinematics == "finite" else 1e-3, f"{kinematics}: the force over the exact one")
         for stress in stresses:
             near(stress / EXACT[kinematics], 1.0, 0.01, f"{kinematics}: a stress over the exact one")
@@ -114,7 +116,7 @@ def blocks_that_planes_press_show_the_stress_in_each_cell_that_touches(programs)
 def heated_blocks_between_planes_press_with_the_force_of_the_heat_that_they_cannot_follow(programs):
     """A stretch l by heat that is taken back: E (l^-2 - 1)/2 over a side that has grown by l, in finite blocks of eight cells."""
     stretch = 2 - STRETCH
-    force, stresses = pressed_block(programs, "quadrangle", 8, "finite", heated=stretch - 1)
+    force, stresses = pressed_block(programs, "quadrangle", 8, "finite", layer=0, heated=stretch - 1)
     stress = (1 - stretch**-2) / 2
     near(force / (stress * stretch), 1.0, 0.005, "the force over the exact one")
     for of_cell in stresses:
@@ -124,28 +126,6 @@ def heated_blocks_between_planes_press_with_the_force_of_the_heat_that_they_cann
 # A ring with a hole ------------------------------------------------------------------------------------------------------
 
 BORE, RIM, PRESSURE = 0.5, 1.0, 0.01
-
-
-def ring_mesh(angle, across, around):
-    """MSH 2.2 of a part of a ring, quadrangles, with the groups hole, rim, foot and side; of 2 pi the whole ring."""
-    is_whole = angle > 6.0
-    columns = around if is_whole else around + 1
-    radius = [BORE + (RIM - BORE) * i / across for i in range(across + 1)]
-    nodes = [(r * math.cos(angle * k / around), r * math.sin(angle * k / around)) for k in range(columns) for r in radius]
-
-    def node(i, k):
-        return (k % columns) * (across + 1) + i + 1
-
-    elements = [(3, 1, (node(i, k), node(i + 1, k), node(i + 1, k + 1), node(i, k + 1))) for k in range(around) for i in range(across)]
-    elements += [(1, group, (node(i, k), node(i, k + 1))) for k in range(around) for group, i in ((2, 0), (3, across))]
-    if not is_whole:
-        elements += [(1, group, (node(i, k), node(i + 1, k))) for i in range(across) for group, k in ((4, 0), (5, around))]
-    names = [(2, 1, "ring"), (1, 2, "hole"), (1, 3, "rim")] + ([] if is_whole else [(1, 4, "foot"), (1, 5, "side")])
-    lines = ["$MeshFormat", "2.2 0 8", "$EndMeshFormat", "$PhysicalNames", len(names), *(f'{d} {n} "{name}"' for d, n, name in names),
-             "$EndPhysicalNames", "$Nodes", len(nodes), *(f"{n} {x!r} {y!r} 0" for n, (x, y) in enumerate(nodes, 1)), "$EndNodes", "$Elements",
-             len(elements), *(f"{n} {kind} 2 {group} {group} {' '.join(map(str, corners))}" for n, (kind, group, corners) in enumerate(elements, 1)),
-             "$EndElements", ""]
-    return "\n".join(map(str, lines))
 
 
 def frames_of(done):
@@ -160,7 +140,8 @@ def fields_of_a_ring_with_a_hole_are_bitwise_identical_on_ranks(programs):
                                             ("finite", 2 * math.pi, 24, "")):
         with tempfile.TemporaryDirectory() as folder:
             scene = pathlib.Path(folder) / "ring.toml"
-            (pathlib.Path(folder) / "ring.msh").write_text(ring_mesh(angle, 4, around))
+            ring(pathlib.Path(folder) / "ring.msh", "ring", ("hole", "rim", *(("foot", "side") if more else ())), BORE, RIM, 4, around,
+                 angle=angle)
             scene.write_text(f"""dim = 2
 energy_scale = 1e-4
 [bodies.ring]
@@ -191,4 +172,4 @@ frames = 4
 
 
 if __name__ == "__main__":
-    sys.exit(main(CLAIMS))
+    sys.exit(main(claim))

@@ -15,29 +15,19 @@ import tempfile
 sys.path.insert(0, str(pathlib.Path(__file__).parent.parent / "support"))
 import abut_meshes  # noqa: E402
 import abut_runs  # noqa: E402
-from abut_runs import main, near, require  # noqa: E402
+from abut_runs import Claims, balance_of_moved, excess, keys, main, near, open_by, require, slope  # noqa: E402
 
 INPUTS = pathlib.Path(__file__).parent / "inputs"
 SCENES = pathlib.Path(__file__).parent.parent.parent / "scenes"
-CLAIMS = {}
+claim = Claims()
 G, MU = 10.0, 0.3
 # Laws of contact and kinematics of the body: all under which a body may rub.
 LAWS_AND_KINEMATICS = [("reconstruction", "small"), ("pair_potential", "small"), ("pair_potential", "floating"), ("pair_potential", "finite"),
         ("pair_potential", "rigid")]
 
 
-def claim(function):
-    CLAIMS[function.__name__] = function
-    return function
-
-
 def run(programs, scene, *options, **more):
     return abut_runs.Run(programs, INPUTS / scene, "--frames", "0", *options, **more)
-
-
-def keys(**values):
-    """keys(bodies__block__velocity="[1, 0]") sets bodies.block.velocity."""
-    return [word for key, value in values.items() for word in ("--set", f"{key.replace('__', '.')}={value}")]
 
 
 def with_law(law, kinematics):
@@ -46,24 +36,12 @@ def with_law(law, kinematics):
 
 def balance(rows, scale=None):
     """Largest |H~ + D - W| from its start, over the energies that moved, or over `scale` [J]."""
-    kept = [row["pseudo_energy"] + row["dissipated"] - row["work"] for row in rows]
-    scale = scale or sum(max(abs(row[name] - rows[0][name]) for row in rows) for name in ("kinetic", "potential", "work", "dissipated"))
-    return max(abs(value - kept[0]) for value in kept) / scale
-
-
-def excess(rows):
-    return max(row["energy"] - row["pseudo_energy"] for row in rows)
-
-
-def slope(times, values):
-    mean_t, mean_v = sum(times) / len(times), sum(values) / len(values)
-    return (sum((t - mean_t) * (v - mean_v) for t, v in zip(times, values)) /
-            sum((t - mean_t) ** 2 for t in times))
+    return open_by(rows) / scale if scale else balance_of_moved(rows)
 
 
 def acceleration(rows, mass, begin=0.3):
     part = rows[int(begin * len(rows)):]
-    return slope([row["time"] for row in part], [row["linear_momentum_x"] / mass for row in part])
+    return slope([(row["time"], row["linear_momentum_x"] / mass) for row in part])
 
 
 def on_incline(degrees):
@@ -544,4 +522,4 @@ def what_cannot_be_is_refused(programs):
 
 
 if __name__ == "__main__":
-    sys.exit(main(CLAIMS))
+    sys.exit(main(claim))

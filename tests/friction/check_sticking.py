@@ -12,38 +12,16 @@ import tempfile
 sys.path.insert(0, str(pathlib.Path(__file__).parent.parent / "support"))
 import abut_meshes  # noqa: E402
 import abut_runs  # noqa: E402
-from abut_runs import main, near, require  # noqa: E402
+from abut_runs import Claims, balance_of_moved, keys, main, mean, near, require  # noqa: E402
 
 SCENES = pathlib.Path(__file__).parent.parent.parent / "scenes"
-CLAIMS = {}
+claim = Claims()
 G, MU = 10.0, 0.3
 SMALL_BLOCKS = ["--law", "reconstruction", "--kinematics", "small"]
 
 
-def claim(function):
-    CLAIMS[function.__name__] = function
-    return function
-
-
 def run(programs, scene, *options, **more):
     return abut_runs.Run(programs, scene, "--frames", "0", *options, **more)
-
-
-def keys(**values):
-    """keys(bodies__block__velocity="[1, 0]") sets bodies.block.velocity."""
-    return [word for key, value in values.items() for word in ("--set", f"{key.replace('__', '.')}={value}")]
-
-
-def mean(values):
-    values = list(values)
-    return sum(values) / len(values)
-
-
-def balance(rows):
-    """Largest |H~ + D - W| from its start, over the energies that moved."""
-    kept = [row["pseudo_energy"] + row["dissipated"] - row["work"] for row in rows]
-    scale = sum(max(abs(row[name] - rows[0][name]) for row in rows) for name in ("kinetic", "potential", "work", "dissipated"))
-    return max(abs(value - kept[0]) for value in kept) / scale
 
 
 def sheared(folder, law, rows, columns, uneven):
@@ -102,7 +80,7 @@ def shaken(programs, *options, load=0.3, time=4.6):
     rows, probes = done.rows(), done.rows("probes.csv")
     forces = [row["block.contact_normal_y"] for row in probes[len(probes) // 2:]]
     require(min(forces) < 0.83 * mean(forces) and max(forces) > 1.17 * mean(forces), "the normal force does not vibrate")
-    require(balance(rows) < 1e-9, f"the balance is open by {balance(rows):.2g}")
+    require(balance_of_moved(rows) < 1e-9, f"the balance is open by {balance_of_moved(rows):.2g}")
     quarter = len(probes) // 4
     creep = max(abs(mean(row[f"{name}.displacement_x"] for row in probes[-quarter:]) -
                     mean(row[f"{name}.displacement_x"] for row in probes[-2 * quarter:-quarter])) for name in ("block", "slab"))
@@ -135,7 +113,7 @@ def spin_moment(programs, rings, sectors, layers=1, time=0.08, options=()):
     points = [(row["time"], row["angular_momentum_z"]) for row in done.rows() if row["time"] > 0.02]
     middle = mean(t for t, _ in points)
     moment = sum((t - middle) * value for t, value in points) / sum((t - middle)**2 for t, _ in points)
-    return moment / (2 / 3 * MU * mass * G * disc), balance(done.rows())
+    return moment / (2 / 3 * MU * mass * G * disc), balance_of_moved(done.rows())
 
 
 @claim
@@ -174,4 +152,4 @@ time = 0.08
 
 
 if __name__ == "__main__":
-    sys.exit(main(CLAIMS))
+    sys.exit(main(claim))

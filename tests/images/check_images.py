@@ -17,15 +17,10 @@ import tempfile
 sys.path.insert(0, str(pathlib.Path(__file__).parent.parent / "support"))
 import abut_meshes  # noqa: E402
 import abut_runs  # noqa: E402
-from abut_runs import main, require  # noqa: E402
+from abut_runs import Claims, main, require  # noqa: E402
 
-CLAIMS = {}
+claim = Claims()
 ALLOWED = 1e-9  # of the largest value in the run; rounding makes 1e-16 of it, and bounces let that grow
-
-
-def claim(function):
-    CLAIMS[function.__name__] = function
-    return function
 
 
 class Image:
@@ -307,4 +302,4 @@ frames = 0
 
 
 if __name__ == "__main__":
-    sys.exit(main(CLAIMS))
+    sys.exit(main(claim))

@@ -12,7 +12,7 @@
 #include "abut/input/materials.hpp"
 #include "abut/run/option_table.hpp"
 #include "abut/run/user_words.hpp"
-#include "abut/solid/kinematics/capabilities.hpp"
+#include "abut/solid/combinations/combinations.hpp"
 #include "abut/solid/kinematics/properties.hpp"
 
 TEST_CASE("the document shows the grammar that scenes are read by", "[input][grammar]") {
@@ -52,15 +52,10 @@ TEST_CASE("the document shows what each kinematics is", "[input][grammar][kinema
     CHECK(text.find(table) != std::string::npos);
 }
 
-TEST_CASE("the document shows what bodies of each kinematics have", "[input][grammar][kinematics]") {
-    std::string table = "| | `small` | `floating` | `finite` | `rigid` | since |\n|---|---|---|---|---|---|\n";
-    for (const abut::solid::CapabilityRow& row : abut::solid::capabilities) {
-        table += "| " + std::string(row.name) + " |";
-        for (const bool has : row.of) table += has ? " yes |" : " |";
-        table += " " + std::string(row.reason) + " |\n";
-    }
-    std::ifstream file(ABUT_SOURCE "/docs/kinematics.md");
+TEST_CASE("docs/limits.md has the table of features that do not go together", "[input][grammar]") {
+    std::ifstream file(ABUT_SOURCE "/docs/limits.md");
     const std::string text{std::istreambuf_iterator<char>(file), {}};
+    const std::string table = abut::run::with_keys(abut::run::in_user_words(abut::solid::combinations_table()));
     CAPTURE(table);
     CHECK(text.find(table) != std::string::npos);
 }

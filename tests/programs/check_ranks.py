@@ -132,8 +132,8 @@ def check_refused(program, studies, scene, folder):
     """Each by its name, on all ranks, with one message."""
     not_made = "not made for a run on several ranks"
     for name, *options in (("pilot run", "--kinematics", "automatic"),
-                           ("memm_async", "--integrator", "memm_async"), ("a bulk in single precision", "--lab", "precision=single"),
-                           ("a bulk on a device", "--device", "kokkos")):
+                           ("memm_async", "--integrator", "memm_async"), ("single precision", "--lab", "precision=single"),
+                           ("on a device", "--device", "kokkos")):
         run = subprocess.run(command(program, scene, folder / "wrong", "--ranks", "2", *options), capture_output=True, text=True)
         check_one_message(run, (name, not_made), options)
     many = subprocess.run(command(program, scene, folder / "wrong", "--ranks", "1000000"), capture_output=True, text=True)

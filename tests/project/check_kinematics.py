@@ -1,5 +1,5 @@
 """check_kinematics.py SOURCE: no line outside of solid/kinematics asks which kinematics a body has. Code asks for a property
-(kinematics/properties.hpp) or a capability (kinematics/capabilities.hpp). Studies and tests, which choose kinematics, may."""
+(kinematics/properties.hpp), or whether features go together (combinations/combinations.hpp). Studies and tests, which choose kinematics, may."""
 import pathlib
 import re
 import sys
@@ -27,7 +27,7 @@ def main():
     wrong = [f"{path.relative_to(root).as_posix()}:{number} asks for a kinematics by name: {line}"
              for path in paths for number, line in asks_in(path)]
     if wrong:
-        sys.exit("\n".join(wrong) + f"\nAsk for what it is ({ROOM}/properties.hpp), or may have ({ROOM}/capabilities.hpp).")
+        sys.exit("\n".join(wrong) + f"\nAsk for what it is ({ROOM}/properties.hpp), or whether features go together (solid/combinations).")
     print(f"{len(paths)} sources ask for no kinematics by name")
 
 

@@ -159,5 +159,5 @@ TEST_CASE("bonded metal that yields has the bits of one rank, and bonds of the m
     options.law = solid::ContactLaw::reconstruction;
     if (all.size() > 1)
         CHECK_THROWS_WITH(SharedSolid<2>(all, mesh, options, parts(all, mesh)),
-                          Catch::Contains("bonds under the modified reconstruction"));
+                          Catch::Contains("bonded under the modified reconstruction"));
 }

@@ -320,7 +320,7 @@ TEST_CASE("what is not made for ranks yet is refused by name", "[ranks][solid]")
     solid::SolidOptions<2> options;
     options.materials = {steel};
     options.boundary.traction = {{.group = "xmax", .from_outside = true}};
-    CHECK_THROWS_WITH(test::SharedSolid<2>(all, mesh, options, owner), Catch::Contains("a load from outside"));
+    CHECK_THROWS_WITH(test::SharedSolid<2>(all, mesh, options, owner), Catch::Contains("a load is set from outside"));
     options.boundary.traction.clear();
     options.precision = solid::Precision::single_precision;
     CHECK_THROWS_WITH(test::SharedSolid<2>(all, mesh, options, owner), Catch::Contains("single precision"));

@@ -14,8 +14,8 @@ TEST_CASE("names of C++ and numbers of bodies become words of the scene", "[run]
     CHECK(in_user_words("body 7 and rigid body 0 of 2 bodies, somebody 1", names) ==
           "body 7 and rigid body 'left' of 2 bodies, somebody 1");
     CHECK(in_user_words("nodal contact: node 3 of body 1", names) == "nodal contact: node 3 of body 1");
-    CHECK(in_user_words("only bodies of Kinematics::small and ::finite can") ==
-          "only bodies of kinematics \"small\" and \"finite\" can");
+    CHECK(in_user_words("only bodies of Kinematics::small and Kinematics::floating can") ==
+          "only bodies of kinematics \"small\" and kinematics \"floating\" can");
 }
 
 TEST_CASE("options of a command line become keys, once", "[run][words]") {

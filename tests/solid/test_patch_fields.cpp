@@ -1,5 +1,5 @@
 // Patch tests: where a body is deformed affinely and its faces bear what a uniform stress asks of them, no cell has a force on it, and
-// each has this stress. All kinds of faces x kinematics x shapes of cells x laws, as far as the table of capabilities has them.
+// each has this stress. All kinds of faces x kinematics x shapes of cells x laws, as far as the table of combinations has them.
 //
 // Not here: faces that contact or bonds act on, and temperatures (test_contact_field.cpp, test_bonds.cpp, test_thermal.cpp). Of what is
 // here `why_not` leaves out what no affine motion fills, or a kinematics does not have, and says why.
@@ -7,13 +7,13 @@
 #include <map>
 
 #include "abut/solid/cell_view.hpp"
-#include "abut/solid/kinematics/capabilities.hpp"
+#include "abut/solid/combinations/combinations.hpp"
 #include "abut/solid/kinematics/properties.hpp"
 #include "solid/finite_scenes.hpp"
 
 using namespace abut;
 using namespace abut::test;
-using solid::Capability;
+using solid::Feature;
 using solid::Kinematics;
 
 namespace {
@@ -67,10 +67,12 @@ std::string why_not(const Patch<Dim>& patch) {
     const auto asks = [&](Side side) { return patch.ends == side || patch.sides == side; };
     const bool finite = !is_linear(patch.kinematics);
     if (patch.ends == Side::free) return "nothing pulls";
-    if (asks(Side::held) && !has(patch.kinematics, Capability::clamp)) return "not held";
-    if (asks(Side::roller) && !has(patch.kinematics, Capability::guide)) return "no rollers";
-    if (asks(Side::following) && !has(patch.kinematics, Capability::following_traction)) return "follows as a pressure only";
-    if (patch.sides == Side::held && !has(patch.kinematics, Capability::guide)) return "sides that are held cannot stretch";
+    if (asks(Side::held) && !go_together(feature_of(patch.kinematics), Feature::clamp)) return "not held";
+    if (asks(Side::roller) && !go_together(feature_of(patch.kinematics), Feature::guide)) return "no rollers";
+    if (asks(Side::following) && !go_together(feature_of(patch.kinematics), Feature::following_traction))
+        return "follows as a pressure only";
+    if (patch.sides == Side::held && !go_together(feature_of(patch.kinematics), Feature::guide))
+        return "sides that are held cannot stretch";
     if (finite && patch.ends == Side::held && patch.sides == Side::free) return "a held end does not contract";
     if (patch.turn != 0.0 && (!solid::properties_of(patch.kinematics).turns || asks(Side::held))) return "does not turn";
     return "";

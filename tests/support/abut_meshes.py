@@ -73,6 +73,30 @@ def block_of_rows(path, name, lower, upper, counts, uneven=0.0, held=()):
     return write_msh(path, nodes, [(1, "held", edge) for side in held for edge in sides[side]] + [(2, name, cell) for cell in cells])
 
 
+def append_ring(nodes, elements, name, inner, outer, layers, sectors, angle=2 * math.pi, cut=False):
+    """Appends a ring about the origin, or a sector of it from the x axis on: quadrangles, or triangles if `cut`. Returns the edges of
+    the inner and of the outer circle, and of a sector those of its first and last ray."""
+    first, columns = len(nodes), sectors + (angle < 2 * math.pi)
+    at = lambda layer, i: first + layer * columns + i % columns
+    for layer in range(layers + 1):
+        radius = inner + (outer - inner) * layer / layers
+        nodes += [(radius * math.cos(angle * i / sectors), radius * math.sin(angle * i / sectors)) for i in range(columns)]
+    for layer in range(layers):
+        for i in range(sectors):
+            corners = at(layer, i), at(layer + 1, i), at(layer + 1, i + 1), at(layer, i + 1)
+            elements += [(2, name, [corners[k] for k in one]) for one in (((0, 1, 2), (0, 2, 3)) if cut else ((0, 1, 2, 3),))]
+    circles = [[(at(layer, i), at(layer, i + 1)) for i in range(sectors)] for layer in (0, layers)]
+    return circles + [[(at(layer, i), at(layer + 1, i)) for layer in range(layers)] for i in (0, sectors)]
+
+
+def ring(path, name, sides, *size, **more):
+    """A file of one such ring, whose edges have the groups `sides`: inner, outer, and of a sector its first and last ray."""
+    nodes, elements = [], []
+    for side, edges in zip(sides, append_ring(nodes, elements, name, *size, **more)):
+        elements += [(1, side, edge) for edge in edges]
+    return write_msh(path, nodes, elements)
+
+
 def cylinder_of_rings(path, name, radius, length, rings, sectors, layers):
     """A cylinder that stands on z = 0: prisms about its axis and rings of hexahedra around them."""
     at = lambda k, i, j: k * (1 + rings * sectors) + (1 + (i - 1) * sectors + j % sectors if i else 0)

@@ -1,4 +1,4 @@
-"""Runs of `abut run` for tests that claim something of their results."""
+"""Runs of `abut run` for tests and scripts that claim something of their results."""
 import csv
 import json
 import pathlib
@@ -30,6 +30,18 @@ class Run:
     def rows(self, file="energy.csv"):
         return rows_of(self.out / file)
 
+    def balance(self):
+        """Largest |H~ - H~0 + D - W| over the energy in play."""
+        return open_by(self.rows()) / self.summary["energy_in_play"]
+
+    def excess(self):
+        """Largest H - H~ [J]."""
+        return excess(self.rows())
+
+    def probe(self, key):
+        """[(time, value)] of a column of probes.csv."""
+        return [(row["time"], row[key]) for row in self.rows("probes.csv")]
+
     def warns_of(self, *words):
         """Whether a warning, or the message of an error, has all of these words."""
         return all(word in self.said for word in words) and (self.code != 0 or "warning" in self.said.lower())
@@ -46,6 +58,39 @@ def rows_of(file):
         return [{key.split(" [")[0]: number(value) for key, value in row.items()} for row in csv.DictReader(lines)]
 
 
+def open_by(rows):
+    """Largest |H~ - H~0 + D - W| of rows of energy.csv [J], without what restarts change."""
+    kept = [row["pseudo_energy"] + row["dissipated"] - row["work"] - row["restart_jumps"] for row in rows]
+    return max(abs(value - kept[0]) for value in kept)
+
+
+def excess(rows):
+    """Largest H - H~ of rows of energy.csv [J]."""
+    return max(row["energy"] - row["pseudo_energy"] for row in rows)
+
+
+def balance_of_moved(rows):
+    """The same over the energies that moved, where these are less than the energy in play."""
+    names = "kinetic", "potential", "work", "dissipated"
+    return open_by(rows) / sum(max(abs(row[name] - rows[0][name]) for row in rows) for name in names)
+
+
+def keys(**values):
+    """keys(bodies__block__velocity="[1, 0]") sets bodies.block.velocity."""
+    return [word for key, value in values.items() for word in ("--set", f"{key.replace('__', '.')}={value}")]
+
+
+def mean(values):
+    values = list(values)
+    return sum(values) / len(values)
+
+
+def slope(points):
+    """Of the line through [(x, y)] by least squares."""
+    x, y = mean(p[0] for p in points), mean(p[1] for p in points)
+    return sum((p[0] - x) * (p[1] - y) for p in points) / sum((p[0] - x)**2 for p in points)
+
+
 def number(text):
     try:
         return float(text)
@@ -60,6 +105,14 @@ def require(condition, otherwise):
 
 def near(value, expected, tolerance, what):
     require(abs(value - expected) <= tolerance, f"{what} is {value:.6g}, {expected:.6g} +- {tolerance:.2g} is right")
+
+
+class Claims(dict):
+    """Functions by name, in the order in which they are decorated with it."""
+
+    def __call__(self, function):
+        self[function.__name__] = function
+        return function
 
 
 def main(claims):

@@ -12,18 +12,13 @@ import sys
 HERE = pathlib.Path(__file__).resolve().parent
 SCENES = HERE.parent.parent / "scenes"
 sys.path.insert(0, str(HERE.parent / "support"))
-from abut_runs import Run, main, require, scenes_that_warn  # noqa: E402
+from abut_runs import Claims, Run, main, require, scenes_that_warn  # noqa: E402
 
 SLOW = {"bimetal_strip", "cattaneo_mindlin", "cattaneo_mindlin_3d", "circling_table", "crushed_lattice", "folded_plate", "hertz",
         "oblique_balls", "press_fit", "pressed_spring", "resting_pile", "rolled_sheet", "rolling_ball", "rolling_disc", "skidding_ball",
         "slipping_cylinders_3d", "taylor_bar"}
 WARN = scenes_that_warn()
-CLAIMS = {}
-
-
-def claim(function):
-    CLAIMS[function.__name__] = function
-    return function
+claim = Claims()
 
 
 def runs(programs, names):
@@ -62,4 +57,4 @@ def scenes_that_may_warn_still_do(programs):
 
 
 if __name__ == "__main__":
-    sys.exit(main(CLAIMS))
+    sys.exit(main(claim))

@@ -16,15 +16,10 @@ import tempfile
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent.parent / "support"))
 import abut_runs  # noqa: E402
-from abut_runs import main, near, require  # noqa: E402
+from abut_runs import Claims, main, near, require  # noqa: E402
 
 INPUTS = pathlib.Path(__file__).parent / "inputs"
-CLAIMS = {}
-
-
-def claim(function):
-    CLAIMS[function.__name__] = function
-    return function
+claim = Claims()
 
 
 class Run(abut_runs.Run):
@@ -243,4 +238,4 @@ def what_is_too_large_is_refused_before_it_is_made(programs):
 
 
 if __name__ == "__main__":
-    sys.exit(main(CLAIMS))
+    sys.exit(main(claim))

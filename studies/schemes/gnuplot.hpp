@@ -2,7 +2,7 @@
 #include <filesystem>
 #include <string>
 
-namespace abut::apps {
+namespace abut::studies {
 
 /// A script of gnuplot without its beginning: terminal, size, what the file is called and the looks that all pictures share
 /// are put in front of it.
@@ -21,4 +21,4 @@ struct Picture {
 /// A text as it stands between single quotes of gnuplot, which takes all else there as it is.
 [[nodiscard]] std::string in_quotes(const std::string& text);
 
-}  // namespace abut::apps
+}  // namespace abut::studies

@@ -1,4 +1,4 @@
-#include "apps/support/schemes.hpp"
+#include "studies/schemes/schemes.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -8,14 +8,14 @@
 #include "abut/base/error.hpp"
 #include "apps/support/command_line.hpp"
 
-namespace abut::apps {
+namespace abut::studies {
 namespace {
 
 using dynamics::PathMean;
 
-const Choices<PathMean> means = {
+const apps::Choices<PathMean> means = {
     {"system", PathMean::system}, {"1", PathMean::gauss_1}, {"2", PathMean::gauss_2}, {"3", PathMean::gauss_3}};
-const Choices<bool> starts = {{"half", false}, {"naive", true}};
+const apps::Choices<bool> starts = {{"half", false}, {"naive", true}};
 
 std::vector<std::string> names_of(const std::vector<Scheme>& schemes) {
     std::vector<std::string> names;
@@ -29,38 +29,41 @@ bool known_to_any(const std::vector<Scheme>& known, const std::vector<Scheme>& c
 
 }  // namespace
 
-void add_integrator(CommandParser& parser, SchemeOptions& options) {
-    Choices<std::vector<Scheme>> choices = {{"all", options.schemes}};
+void add_integrator(apps::CommandParser& parser, SchemeOptions& options) {
+    apps::Choices<std::vector<Scheme>> choices = {{"all", options.schemes}};
     for (const Scheme scheme : options.schemes) choices.push_back({name_of(scheme), {scheme}});
-    add_choice(parser, "--integrator", options.schemes, "scheme in time (docs/integrators.md)", choices).group("Schemes");
+    apps::add_choice(parser, "--integrator", options.schemes, "scheme in time (docs/integrators.md)", choices)
+        .group("Schemes");
 }
 
-void add_mean(CommandParser& parser, SchemeOptions& options) {
-    Flag mean = add_choice(parser, "--mean", options.mean,
-                           "of memm and energy_momentum: mean of the force along a step, exact or by Gauss points", means);
+void add_mean(apps::CommandParser& parser, SchemeOptions& options) {
+    apps::Flag mean =
+        apps::add_choice(parser, "--mean", options.mean,
+                         "of memm and energy_momentum: mean of the force along a step, exact or by Gauss points", means);
     restrict_to(mean.group("Schemes"), options, {Scheme::memm, Scheme::energy_momentum});
 }
 
-void add_gauge(CommandParser& parser, SchemeOptions& options) {
-    Flag gauge = add_number(parser, "--gauge", options.gauge, "of bilbao: c in psi = sqrt(2 (V + c))",
-                            {.unit = "J", .above = 0.0, .zero = true});
+void add_gauge(apps::CommandParser& parser, SchemeOptions& options) {
+    apps::Flag gauge = apps::add_number(parser, "--gauge", options.gauge, "of bilbao: c in psi = sqrt(2 (V + c))",
+                                        {.unit = "J", .above = 0.0, .zero = true});
     restrict_to(gauge.group("Schemes"), options, {Scheme::bilbao});
 }
 
-void add_local_steps(CommandParser& parser, SchemeOptions& options) {
-    Flag parts =
-        add_count(parser, "--parts", options.parts, "of memm_async: steps of the fast masses in one of the others", 1);
-    Flag fast = add_count(parser, "--fast", options.fast, "of memm_async: how many masses, from the first on, are fast", 0);
-    for (Flag option : {parts, fast}) restrict_to(option.group("Schemes"), options, {Scheme::memm_async});
+void add_local_steps(apps::CommandParser& parser, SchemeOptions& options) {
+    apps::Flag parts =
+        apps::add_count(parser, "--parts", options.parts, "of memm_async: steps of the fast masses in one of the others", 1);
+    apps::Flag fast =
+        apps::add_count(parser, "--fast", options.fast, "of memm_async: how many masses, from the first on, are fast", 0);
+    for (apps::Flag option : {parts, fast}) restrict_to(option.group("Schemes"), options, {Scheme::memm_async});
 }
 
-void add_start(CommandParser& parser, SchemeOptions& options) {
-    Flag start = add_choice(parser, "--start", options.naive_start,
-                            "momenta half a step before and after: p -+ dt/2 F, or naively p for both", starts);
+void add_start(apps::CommandParser& parser, SchemeOptions& options) {
+    apps::Flag start = apps::add_choice(parser, "--start", options.naive_start,
+                                        "momenta half a step before and after: p -+ dt/2 F, or naively p for both", starts);
     restrict_to(start.group("Schemes"), options, {Scheme::memm, Scheme::leapfrog, Scheme::bilbao, Scheme::memm_async});
 }
 
-void restrict_to(const Flag& option, SchemeOptions& options, std::vector<Scheme> schemes) {
+void restrict_to(const apps::Flag& option, SchemeOptions& options, std::vector<Scheme> schemes) {
     options.special.emplace_back(option, std::move(schemes));
 }
 
@@ -74,11 +77,11 @@ void check(const SchemeOptions& options) {
 }
 
 run::NamedValues named_values(const SchemeOptions& options) {
-    const run::NamedValues values = {{"mean", name_of(means, options.mean)},
+    const run::NamedValues values = {{"mean", apps::name_of(means, options.mean)},
                                      {"gauge", options.gauge},
                                      {"fast", options.fast},
                                      {"parts", options.parts},
-                                     {"start", name_of(starts, options.naive_start)}};
+                                     {"start", apps::name_of(starts, options.naive_start)}};
     run::NamedValues used = {{"integrator", names_of(options.schemes)}};
     for (const auto& [option, schemes] : options.special)
         for (const run::NamedValue& value : values)
@@ -96,4 +99,4 @@ dynamics::LocalSteps local_steps_of_first(const SchemeOptions& options, std::siz
     return steps;
 }
 
-}  // namespace abut::apps
+}  // namespace abut::studies

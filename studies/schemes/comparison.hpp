@@ -12,11 +12,11 @@
 #include "abut/run/folder_lock.hpp"
 #include "abut/run/value.hpp"
 #include "apps/support/csv.hpp"
-#include "apps/support/gnuplot.hpp"
 #include "apps/support/program.hpp"
-#include "apps/support/schemes.hpp"
+#include "studies/schemes/gnuplot.hpp"
+#include "studies/schemes/schemes.hpp"
 
-namespace abut::apps {
+namespace abut::studies {
 
 /// A run at a node, as its scene sees it.
 struct Node {
@@ -69,7 +69,7 @@ struct SchemeRun {
     double seconds = 0.0;                ///< of the steps, without reading the clock
     std::optional<BreakOff> broken_off;
     std::vector<double> q;  ///< at the end
-    Table series;           ///< empty if the schedule asks for none
+    apps::Table series;     ///< empty if the schedule asks for none
     std::vector<run::Finding> findings;
 };
 
@@ -181,14 +181,14 @@ SchemeRun follow(Scheme scheme, S& system, const Start& start, const SchemeOptio
 }
 
 /// --interval.
-void add_interval_option(CommandParser& parser, int& interval);
+void add_interval_option(apps::CommandParser& parser, int& interval);
 
 /// Steps between two rows of a file of about 10,000 rows, unless the user has given it.
 [[nodiscard]] std::int64_t rows_interval(int given, std::int64_t steps);
 
 /// Makes the folder and takes it for as long as the result lives, and removes what an earlier run of the program left there:
 /// summary.json, a file of each scheme, the picture, and `more`.
-[[nodiscard]] run::FolderLock prepare_results(const Program& program, const std::filesystem::path& out,
+[[nodiscard]] run::FolderLock prepare_results(const apps::Program& program, const std::filesystem::path& out,
                                               std::vector<std::string> more = {});
 
 /// A finished comparison.
@@ -197,11 +197,11 @@ struct Comparison {
     std::vector<SchemeRun> runs;
     std::vector<run::Finding> findings;  ///< of all of them together
     run::NamedValues options;            ///< as they were used
-    apps::Picture picture;
+    Picture picture;
 };
 
 /// Leaves <scheme>.csv, the picture and summary.json, and prints the table: one line per figure, one column per scheme. Then
 /// throws std::runtime_error if a run broke off, with its scheme, step, time and reason.
-void report(const Program& program, const std::filesystem::path& out, const Comparison& comparison);
+void report(const apps::Program& program, const std::filesystem::path& out, const Comparison& comparison);
 
-}  // namespace abut::apps
+}  // namespace abut::studies

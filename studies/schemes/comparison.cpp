@@ -1,4 +1,4 @@
-#include "apps/support/comparison.hpp"
+#include "studies/schemes/comparison.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -10,7 +10,7 @@
 #include "abut/run/files.hpp"
 #include "apps/support/command_line.hpp"
 
-namespace abut::apps {
+namespace abut::studies {
 namespace {
 
 namespace fs = std::filesystem;
@@ -38,7 +38,7 @@ std::vector<run::Finding> all_findings(const SchemeRun& run) {
 Json run_json(const SchemeRun& run) {
     Json json = {
         {"steps", run.steps}, {"dt", run.dt}, {"energy_initial", run.energy_start}, {"energy_scale", run.energy_scale}};
-    for (const run::Finding& finding : all_findings(run)) json[finding.key] = to_json(finding.value);
+    for (const run::Finding& finding : all_findings(run)) json[finding.key] = apps::to_json(finding.value);
     if (run.broken_off) json["broken_off_why"] = run.broken_off->why;
     return json;
 }
@@ -47,7 +47,7 @@ std::string value_text(const run::Value& value) {
     if (std::holds_alternative<std::monostate>(value)) return "-";
     const double* number = std::get_if<double>(&value);
     return number ? fmt::format("{:.5g}", *number)
-                  : to_json(value).dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+                  : apps::to_json(value).dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
 void print_line(const std::string& name, const std::vector<std::string>& values) {
@@ -70,11 +70,11 @@ void print_runs(const std::vector<SchemeRun>& runs) {
     }
 }
 
-Json summary(const Program& program, const Comparison& comparison) {
+Json summary(const apps::Program& program, const Comparison& comparison) {
     Json json = {{"program", program.name}, {"version", ABUT_VERSION}};
-    for (const run::Finding& finding : comparison.findings) json[finding.key] = to_json(finding.value);
+    for (const run::Finding& finding : comparison.findings) json[finding.key] = apps::to_json(finding.value);
     for (const SchemeRun& run : comparison.runs) json["schemes"][run.name] = run_json(run);
-    json["options"] = to_json(comparison.options);
+    json["options"] = apps::to_json(comparison.options);
     return json;
 }
 
@@ -100,8 +100,8 @@ double detail::clock_seconds() {
     return seconds;
 }
 
-void add_interval_option(CommandParser& parser, int& interval) {
-    add_count(parser, "--interval", interval, "steps between two rows of the files; 0: about 10,000 rows", 0)
+void add_interval_option(apps::CommandParser& parser, int& interval) {
+    apps::add_count(parser, "--interval", interval, "steps between two rows of the files; 0: about 10,000 rows", 0)
         .group("Output");
 }
 
@@ -109,7 +109,7 @@ std::int64_t rows_interval(int given, std::int64_t steps) {
     return given > 0 ? given : std::max<std::int64_t>(1, steps / about_rows);
 }
 
-run::FolderLock prepare_results(const Program& program, const fs::path& out, std::vector<std::string> more) {
+run::FolderLock prepare_results(const apps::Program& program, const fs::path& out, std::vector<std::string> more) {
     for (const Scheme scheme : all_schemes) more.push_back(name_of(scheme) + ".csv");
     more.insert(more.end(), {"summary.json", program.name + ".gp", program.name + ".png"});
     run::FolderLock lock(out, program.name);
@@ -117,15 +117,15 @@ run::FolderLock prepare_results(const Program& program, const fs::path& out, std
     return lock;
 }
 
-void report(const Program& program, const fs::path& out, const Comparison& comparison) {
+void report(const apps::Program& program, const fs::path& out, const Comparison& comparison) {
     std::vector<std::string> files;
     for (const SchemeRun& run : comparison.runs)
         if (!run.series.rows.empty()) {
             files.push_back((out / (run.name + ".csv")).string());
-            write_csv(files.back(), run.series);
+            apps::write_csv(files.back(), run.series);
         }
     const std::string without_picture = draw(out, comparison.picture);
-    write_json(out / "summary.json", summary(program, comparison));
+    apps::write_json(out / "summary.json", summary(program, comparison));
     fmt::print("{}: {}\n", program.name, comparison.title);
     print_runs(comparison.runs);
     for (const run::Finding& finding : comparison.findings) print_line(finding.text, {value_text(finding.value)});
@@ -137,4 +137,4 @@ void report(const Program& program, const fs::path& out, const Comparison& compa
     throw_if_broken_off(comparison.runs);
 }
 
-}  // namespace abut::apps
+}  // namespace abut::studies

@@ -7,7 +7,7 @@
 #include "abut/run/value.hpp"
 #include "apps/support/command_parser.hpp"
 
-namespace abut::apps {
+namespace abut::studies {
 
 /// The schemes that small systems run under. docs/integrators.md says which to choose.
 using Scheme = dynamics::Scheme;
@@ -25,18 +25,18 @@ struct SchemeOptions {
     bool naive_start = false;                              ///< p^{-1/2} = p^{1/2} = p^0 instead of p^0 -+ dt/2 F(q^0)
 
     /// Options that only some schemes know.
-    std::vector<std::pair<Flag, std::vector<Scheme>>> special;
+    std::vector<std::pair<apps::Flag, std::vector<Scheme>>> special;
 };
 
 /// Options by themselves; their defaults are the present values. `add_integrator` offers the present schemes, one or all.
-void add_integrator(CommandParser& parser, SchemeOptions& options);
-void add_mean(CommandParser& parser, SchemeOptions& options);
-void add_gauge(CommandParser& parser, SchemeOptions& options);
-void add_local_steps(CommandParser& parser, SchemeOptions& options);
-void add_start(CommandParser& parser, SchemeOptions& options);
+void add_integrator(apps::CommandParser& parser, SchemeOptions& options);
+void add_mean(apps::CommandParser& parser, SchemeOptions& options);
+void add_gauge(apps::CommandParser& parser, SchemeOptions& options);
+void add_local_steps(apps::CommandParser& parser, SchemeOptions& options);
+void add_start(apps::CommandParser& parser, SchemeOptions& options);
 
 /// Says that an option is for some schemes only.
-void restrict_to(const Flag& option, SchemeOptions& options, std::vector<Scheme> schemes);
+void restrict_to(const apps::Flag& option, SchemeOptions& options, std::vector<Scheme> schemes);
 /// Throws BadInput if an option was given that none of the chosen schemes knows.
 void check(const SchemeOptions& options);
 
@@ -65,4 +65,4 @@ void with_integrator(Scheme scheme, S& system, const Start& start, const SchemeO
     });
 }
 
-}  // namespace abut::apps
+}  // namespace abut::studies

@@ -1,4 +1,4 @@
-#include "apps/support/gnuplot.hpp"
+#include "studies/schemes/gnuplot.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -14,7 +14,7 @@
 #include "abut/base/text.hpp"
 #include "abut/run/files.hpp"
 
-namespace abut::apps {
+namespace abut::studies {
 namespace {
 
 namespace fs = std::filesystem;
@@ -77,4 +77,4 @@ std::string in_quotes(const std::string& text) {
     return doubled;
 }
 
-}  // namespace abut::apps
+}  // namespace abut::studies
