@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "abut/base/error.hpp"
+#include "abut/base/messages.hpp"
 #include "abut/base/throw_again.hpp"
 
 namespace abut::solid {
@@ -13,7 +14,8 @@ template <int Dim>
 SteppedRun<Dim>::SteppedRun(std::unique_ptr<Solid<Dim>> solid, std::vector<double> q, std::span<const double> p, double dt,
                             const RunRemedies& remedies)
     : given_(remedies), solid_(std::move(solid)) {
-    dynamics::refuse_ranks(solid_->ranks(), {{"a run that is taken step by step"}});
+    dynamics::refuse_ranks(solid_->ranks(),
+                           {{"a run that is taken step by step, or at times that are dictated (ClockedRun),"}});
     memm_.emplace(*solid_, std::move(q), p, dt);
     remedies_.emplace(*solid_, given_.filter, given_.restart);
     remedies_->prepare(*memm_);
@@ -26,6 +28,19 @@ void SteppedRun<Dim>::step() {
     } catch (const Error& error) {
         throw_again(error, at_step(memm_->steps() + 1, error.what()));
     }
+}
+
+template <int Dim>
+std::string SteppedRun<Dim>::set_step(double dt, dynamics::StepChange change, const std::string& clock) {
+    constexpr double slow_change = 0.05;  // of the step before
+    const double before = memm_->dt();
+    memm_->set_step(dt, change);
+    if (has_warned_ || memm_->steps() == 0 || std::abs(dt - before) <= slow_change * before) return "";
+    has_warned_ = true;
+    return "the step changes from " + number(before) + " s to " + number(dt) +
+           " s, by more than 5 %. Steps that jump feed the alternating mode, and H~ does not show it. Keep the step, and "
+           "dictate times: " +
+           clock + " (docs/loads.md, Times that are dictated).";
 }
 
 template <int Dim>
