@@ -17,6 +17,7 @@
 #include "abut/dynamics/with_scheme.hpp"
 #include "abut/run/body_names.hpp"
 #include "abut/run/divergence.hpp"
+#include "abut/run/fine_motion.hpp"
 #include "abut/run/frame_piece.hpp"
 #include "abut/run/friction_watch.hpp"
 #include "abut/run/last_sound.hpp"
@@ -43,7 +44,7 @@ constexpr double sound_share = 0.5;
 const std::string observers_kind = "observers of a run";
 constexpr int observers_version = 5;
 const std::string looks_kind = "looks at surfaces";
-constexpr int looks_version = 6;
+constexpr int looks_version = 7;
 constexpr double rounding_of_times = 1e-12;     // so near a node is at it
 constexpr std::int64_t sightings_per_run = 40;  // looks for bodies past a rim and together with themselves, about
 
@@ -269,6 +270,7 @@ private:
             looks.put(result_.turned.name);
             looks.put(result_.turned.angle);
             friction_watch_.save(looks);
+            looks.put(result_.fine_energy_max);
             checkpoint.looks = std::move(looks).finish();
             StateWriter state(observers_kind, observers_version);
             observer_.save(state);
@@ -298,6 +300,7 @@ private:
         result_.turned.name = looks.get_text();
         result_.turned.angle = looks.get<double>();
         friction_watch_.restore(looks);
+        result_.fine_energy_max = looks.get<double>();
         looks.finish();
         result_.scale = known_scale<Dim>(scene_.energy_scale, result_);
         result_.inadmissible_overlaps_max = from.inadmissible_overlaps_max;
@@ -355,6 +358,9 @@ private:
             const Stopwatch watch(result_.seconds.looks);
             obstacle_watch_.look(solid_, integrator_->q(), integrator_->time(), result_.sightings.past_rims);
             if (self_watch_.is_on()) look_for_crossings();
+            whole_.show(*integrator_, [&](const auto& run, auto& solid) {
+                result_.fine_energy_max = std::max(result_.fine_energy_max, fine_kinetic_energy<Dim>(run, solid));
+            });
         }
         const auto& entries = result_.ledger.entries();
         result_.scale = known_scale<Dim>(scene_.energy_scale, result_);
