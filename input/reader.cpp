@@ -220,6 +220,26 @@ std::optional<std::vector<Vector<3>>> Reader::points(const Node& node, const std
     return points.size() == node.items.size() ? std::optional(points) : std::nullopt;
 }
 
+std::optional<std::vector<double>> Reader::increasing(const Node& node, const std::string& key, const Limits& limits) {
+    if (node.type != Node::Type::array || node.items.empty()) {
+        wrong_type(node, key, "a list of numbers" + in_brackets(limits));
+        return std::nullopt;
+    }
+    std::vector<double> numbers;
+    for (std::size_t i = 0; i < node.items.size(); ++i) {
+        const std::string name = fmt::format("{}, number {}", key, i + 1);
+        const auto value = number(node.items[i], name, limits);
+        if (!value) return std::nullopt;
+        if (i > 0 && *value <= numbers.back()) {
+            fault(node.items[i], fmt::format("{} is {}, after {}. Give them in increasing order, each once.", name,
+                                             with_unit_of(limits, *value), with_unit_of(limits, numbers.back())));
+            return std::nullopt;
+        }
+        numbers.push_back(*value);
+    }
+    return numbers;
+}
+
 std::optional<std::vector<std::size_t>> Reader::words(const Node& node, const std::string& key,
                                                       const std::vector<std::string>& words) {
     if (node.type != Node::Type::array || node.items.empty()) {

@@ -52,6 +52,9 @@ public:
     [[nodiscard]] std::optional<std::array<int, 3>> counts(const Node& node, const std::string& key);
     [[nodiscard]] std::optional<std::vector<Vector<3>>> points(const Node& node, const std::string& key,
                                                                const Limits& limits);
+    /// Numbers of which each is larger than the one before, one or more.
+    [[nodiscard]] std::optional<std::vector<double>> increasing(const Node& node, const std::string& key,
+                                                                const Limits& limits);
     /// Indices of some of these words.
     [[nodiscard]] std::optional<std::vector<std::size_t>> words(const Node& node, const std::string& key,
                                                                 const std::vector<std::string>& words);

@@ -194,6 +194,7 @@ void Frames<Dim>::begin(const Scene<Dim>& scene, const RunResult<Dim>& result) {
         bodies_.push_back({"body: " + scene.mesh.body_names[static_cast<std::size_t>(body)], body});
     if (!scene.solid.obstacles.empty())
         obstacles_ = std::make_unique<ObstacleFrames<Dim>>(directory_, obstacles_series(name_), scene);
+    at_times_ = !scene.outputs.times.empty();
     n_spread_ = n_steps_ = result.steps;
 }
 
@@ -202,9 +203,15 @@ void Frames<Dim>::look(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& sol
     if (wants_look(run.steps)) write(run, solid);
 }
 
+template <int Dim>
+void Frames<Dim>::look_at_time(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) {
+    write(run, solid);
+}
+
 /// The number of the frame that is due at this step, where so many are written; -1: none.
 template <int Dim>
 std::int64_t Frames<Dim>::due(std::int64_t step, std::int64_t n_written) const {
+    if (at_times_) return -1;
     const std::int64_t intervals = std::max<std::int64_t>(1, n_frames_ - 1);
     const bool more = n_written < n_frames_ || n_steps_ > n_spread_;
     return more && step * intervals >= n_written * n_spread_ ? n_written : -1;

@@ -27,9 +27,9 @@ class XdmfSeries;
 /// their own, SERIES_pairs, pairs of faces that push each other, in the middle between their centres: bodies (-1: an
 /// obstacle), normal and force on the second body [N], normal force [N], gap [m] and area [m^(Dim-1)]; and, where there are
 /// obstacles, SERIES_obstacles with their faces where they are. `n_frames` equally
-/// far apart, first and last step included (a run that goes on beyond the end of another one writes more, as far apart);
-/// Outputs::fields may leave fields out. `series` is what the files are called by, see mesh::VtuSeries, which also says
-/// what they throw if they cannot be written.
+/// far apart, first and last step included (a run that goes on beyond the end of another one writes more, as far apart), or
+/// at Outputs::times; Outputs::fields may leave fields out. `series` is what the files are called by, see mesh::VtuSeries,
+/// which also says what they throw if they cannot be written.
 ///
 /// With FrameFormat::xdmf cells and boundary faces are in one file (SERIES.h5, beside SERIES.xmf and SERIES_surface.xmf) in
 /// place of the .vtu and .vtp files.
@@ -40,7 +40,7 @@ class XdmfSeries;
 template <int Dim>
 class Frames : public Observer<Dim> {
 public:
-    /// Nothing is written before the run begins; `n_frames` > 0.
+    /// Nothing is written before the run begins; `n_frames` > 0, unless the scene has Outputs::times.
     Frames(std::filesystem::path directory, std::string series, int n_frames, FrameFormat format = FrameFormat::vtu,
            bool in_pieces = false);
     ~Frames() override;
@@ -50,6 +50,7 @@ public:
     void begin(const Scene<Dim>& scene, const RunResult<Dim>& result) override;
     /// Writes a frame if one is due at this step.
     void look(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) override;
+    void look_at_time(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) override;
     [[nodiscard]] bool wants_look(std::int64_t step) const override;
     [[nodiscard]] std::int64_t wants_piece(std::int64_t step) const override;
     void piece(const FramePiece<Dim>& piece) override;
@@ -76,6 +77,7 @@ private:
     std::int64_t n_frames_;
     FrameFormat format_;
     bool in_pieces_;
+    bool at_times_ = false;  // those of the scene
     std::int64_t n_steps_ = 0;
     std::int64_t n_spread_ = 0;  // steps that the frames are spread over: those of the run, or of the one it goes on from
     FrameFields fields_;

@@ -30,6 +30,11 @@ void Observers<Dim>::look(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& 
 }
 
 template <int Dim>
+void Observers<Dim>::look_at_time(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) {
+    for (Observer<Dim>& observer : observers_) observer.look_at_time(run, solid);
+}
+
+template <int Dim>
 bool Observers<Dim>::wants_look(std::int64_t step) const {
     return std::ranges::any_of(observers_, [&](const Observer<Dim>& observer) { return observer.wants_look(step); });
 }

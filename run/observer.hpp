@@ -28,6 +28,9 @@ public:
     /// True if `look` has something to do at the start (0) or after this step: else it is not called. On several ranks the
     /// whole of the run is brought together for it; it knows no forces on obstacles then, and its contact lists are new.
     [[nodiscard]] virtual bool wants_look(std::int64_t /*step*/) const { return true; }
+    /// At each of Outputs::times, before `look` at the node after it: bodies are on the path of the step, and momenta those
+    /// of its velocity. Histories of materials and of friction are those of the node.
+    virtual void look_at_time(const dynamics::RunView<Dim>&, solid::Solid<Dim>&) {}
     /// All steps are taken, or it was asked to stop: the last state, evaluated, after `look`, if that was called.
     virtual void end(const dynamics::RunView<Dim>&, solid::Solid<Dim>&) {}
     virtual void progress(std::int64_t /*step*/, double /*time*/) {}  ///< at the start and after each step, before `look`
@@ -71,6 +74,7 @@ public:
     void record(const dynamics::LedgerEntry<Dim>& entry, const RunResult<Dim>& result) override;
     void look(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) override;
     [[nodiscard]] bool wants_look(std::int64_t step) const override;
+    void look_at_time(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) override;
     void end(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) override;
     void progress(std::int64_t step, double time) override;
     [[nodiscard]] bool asks_to_stop() const override;

@@ -95,6 +95,7 @@ struct RunResult {
     bool complete = true;                   ///< false: an observer asked to stop before the last step
     EnergyScale scale;                      ///< with its value, 0 as long as nothing has moved
     double rest_energy = 0.0;               ///< up to which nothing has moved: what rounding makes of bodies at rest [J]
+    double fine_energy_max = 0.0;           ///< largest kinetic energy of motion from cell to cell, at about 40 records [J]
     double skin = 0.0;                      ///< of the last candidate list [m]
     int threads = 0;                        ///< allowed
     contact::ContactReport contact;

@@ -133,6 +133,7 @@ Json energies_json(const RunResult<Dim>& result) {
             {"energy_drift", ledger.energy_drift()},
             {"energy_excess_max", ledger.energy_excess()},
             {"parasitic_max", ledger.parasitic()},
+            {"fine_energy_max", result.fine_energy_max},
             {"energy_in_play", result.accounts.energy_in_play},
             {"speed_max", result.accounts.speed},
             {"forces_from_outside", result.forces_from_outside},

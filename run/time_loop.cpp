@@ -17,6 +17,7 @@
 #include "abut/dynamics/with_scheme.hpp"
 #include "abut/run/body_names.hpp"
 #include "abut/run/divergence.hpp"
+#include "abut/run/fine_motion.hpp"
 #include "abut/run/frame_piece.hpp"
 #include "abut/run/friction_watch.hpp"
 #include "abut/run/last_sound.hpp"
@@ -43,7 +44,8 @@ constexpr double sound_share = 0.5;
 const std::string observers_kind = "observers of a run";
 constexpr int observers_version = 5;
 const std::string looks_kind = "looks at surfaces";
-constexpr int looks_version = 6;
+constexpr int looks_version = 7;
+constexpr double rounding_of_times = 1e-12;     // so near a node is at it
 constexpr std::int64_t sightings_per_run = 40;  // looks for bodies past a rim and together with themselves, about
 
 /// One run, from the first step to the last.
@@ -115,6 +117,14 @@ public:
 
 private:
     void step() {
+        const double from = integrator_->time();
+        const bool has_time = time_is_due(from + integrator_->dt());
+        std::vector<double> q_0;
+        if (has_time) q_0.assign(integrator_->q().begin(), integrator_->q().end());
+        take_step();
+        if (has_time) look_at_times(from, q_0);
+    }
+    void take_step() {
         try {
             integrator_->step();
         } catch (const Error& error) {
@@ -150,6 +160,34 @@ private:
             });
         if (wanted.look) whole_.show(*integrator_, [&](const auto& run, auto& solid) { observer_.look(run, solid); });
     }
+
+    // Times of the scene, inside of steps
+
+    /// Whether there is one until then, which is so where it is off by rounding.
+    [[nodiscard]] bool time_is_due(double until) const {
+        const std::vector<double>& times = scene_.outputs.times;
+        return n_times_ < times.size() && times[n_times_] <= (1.0 + rounding_of_times) * until;
+    }
+    /// On the straight path of the step that began with q_0 at `from`.
+    void look_at_times(double from, const std::vector<double>& q_0) {
+        dynamics::IntegratorState state = integrator_->state();
+        const std::vector<double> q_1 = state.q;
+        const double dt = integrator_->dt(), end = state.time;
+        const std::span<const double> masses = solid_.masses();
+        for (std::size_t i = 0; i < q_1.size(); ++i)
+            state.p_before[i] = state.p_after[i] = masses[i / Dim] * (q_1[i] - q_0[i]) / dt;
+        for (; time_is_due(end); ++n_times_) {
+            state.time = scene_.outputs.times[n_times_];
+            const double share = (state.time - from) / dt;
+            for (std::size_t i = 0; i < q_1.size(); ++i) state.q[i] = q_0[i] + share * (q_1[i] - q_0[i]);
+            if (state.time >= (1.0 - rounding_of_times) * end) state.q = q_1;
+            show_time(state);
+        }
+    }
+    void show_time(const dynamics::IntegratorState& state) {
+        whole_.show_state(state, [&](const auto& run, auto& solid) { observer_.look_at_time(run, solid); });
+    }
+
     void make_piece(std::int64_t frame) {
         const FramePiece<Dim> piece = frame_piece<Dim>(frame, scene_.mesh, *integrator_, solid_);
         dynamics::agreed(solid_.ranks(), [&] { observer_.piece(piece); });
@@ -194,6 +232,10 @@ private:
     void begin() {
         whole_.on_first([&] { observer_.begin(scene_, result_); });
         record();
+        if (time_is_due(0.0)) {
+            ++n_times_;
+            show_time(integrator_->state());
+        }
         const Wanted wanted = ask(true);
         look(wanted);
         if (wanted.stop) stop(true);
@@ -228,6 +270,7 @@ private:
             looks.put(result_.turned.name);
             looks.put(result_.turned.angle);
             friction_watch_.save(looks);
+            looks.put(result_.fine_energy_max);
             checkpoint.looks = std::move(looks).finish();
             StateWriter state(observers_kind, observers_version);
             observer_.save(state);
@@ -257,10 +300,12 @@ private:
         result_.turned.name = looks.get_text();
         result_.turned.angle = looks.get<double>();
         friction_watch_.restore(looks);
+        result_.fine_energy_max = looks.get<double>();
         looks.finish();
         result_.scale = known_scale<Dim>(scene_.energy_scale, result_);
         result_.inadmissible_overlaps_max = from.inadmissible_overlaps_max;
         result_.resumed_after = integrator_->steps();
+        while (time_is_due(integrator_->time())) ++n_times_;
         sound_.keep(*integrator_, result_.dt);
         whole_.on_first([&] {
             StateReader state(from.observers, observers_kind, observers_version);
@@ -313,6 +358,9 @@ private:
             const Stopwatch watch(result_.seconds.looks);
             obstacle_watch_.look(solid_, integrator_->q(), integrator_->time(), result_.sightings.past_rims);
             if (self_watch_.is_on()) look_for_crossings();
+            whole_.show(*integrator_, [&](const auto& run, auto& solid) {
+                result_.fine_energy_max = std::max(result_.fine_energy_max, fine_kinetic_energy<Dim>(run, solid));
+            });
         }
         const auto& entries = result_.ledger.entries();
         result_.scale = known_scale<Dim>(scene_.energy_scale, result_);
@@ -390,6 +438,7 @@ private:
     FrictionWatch<Dim> friction_watch_;
     RankBalance balance_;
     double own_seconds_before_ = 0.0;
+    std::size_t n_times_ = 0;  // of the scene, that are past
     SurfaceWatch<Dim> watch_;  // on rank 0
 };
 

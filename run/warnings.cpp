@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "abut/run/counts.hpp"
+#include "abut/run/fine_motion.hpp"
 #include "abut/run/friction_watch.hpp"
 #include "abut/run/remedies.hpp"
 #include "abut/solid/kinematics/kinematics.hpp"
@@ -77,6 +78,14 @@ void add_motion(Counts& counts, const RunResult<Dim>& result) {
                   fmt::format("a cell swings from step to step by |e|/m = {:.2g} m/s, {:.2g} of the largest speed, {:g} is "
                               "safe: do not read single cells near contact, or take {}",
                               ledger.parasitic(), share, large_parasitic_share, calming_choices(result.options)));
+    }
+    if (energy > 0.0) {
+        const double share = result.fine_energy_max / energy;
+        add_above(WarningKind::fine_motion, share, large_fine_share,
+                  fmt::format("motion from cell to cell came to {:.2g} of the energy in play, {:g} is safe, and neither H~ "
+                              "nor H - H~ sees it: the upper half of the modes is pumped, or waves are shorter than cells "
+                              "resolve. Take a shorter step (cfl), smaller cells, or damp it (stiffness_damping)",
+                              share, large_fine_share));
     }
     if (result.moment_scale > 0.0 && energy > 0.0) {
         const double drift = ledger.pseudo_angular_momentum_drift() / (result.moment_scale * std::sqrt(energy));

@@ -106,6 +106,7 @@ enum class WarningKind {
     jump_loss,      ///< part of the plastic dissipation that jumps between cells have [-]; threshold: large_jump_loss
     energy_excess,          ///< Ledger::energy_excess over the energy in play [-]; threshold: large_energy_excess
     parasitic,              ///< Ledger::parasitic over Accounts::speed [-]; threshold: large_parasitic_share
+    fine_motion,            ///< RunResult::fine_energy_max over the energy in play [-]; threshold: large_fine_share
     moment_drift,           ///< of J~ where it is conserved [-]; threshold: large_moment_drift
     interpenetration,       ///< SurfaceLooks::deepest [-]; threshold: deep_interpenetration
     remote_contact,         ///< SurfaceLooks::remote [-]; threshold: contact_from_afar

@@ -35,7 +35,13 @@ public:
     template <class Integrator, class See>
     void show(const Integrator& integrator, const See& see) const {
         if (ranks().is_one()) return see(dynamics::RunView<Dim>(integrator), *start_.solid);
-        const dynamics::IntegratorState state = of(integrator.state());
+        show_state(integrator.state(), see);
+    }
+    /// Calls it with another state, of the points of this rank and near the present one.
+    template <class See>
+    void show_state(const dynamics::IntegratorState& own, const See& see) const {
+        if (ranks().is_one()) return see(dynamics::RunView<Dim>(own), *start_.solid);
+        const dynamics::IntegratorState state = of(own);
         const std::vector<std::byte> memory = start_.solid->state();
         on_first([&] {
             start_.whole->restore(memory, state.q);

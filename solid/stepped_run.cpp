@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "abut/base/error.hpp"
+#include "abut/base/messages.hpp"
 #include "abut/base/throw_again.hpp"
 #include "abut/solid/options/made_features.hpp"
 
@@ -27,6 +28,19 @@ void SteppedRun<Dim>::step() {
     } catch (const Error& error) {
         throw_again(error, at_step(memm_->steps() + 1, error.what()));
     }
+}
+
+template <int Dim>
+std::string SteppedRun<Dim>::set_step(double dt, dynamics::StepChange change, const std::string& clock) {
+    constexpr double slow_change = 0.05;  // of the step before
+    const double before = memm_->dt();
+    memm_->set_step(dt, change);
+    if (has_warned_ || memm_->steps() == 0 || std::abs(dt - before) <= slow_change * before) return "";
+    has_warned_ = true;
+    return "the step changes from " + number(before) + " s to " + number(dt) +
+           " s, by more than 5 %. Steps that jump feed the alternating mode, and H~ does not show it. Keep the step, and "
+           "dictate times: " +
+           clock + " (docs/loads.md, Times that are dictated).";
 }
 
 template <int Dim>

@@ -30,6 +30,10 @@ public:
 
     /// Throws as Memm::step, with step and time in front of the message.
     void step();
+    /// The steps that follow have this dt [s]. Returns a warning at the first change by more than 5 % after a step, which
+    /// names `clock`, what its caller calls the remedy (ClockedRun); else nothing. Throws as Memm::set_step.
+    [[nodiscard]] std::string set_step(double dt, dynamics::StepChange change,
+                                       const std::string& clock = "solid::ClockedRun");
     /// Adds the present state to the ledger. Throws Diverged where its energy is not finite.
     void record();
 
@@ -56,6 +60,7 @@ private:
     std::optional<Memm> memm_;
     std::optional<dynamics::Remedies<Solid<Dim>>> remedies_;
     dynamics::Ledger<Dim> ledger_;
+    bool has_warned_ = false;  // of a step that changes
 };
 
 }  // namespace abut::solid

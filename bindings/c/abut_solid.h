@@ -82,8 +82,10 @@ typedef struct abut_solid_options {
     int32_t restart; /* steps from one neutral restart to the next; 0: with friction 10, else with finite bodies 50,
                         else none. Where tractions answer to the motion of a step: 20 */
     double friction; /* coefficient between all bodies; the neutral filter acts with it. 0: none */
+    void (*log)(int severity, const char* text, void* user); /* told of each ABUT_WARNING; may be NULL */
+    void* user;                                              /* yours, for `log` */
 } abut_solid_options;
-#define ABUT_SOLID_OPTIONS_INIT {sizeof(abut_solid_options), 0.0, 0.9, 1, 0, 0.0}
+#define ABUT_SOLID_OPTIONS_INIT {sizeof(abut_solid_options), 0.0, 0.9, 1, 0, 0.0, NULL, NULL}
 /* Makes the solid and its integrator, MEMM; after an error the same can be tried again. `options` may be NULL. */
 ABUT_API int abut_solid_begin(abut_solid* solid, const abut_solid_options* options, abut_error* error);
 
@@ -124,7 +126,7 @@ enum {
     ABUT_KEEP = 0,   /* momenta stay: for slow and smooth changes of dt; H~ is exact */
     ABUT_RESTART = 1 /* momenta are rebuilt: for abrupt ones; what that changes in H~ is in `restart_jumps` */
 };
-/* `dt`: at most abut_solid_state.stable_dt. */
+/* `dt`: at most abut_solid_state.stable_dt. The first change by more than 5 % is logged: dictate times then, see below. */
 ABUT_API int abut_solid_set_step(abut_solid* solid, double dt, int32_t change, abut_error* error);
 /* After ABUT_TOO_DEEP or ABUT_DIVERGED the run is over. */
 ABUT_API int abut_solid_step(abut_solid* solid, abut_error* error);

@@ -149,12 +149,15 @@ void SolidRun<Dim>::begin(const abut_solid_options& given) {
         given.restart == 0 ? solid::default_remedies(solid->options().kinematics, rubs).restart : given.restart;
     const std::vector<double> at_rest(solid->size(), 0.0), p = solid::uniform_momentum<Dim>(*solid, velocity_);
     run_.emplace(std::move(solid), at_rest, p, dt, solid::RunRemedies{.filter = rubs, .restart = restart});
+    log_ = given.log;
+    user_ = given.user;
 }
 
 template <int Dim>
 void SolidRun<Dim>::set_step(double dt, dynamics::StepChange change) {
     require_stable(dt, stable_dt_, "abut_solid_set_step: dt");
-    run_->memm().set_step(dt, change);
+    const std::string warning = run_->set_step(dt, change, "abut_solid_begin_clock and abut_solid_advance");
+    if (!warning.empty() && log_ != nullptr) log_(ABUT_WARNING, warning.c_str(), user_);
 }
 
 template <int Dim>

@@ -90,6 +90,8 @@ private:
     std::optional<solid::ClockedRun<Dim>> clock_;
     std::optional<typename solid::ClockedRun<Dim>::State> kept_;
     double stable_dt_ = 0.0;
+    decltype(abut_solid_options::log) log_ = nullptr;
+    void* user_ = nullptr;
 };
 
 }  // namespace abut::c_layer

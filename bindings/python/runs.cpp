@@ -171,8 +171,14 @@ public:
             throw BadInput("set_step: dt is " + number(dt) + " s, above the stable step of " + number(stable_dt_) +
                                " s (stable_dt), from which on vibrations grow. Give at most that.",
                            {.value = dt, .allowed = stable_dt_});
-        const py::gil_scoped_release release;
-        run_->memm().set_step(dt, change == "keep" ? dynamics::StepChange::keep : dynamics::StepChange::restart);
+        std::string warning;
+        {
+            const py::gil_scoped_release release;
+            warning = run_->set_step(dt, change == "keep" ? dynamics::StepChange::keep : dynamics::StepChange::restart,
+                                     "run.clock()");
+        }
+        if (!warning.empty() && PyErr_WarnEx(PyExc_RuntimeWarning, ("abut: " + warning).c_str(), 1) < 0)
+            throw py::error_already_set();
     }
     void set_traction(const std::string& group, const py::object& traction) {
         const bindings::Use use(in_use_, run_in_use);

@@ -44,7 +44,7 @@ ResultFiles<Dim>::ResultFiles(const RunOptions& options, std::string program, st
         remove_earlier_results(out_, name_);  // refuses a folder that holds files of the user under these names
         checkpoints_.remove(texts_beside);
     }
-    if (options.frames > 0) frames_.emplace(out_, name_, options.frames, options.format, options.pieces);
+    frames_.emplace(out_, name_, options.frames, options.format, options.pieces);
     if (options.animation > 0) animation_.emplace(out_ / animation_name, program_, options.animation);
 }
 
@@ -56,6 +56,7 @@ void ResultFiles<Dim>::begin(const Scene<Dim>& scene, const RunResult<Dim>& resu
     has_begun_ = true;
     if (!scene.outputs.probes.empty()) probes_.emplace(out_ / "probes.csv").begin(scene, result);
     if (scene.outputs.forces) forces_.emplace(out_ / "forces.csv").begin(scene, result);
+    if (result.options.frames == 0 && scene.outputs.times.empty()) frames_.reset();
     if (frames_) frames_->begin(scene, result);
     if (animation_) animation_->begin(scene, result);
     snapshots_.begin(scene, result);
@@ -76,6 +77,12 @@ void ResultFiles<Dim>::look(const dynamics::RunView<Dim>& run, solid::Solid<Dim>
     if (frames_) frames_->look(run, solid);
     if (animation_) animation_->look(run, solid);
     snapshots_.look(run, solid);
+}
+
+template <int Dim>
+void ResultFiles<Dim>::look_at_time(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) {
+    const Stopwatch watch(seconds_);
+    if (frames_) frames_->look_at_time(run, solid);
 }
 
 template <int Dim>
@@ -175,6 +182,7 @@ void ResultFiles<Dim>::resume(const Scene<Dim>& scene, const RunResult<Dim>& res
     has_begun_ = true;
     if (!scene.outputs.probes.empty()) probes_.emplace(out_ / "probes.csv").resume(scene, result, state);
     if (scene.outputs.forces) forces_.emplace(out_ / "forces.csv").resume(scene, result, state);
+    if (result.options.frames == 0 && scene.outputs.times.empty()) frames_.reset();
     if (frames_) frames_->resume(scene, result, state);
     if (animation_) animation_->resume(scene, result, state);
     snapshots_.resume(scene, result, state);

@@ -43,6 +43,7 @@ public:
     void record(const dynamics::LedgerEntry<Dim>& entry, const RunResult<Dim>& result) override;
     void look(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) override;
     void end(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) override;
+    void look_at_time(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) override;
     [[nodiscard]] bool wants_look(std::int64_t step) const override;
     [[nodiscard]] std::int64_t wants_piece(std::int64_t step) const override;
     void piece(const FramePiece<Dim>& piece) override;

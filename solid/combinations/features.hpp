@@ -115,7 +115,7 @@ inline constexpr std::array<FeatureWords, n_features> feature_words{{
     {Feature::loaded_rest, "the same under tractions or moments",
      "a state at rest is sought under tractions or moments (statics)"},
     {Feature::mesh_change, "change of the mesh", "the mesh is changed"},
-    {Feature::stepped_run, "steps taken by another program", "another program takes the steps"},
+    {Feature::stepped_run, "steps or times from another program", "another program takes the steps, or dictates times"},
     {Feature::vertex_displacement, "displacements of vertices", "displacements of vertices are asked for"},
     {Feature::pilot, "kinematics \"automatic\"", "a pilot run chooses kinematics (--kinematics automatic)"},
     {Feature::step_watcher, "function that sees each step", "the scene looks at each step (Scene::after_step)"},

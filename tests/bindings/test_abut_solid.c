@@ -43,11 +43,18 @@ static abut_array packed(double (*data)[2], int64_t n) {
     return array;
 }
 
+static void count_warning(int severity, const char* text, void* user) {
+    CHECK(severity == ABUT_WARNING && strstr(text, "by more than 5 %") != NULL && strstr(text, "abut_solid_advance") != NULL);
+    ++*(int*)user;
+}
+
 static void a_pressed_bar_gives_way_and_gets_the_work(void) {
     abut_error error = ABUT_ERROR_INIT;
     abut_solid* solid = two_bars();
     abut_solid_options options = ABUT_SOLID_OPTIONS_INIT;
     options.restart = 20;
+    int warnings = 0; /* of the step that changes at t = 2 */
+    options.log = count_warning, options.user = &warnings;
     CHECK(abut_solid_begin(solid, &options, &error) == ABUT_OK);
     if (error.status != ABUT_OK) printf("%s\n", error.message);
     int64_t n = 0;
@@ -76,6 +83,7 @@ static void a_pressed_bar_gives_way_and_gets_the_work(void) {
         CHECK(abut_solid_get_state(solid, &state, &error) == ABUT_OK);
     }
     CHECK(abut_solid_faces(solid, pressed, &faces, &error) == ABUT_OK);
+    CHECK(warnings == 1);
     CHECK(normal[0][0] == -1.0 && fabs(area[0] - 0.025) < 1e-15);
     CHECK(fabs((position[0][0] - at_early) / (state.time - early) - pressure) < 0.005 * pressure); /* v = p/(rho c) */
     CHECK(fabs(state.work_steps - work) < 1e-12 * work);

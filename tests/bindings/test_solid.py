@@ -290,7 +290,8 @@ class Runs(unittest.TestCase):
         start, work = run.ledger["pseudo_energy"][0], 0.0
         for i in range(60):
             if i == 30:
-                run.set_step(0.7 * run.dt, "restart")
+                with self.assertWarnsRegex(RuntimeWarning, r"by more than 5 %.*run\.clock\(\)"):
+                    run.set_step(0.7 * run.dt, "restart")
             faces = run.faces("upper.xmax")
             traction = 1e-3 * np.array([np.sin(0.1 * i), 0.3 * np.cos(i)]) * np.arange(1, n + 1)[:, None]
             run.set_traction("upper.xmax", traction)

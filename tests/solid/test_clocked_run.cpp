@@ -290,3 +290,20 @@ TEST_CASE("the clock refuses what it cannot do, and nothing has changed", "[soli
     CHECK_THROWS_AS(clock.advance(0.1 * dt), Misuse);
     CHECK_THROWS_WITH(clock.advance(0.1 * dt), Contains("inside a step of the clock"));
 }
+
+TEST_CASE("a step that changes by more than 5 % is warned of once, and the clock is named", "[solid][clock]") {
+    Bar bar(20, 0.5, 20, 0.1);
+    solid::SteppedRun<2>& run = *bar.run;
+    const double dt = run.memm().dt();
+    const auto change = GENERATE(dynamics::StepChange::keep, dynamics::StepChange::restart);
+    CHECK(run.set_step(0.7 * dt, change).empty());  // before the first step
+    CHECK(run.set_step(dt, change).empty());
+    run.step();
+    CHECK(run.set_step(1.04 * dt, change).empty());
+    CHECK(run.set_step(dt, change).empty());
+    CHECK_THROWS_AS(static_cast<void>(run.set_step(-dt, change)), BadInput);
+    CHECK_THAT(run.set_step(0.9 * dt, change), Contains("by more than 5 %") && Contains("solid::ClockedRun"));
+    CHECK(run.memm().dt() == 0.9 * dt);
+    run.step();
+    CHECK(run.set_step(dt, change).empty());
+}

@@ -1,0 +1,47 @@
+#include "abut/run/output_times.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstddef>
+
+#include "abut/base/error.hpp"
+#include "abut/run/options.hpp"
+
+namespace abut::run {
+namespace {
+
+constexpr double rounding = 1e-12;  // of the end
+
+void check_time(std::span<const double> times, std::size_t i, double end) {
+    const double time = times[i];
+    if (!(time >= 0.0) || !std::isfinite(time))
+        throw BadInput(fmt::format("output.times: number {} is {:.6g} s; finite times from 0 s on are needed.", i + 1, time),
+                       {.value = time, .allowed = 0.0});
+    if (i > 0 && time <= times[i - 1])
+        throw BadInput(
+            fmt::format("output.times: number {} is {:.6g} s, after {:.6g} s. Give them in increasing order, each "
+                        "once.",
+                        i + 1, time, times[i - 1]),
+            {.value = time, .allowed = times[i - 1]});
+    if (time > (1.0 + rounding) * end)
+        throw BadInput(
+            fmt::format("output.times: number {} is {:.6g} s, and the run ends at {:.6g} s. Leave it out, or give "
+                        "a later end.",
+                        i + 1, time, end),
+            {.value = time, .allowed = end});
+}
+
+}  // namespace
+
+void check_output_times(std::span<const double> times, const RunOptions& options, double end) {
+    if (times.empty()) return;
+    if (options.integrator == SolidIntegrator::memm_async)
+        throw BadInput(
+            "output.times is not made for memm_async, whose cells have nodes of their own. Take --integrator memm, or "
+            "equally spaced frames (--frames).");
+    if (options.pieces) throw BadInput("output.times is not made for --pieces. Leave one of them out.");
+    for (std::size_t i = 0; i < times.size(); ++i) check_time(times, i, end);
+}
+
+}  // namespace abut::run
