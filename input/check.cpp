@@ -111,6 +111,18 @@ std::string damping_of_friction(const run::Scene<Dim>& scene, const run::RunResu
                        options.settle ? "" : ", and settle = true in [run] if they begin at rest");
 }
 
+/// A step goes as h/c with the size h of cells and the speed c of waves, the work of one as h^-dim.
+std::string ways_to_fewer_steps(const run::RunOptions& options, std::int64_t steps, int dim) {
+    constexpr std::int64_t many = 100'000;
+    constexpr double heavier = 100.0;
+    if (steps <= many || std::isnan(options.time) || !std::isnan(options.dt)) return "";
+    const auto count = static_cast<double>(steps);
+    return fmt::format(
+        "cells twice as large: {:.2g} steps, in 1/{} of the time; {:g} times the density, where inertia does "
+        "not matter: {:.2g} steps",
+        0.5 * count, 2 << dim, heavier, count / std::sqrt(heavier));
+}
+
 /// Looks at a run that ends before its first step.
 template <int Dim>
 class Rehearsal : public run::Observer<Dim> {
@@ -130,6 +142,7 @@ public:
         estimate_.stable_dt = result.stable.dt;
         estimate_.dt = run::choose_step(options_, result.stable.dt);
         estimate_.steps = std::isnan(options_.time) ? options_.steps : run::steps_until(options_.time, estimate_.dt);
+        estimate_.fewer_steps = ways_to_fewer_steps(options_, estimate_.steps, Dim);
         estimate_.end = static_cast<double>(estimate_.steps) * estimate_.dt;
         if (const auto slow = run::slow_cell(scene, result)) estimate_.cell_of_step = slow->text;
         estimate_.damping = damping_of_friction(scene, result);
@@ -207,6 +220,7 @@ std::string text_of(const Estimate& estimate) {
     line("step", fmt::format("{:.4g} s", estimate.dt));
     if (!estimate.damping.empty()) line("damping", estimate.damping);
     line("steps", fmt::format("{}", estimate.steps));
+    if (!estimate.fewer_steps.empty()) line("  fewer by", estimate.fewer_steps);
     line("end", fmt::format("{:.4g} s", estimate.end));
     line("takes", fmt::format("about {}, contact and frames not counted", duration(estimate.seconds)));
     line("memory", fmt::format("about {:.2g} MB", 1e-6 * estimate.bytes));

@@ -21,6 +21,8 @@ struct Estimate {
     std::string cell_of_step{};
     double dt = 0.0;  ///< [s], of memm_async before its levels
     std::int64_t steps = 0;
+    /// Two ways to take fewer of them, with their numbers; empty for a run of at most 100,000 or a given `dt` or `steps`
+    std::string fewer_steps{};
     /// Proposed damping of bodies that rub, "stiffness_damping = 1e-05, ..."; empty if nothing rubs or a body is damped
     std::string damping{};
     std::string law;       ///< of contact, that which acts: "pair_potential"; empty without contact
