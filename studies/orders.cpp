@@ -16,9 +16,9 @@
 #include "abut/dynamics/landing.hpp"
 #include "abut/dynamics/pairs.hpp"
 #include "abut/dynamics/with_scheme.hpp"
-#include "apps/support/comparison.hpp"
 #include "studies/orders/problems.hpp"
 #include "studies/program/entry.hpp"
+#include "studies/schemes/comparison.hpp"
 #include "studies/table/study.hpp"
 
 namespace abut::studies::orders_study {
@@ -228,7 +228,7 @@ std::vector<Method> methods_with_landing() {
     return methods;
 }
 
-apps::Picture picture() {
+Picture picture() {
     std::string script =
         "set multiplot layout 2,3 margins 0.06,0.99,0.08,0.95 spacing 0.055,0.12\nset logscale xy\nunset key\n"
         "set format y \"1e%T\"\nset xrange [300:40000]\nset yrange [1e-13:3]\n"

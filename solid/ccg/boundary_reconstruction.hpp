@@ -69,7 +69,7 @@ template <int Dim>
     constexpr double largest_cosine = 0.6 + 1e-9;  // between 53 and 127 degrees, and rounding
     return std::abs(normal_f.dot(normal_g)) <= largest_cosine;
 }
-/// What must be left of the stiffness of a face as others answer, over Young's modulus |f|/|c|. Else none answers.
+/// Least stiffness that a face keeps as others answer, over Young's modulus |f|/|c|. Below it none answers.
 inline constexpr double least_stiffness = 0.5;
 
 /// A_fg of a cell: the answer of dV/dũ_f to a displacement of g, stabilisation left out; the area

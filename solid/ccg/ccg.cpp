@@ -1,5 +1,6 @@
 #include "abut/solid/ccg/ccg.hpp"
 
+#include <algorithm>
 #include <string>
 #include <utility>
 
@@ -107,10 +108,10 @@ void Ccg<Dim>::Impl::give_way_at_corners(const mesh::Mesh<Dim>& mesh, std::span<
 template <int Dim>
 FreeFaceAnswers<Dim> Ccg<Dim>::Impl::answers_of(std::int32_t cell, std::vector<Vector<Dim>> normals) const {
     const auto& [inverse_measure, lambda, mu] = arrays.cells[cell];
-    return {std::move(normals), lambda, mu, arrays.directed.contains(cell) ? &arrays.directed[cell] : nullptr};
+    return {std::move(normals), lambda, mu, directed_of(cell)};
 }
 
-/// Of a cell of a finite body.
+/// They belong to a cell of a finite body; none to others.
 template <int Dim>
 std::vector<BoundaryFace> Ccg<Dim>::Impl::free_faces_of(std::int32_t cell) const {
     std::vector<BoundaryFace> faces;
@@ -122,21 +123,50 @@ std::vector<BoundaryFace> Ccg<Dim>::Impl::free_faces_of(std::int32_t cell) const
     return faces;
 }
 
-/// What pushes on free faces of a cell of a finite body, where these stand now.
+/// Stress by what pushes on free faces of a cell; nothing where there is none.
 template <int Dim>
-Matrix<Dim> Ccg<Dim>::Impl::stress_of_pushes(std::int32_t cell, const Matrix<Dim>& displacement_gradient) const {
+auto Ccg<Dim>::Impl::stress_of_pushes(std::int32_t cell, const Matrix<Dim>& displacement_gradient) const
+    -> std::optional<StressOfPushes<Dim>> {
+    if (pushed.empty()) return std::nullopt;
+    return finite.contains(cell) ? stress_of_pushes_on_finite(cell, displacement_gradient)
+                                 : stress_of_pushes_on_linear(cell);
+}
+
+/// By L of the free faces: the least energy of a cell and of what pushes its faces is where these give way to it.
+template <int Dim>
+auto Ccg<Dim>::Impl::stress_of_pushes_on_linear(std::int32_t cell) const -> std::optional<StressOfPushes<Dim>> {
+    const BoundaryReconstruction<Dim>& boundary = arrays.boundary;
+    Matrix<Dim> g = Matrix<Dim>::Zero();
+    for (const HalfFace& half_face : arrays.half_faces_of(cell)) {
+        const BoundaryFace b = arrays.boundary_index[half_face.face];
+        if (b == no_face) continue;
+        Vector<Dim> moved = Vector<Dim>::Zero();
+        for (std::int32_t i = boundary.load_offsets[number_of(b)]; i < boundary.load_offsets[number_of(b) + 1]; ++i)
+            moved += boundary.from_traction[i] * push_on(boundary.load_faces[i]);
+        g += arrays.cells[cell].inverse_measure * boundary_measure[b] * moved * arrays.normal_of(b).transpose();
+    }
+    if (g.isZero(0.0)) return std::nullopt;
+    const auto& [inverse_measure, lambda, mu] = arrays.cells[cell];
+    return stress_of_gradient<Dim>(g, lambda, mu, directed_of(cell));
+}
+
+/// Faces, their normals and tractions are those of the deformed cell.
+template <int Dim>
+auto Ccg<Dim>::Impl::stress_of_pushes_on_finite(std::int32_t cell, const Matrix<Dim>& displacement_gradient) const
+    -> std::optional<StressOfPushes<Dim>> {
+    const std::vector<BoundaryFace> faces = free_faces_of(cell);
+    if (std::ranges::none_of(faces, [&](BoundaryFace b) { return !push_on(b).isZero(0.0); })) return std::nullopt;
     const Matrix<Dim> f = Matrix<Dim>::Identity() + displacement_gradient, turn = nearest_rotation(f);
     const Matrix<Dim> to_area = f.determinant() * f.transpose().inverse();  // of areas at rest
     std::vector<Vector<Dim>> normals, tractions;
-    bool is_pushed = false;
-    for (const BoundaryFace b : free_faces_of(cell)) {
-        const Vector<Dim> area = to_area * arrays.normal_of(b), traction = push_on(b) / area.norm();
+    for (const BoundaryFace b : faces) {
+        const Vector<Dim> area = to_area * arrays.normal_of(b);
         normals.push_back(turn.transpose() * area.normalized());
-        tractions.push_back(turn.transpose() * traction);
-        is_pushed = is_pushed || !traction.isZero(0.0);
+        tractions.push_back(turn.transpose() * push_on(b) / area.norm());
     }
-    if (!is_pushed) return Matrix<Dim>::Zero();
-    return turn * answers_of(cell, std::move(normals)).stress(tractions) * turn.transpose();
+    StressOfPushes<Dim> answer = answers_of(cell, std::move(normals)).stress(tractions);
+    answer.in_space = turn * answer.in_space * turn.transpose();
+    return answer;
 }
 
 template <int Dim>
@@ -316,27 +346,10 @@ Matrix<Dim> Ccg<Dim>::stress(std::int32_t cell) const {
     return impl_->steps_have_state ? impl_->steps->stress(cell) : impl_->sweeps.stress(cell);
 }
 
-/// By L of the free faces: the least energy of a cell and of what pushes its faces is where these give way to it.
 template <int Dim>
 Matrix<Dim> Ccg<Dim>::stress_under_pushes(std::int32_t cell) const {
-    const CcgArrays<Dim>& arrays = impl_->arrays;
-    Matrix<Dim> sigma = stress(cell);
-    if (impl_->pushed.empty()) return sigma;
-    if (impl_->finite.contains(cell)) return sigma + impl_->stress_of_pushes(cell, displacement_gradient(cell));
-    const BoundaryReconstruction<Dim>& boundary = arrays.boundary;
-    const auto& [inverse_measure, lambda, mu] = arrays.cells[cell];
-    Matrix<Dim> g = Matrix<Dim>::Zero();
-    for (const HalfFace& half_face : arrays.half_faces_of(cell)) {
-        const BoundaryFace b = arrays.boundary_index[half_face.face];
-        if (b == no_face) continue;
-        Vector<Dim> moved = Vector<Dim>::Zero();
-        for (std::int32_t i = boundary.load_offsets[number_of(b)]; i < boundary.load_offsets[number_of(b) + 1]; ++i)
-            moved += boundary.from_traction[i] * impl_->push_on(boundary.load_faces[i]);
-        g += inverse_measure * impl_->boundary_measure[b] * moved * arrays.normal_of(b).transpose();
-    }
-    sigma += lambda * g.trace() * Matrix<Dim>::Identity() + mu * (g + g.transpose());
-    if (arrays.directed.contains(cell)) sigma += arrays.directed[cell].stress(g);
-    return sigma;
+    const auto pushed = impl_->stress_of_pushes(cell, displacement_gradient(cell));
+    return pushed ? Matrix<Dim>(stress(cell) + pushed->in_space) : stress(cell);
 }
 
 template <int Dim>

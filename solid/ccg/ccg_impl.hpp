@@ -73,7 +73,17 @@ struct Ccg<Dim>::Impl {
     void give_way_at_corners(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials);
     [[nodiscard]] FreeFaceAnswers<Dim> answers_of(std::int32_t cell, std::vector<Vector<Dim>> normals) const;
     [[nodiscard]] std::vector<BoundaryFace> free_faces_of(std::int32_t cell) const;
-    [[nodiscard]] Matrix<Dim> stress_of_pushes(std::int32_t cell, const Matrix<Dim>& displacement_gradient) const;
+    /// Stress out of the plane with nothing that pushes.
+    [[nodiscard]] std::optional<double> out_of_plane_stress(std::int32_t cell,
+                                                            const Matrix<Dim>& displacement_gradient) const;
+    [[nodiscard]] const DirectedStiffness<Dim>* directed_of(std::int32_t cell) const {
+        return arrays.directed.contains(cell) ? &arrays.directed[cell] : nullptr;
+    }
+    [[nodiscard]] std::optional<StressOfPushes<Dim>> stress_of_pushes(std::int32_t cell,
+                                                                      const Matrix<Dim>& displacement_gradient) const;
+    [[nodiscard]] std::optional<StressOfPushes<Dim>> stress_of_pushes_on_linear(std::int32_t cell) const;
+    [[nodiscard]] std::optional<StressOfPushes<Dim>> stress_of_pushes_on_finite(
+        std::int32_t cell, const Matrix<Dim>& displacement_gradient) const;
 
     /// evaluate(sweeps) of those that make steps.
     template <class Evaluate>

@@ -92,18 +92,25 @@ double Ccg<Dim>::plastic_strain(std::int32_t cell) const {
 
 template <int Dim>
 std::optional<double> Ccg<Dim>::out_of_plane_stress(std::int32_t cell) const {
-    if (impl_->plastic.contains(cell))
-        return impl_->plastic.out_of_plane_stress(cell, displacement_gradient(cell)) - impl_->sweeps.heat_out_of_plane(cell);
-    if (impl_->finite.stretch(cell) && impl_->sweeps.bears_nothing(cell)) return 0.0;
-    if (const WarmEnergy<Dim>* warm = impl_->finite.warm_energy(cell))
-        return warm->out_of_plane_stress(impl_->sweeps.law_gradient(cell));
-    if (impl_->arrays.directed.contains(cell))
-        return impl_->sweeps.directed_out_of_plane_stress(cell) - impl_->sweeps.heat_out_of_plane(cell);
-    if (const std::int32_t inelastic = impl_->finite.inelastic(cell); inelastic >= 0)
-        return impl_->finite.inelastic_cell(inelastic).law->out_of_plane_stress(impl_->sweeps.law_gradient(cell),
-                                                                                impl_->sweeps.memory_of(inelastic));
-    if (!impl_->thermal.any() || impl_->finite.contains(cell)) return std::nullopt;
-    return impl_->arrays.cells[cell].lambda * displacement_gradient(cell).trace() - impl_->sweeps.heat_out_of_plane(cell);
+    const Matrix<Dim> g = displacement_gradient(cell);
+    const std::optional<double> alone = impl_->out_of_plane_stress(cell, g);
+    const auto pushed = alone ? impl_->stress_of_pushes(cell, g) : std::nullopt;
+    return pushed ? *alone + pushed->out_of_plane : alone;
+}
+
+template <int Dim>
+std::optional<double> Ccg<Dim>::Impl::out_of_plane_stress(std::int32_t cell,
+                                                          const Matrix<Dim>& displacement_gradient) const {
+    if (plastic.contains(cell))
+        return plastic.out_of_plane_stress(cell, displacement_gradient) - sweeps.heat_out_of_plane(cell);
+    if (finite.stretch(cell) && sweeps.bears_nothing(cell)) return 0.0;
+    if (const WarmEnergy<Dim>* warm = finite.warm_energy(cell)) return warm->out_of_plane_stress(sweeps.law_gradient(cell));
+    if (arrays.directed.contains(cell)) return sweeps.directed_out_of_plane_stress(cell) - sweeps.heat_out_of_plane(cell);
+    if (const std::int32_t inelastic = finite.inelastic(cell); inelastic >= 0)
+        return finite.inelastic_cell(inelastic).law->out_of_plane_stress(sweeps.law_gradient(cell),
+                                                                         sweeps.memory_of(inelastic));
+    if (!thermal.any() || finite.contains(cell)) return std::nullopt;
+    return arrays.cells[cell].lambda * displacement_gradient.trace() - sweeps.heat_out_of_plane(cell);
 }
 
 template <int Dim>

@@ -13,7 +13,7 @@
 
 namespace abut::solid {
 
-/// What contact at the faces of a cell adds to gradients of energy over |c| [Pa].
+/// Terms that contact at the faces of a cell adds to gradients of energy over |c| [Pa].
 template <int Dim>
 struct CellPush {
     Matrix<Dim> affine = Matrix<Dim>::Zero();     ///< in F of the affine faces

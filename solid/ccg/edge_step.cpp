@@ -34,16 +34,53 @@ Contraction contraction_of(double poisson, double x_0, double x_1) {
     return {at_0, at_0 + slope * (x_1 - x_0), slope};
 }
 
+/// Factor of r by heat: a direction is held against it, that of an edge by F, in the plane that out of it.
+template <int Dim>
+double heated(double swelling, double poisson, bool is_edge) {
+    return std::pow(swelling, is_edge || Dim == 2 ? 1.0 + poisson : 1.0);
+}
+
+/// omega x (omega x e).
+template <int Dim>
+Vector<Dim> turned_twice(const SmallMatrix<Dim*(Dim - 1) / 2, 1>& omega, const Vector<Dim>& e) {
+    if constexpr (Dim == 2)
+        return -omega[0] * omega[0] * e;
+    else
+        return omega.cross(omega.cross(e));
+}
+
 }  // namespace
 
-/// Conditions c hold at both ends: e_2.y = e_3.y = 0 with y = F t at an edge, e_i.F n_j - e_j.F n_i = 0 for two normals. Each
-/// is bilinear and no turn of both changes it, so Delta e_k = omega x (mean e_k) with L omega = -c(mean e, Delta F).
 template <int Dim>
 EdgeStep<Dim>::EdgeStep(const FreeCell<Dim>& free, double poisson, const std::array<double, 2>& swelling,
                         const Matrix<Dim>& g, const Matrix<Dim>& change)
     : axes_(free.axes), first_(free.n_tangents), f_(free.axes + g * free.axes) {
+    const bool is_edge = first_ == 1;
     const Matrix<Dim> change_of_f = change * axes_, f_0 = f_ - 0.5 * change_of_f, f_1 = f_ + 0.5 * change_of_f;
-    const Matrix<Dim> turned_0 = turned_axes<Dim>(f_0, is_edge()), turned_1 = turned_axes<Dim>(f_1, is_edge());
+    const Matrix<Dim> turned_0 = turned_axes<Dim>(f_0, is_edge), turned_1 = turned_axes<Dim>(f_1, is_edge);
+    set_turning(turned_0, turned_1, change_of_f);
+
+    Contraction beside{1.0, 1.0, 0.0};
+    if (is_edge) beside = contraction_of(poisson, f_0.col(0).squaredNorm(), f_1.col(0).squaredNorm());
+    const double heat_0 = heated<Dim>(swelling[0], poisson, is_edge), heat_1 = heated<Dim>(swelling[1], poisson, is_edge);
+    const double r_0 = heat_0 * beside.at_0, r_1 = heat_1 * beside.at_1;
+    stretch_slope_ = 0.5 * (heat_0 + heat_1) * beside.slope;
+
+    condensed_ = f_;
+    Matrix<Dim> changed = change_of_f;
+    for (int k = first_; k < Dim; ++k) {
+        condensed_.col(k) = 0.5 * (r_0 * turned_0.col(k) + r_1 * turned_1.col(k));
+        changed.col(k) = r_1 * turned_1.col(k) - r_0 * turned_0.col(k);
+        arms_.col(k) = turned_.col(k) - 0.25 * turned_twice<Dim>(omega_, turned_.col(k));
+    }
+    mean_ = (condensed_ - axes_) * axes_.transpose();
+    change_ = changed * axes_.transpose();
+}
+
+/// Conditions c hold at both ends: e_2.y = e_3.y = 0 with y = F t at an edge, e_i.F n_j - e_j.F n_i = 0 for two normals.
+/// Each is bilinear and no turn of both changes it, so Delta e_k = omega x (mean e_k) with L omega = -c(mean e, Delta F).
+template <int Dim>
+void EdgeStep<Dim>::set_turning(const Matrix<Dim>& turned_0, const Matrix<Dim>& turned_1, const Matrix<Dim>& change_of_f) {
     turned_ = 0.5 * (turned_0 + turned_1);
     auto transposed = SmallMatrix<n_axial, n_axial>::Zero();  // L^T
     Angles of_change = Angles::Zero();                        // c(mean e, Delta F)
@@ -60,27 +97,7 @@ EdgeStep<Dim>::EdgeStep(const FreeCell<Dim>& free, double poisson, const std::ar
             add_condition(moment<Dim>(turned_.col(i), f_.col(j)) - moment<Dim>(turned_.col(j), f_.col(i)),
                           turned_.col(i).dot(change_of_f.col(j)) - turned_.col(j).dot(change_of_f.col(i)));
     to_angles_ = -transposed.inverse();
-    const Angles omega = to_angles_.transpose() * of_change;
-
-    Contraction beside{1.0, 1.0, 0.0};
-    if (is_edge()) beside = contraction_of(poisson, f_0.col(0).squaredNorm(), f_1.col(0).squaredNorm());
-    // A direction is held against the heat: that of the edge by F, in the plane that out of it.
-    const double power = is_edge() || Dim == 2 ? 1.0 + poisson : 1.0;
-    const double heat_0 = std::pow(swelling[0], power), heat_1 = std::pow(swelling[1], power);
-    const double r_0 = heat_0 * beside.at_0, r_1 = heat_1 * beside.at_1;
-    stretch_slope_ = 0.5 * (heat_0 + heat_1) * beside.slope;
-
-    condensed_ = f_;
-    Matrix<Dim> changed = change_of_f;
-    for (int k = first_; k < Dim; ++k) {
-        condensed_.col(k) = 0.5 * (r_0 * turned_0.col(k) + r_1 * turned_1.col(k));
-        changed.col(k) = r_1 * turned_1.col(k) - r_0 * turned_0.col(k);
-        arms_.col(k) = turned_.col(k);
-        if constexpr (Dim == 3) arms_.col(k) -= 0.25 * omega.cross(omega.cross(turned_.col(k)));
-        if constexpr (Dim == 2) arms_.col(k) += 0.25 * omega[0] * omega[0] * turned_.col(k);
-    }
-    mean_ = (condensed_ - axes_) * axes_.transpose();
-    change_ = changed * axes_.transpose();
+    omega_ = to_angles_.transpose() * of_change;
 }
 
 /// With Delta F_cond n_k = omega x (mean F_cond n_k) + arm_k Delta r.
@@ -108,6 +125,19 @@ Matrix<Dim> EdgeStep<Dim>::pull_back(const Matrix<Dim>& gradient) const {
     return result * axes_.transpose();
 }
 
+template <int Dim>
+Matrix<Dim> edge_gradient(const FreeCell<Dim>& free, double poisson, double swelling, const Matrix<Dim>& g) {
+    const bool is_edge = free.n_tangents == 1;
+    Matrix<Dim> f = free.axes + g * free.axes;
+    const Matrix<Dim> turned = turned_axes<Dim>(f, is_edge);
+    double r = heated<Dim>(swelling, poisson, is_edge);
+    if (is_edge) r *= std::pow(f.col(0).squaredNorm(), -0.5 * poisson);
+    for (int k = free.n_tangents; k < Dim; ++k) f.col(k) = r * turned.col(k);
+    return (f - free.axes) * free.axes.transpose();
+}
+
+template Matrix<2> edge_gradient<2>(const FreeCell<2>&, double, double, const Matrix<2>&);
+template Matrix<3> edge_gradient<3>(const FreeCell<3>&, double, double, const Matrix<3>&);
 template class EdgeStep<2>;
 template class EdgeStep<3>;
 

@@ -24,10 +24,6 @@ public:
     /// From G - change/2 to G + change/2. `swelling`: s at both ends [-].
     EdgeStep(const FreeCell<Dim>& free, double poisson, const std::array<double, 2>& swelling, const Matrix<Dim>& g,
              const Matrix<Dim>& change);
-    /// Where nothing changes.
-    EdgeStep(const FreeCell<Dim>& free, double poisson, double swelling, const Matrix<Dim>& g)
-        : EdgeStep(free, poisson, {swelling, swelling}, g, Matrix<Dim>::Zero()) {}
-
     /// F_cond - I, the mean of both ends.
     [[nodiscard]] const Matrix<Dim>& mean() const { return mean_; }
     /// The change of F_cond. Where s changes, a part of it does not come from F.
@@ -39,7 +35,7 @@ private:
     static constexpr int n_axial = Dim * (Dim - 1) / 2;
     using Angles = SmallMatrix<n_axial, 1>;
 
-    [[nodiscard]] bool is_edge() const { return first_ == 1; }
+    void set_turning(const Matrix<Dim>& turned_0, const Matrix<Dim>& turned_1, const Matrix<Dim>& change_of_f);
 
     Matrix<Dim> axes_;       // FreeCell::axes
     int first_;              // column of the first normal: 1 at an edge, 0 at a corner
@@ -47,9 +43,14 @@ private:
     Matrix<Dim> turned_;     // mean of e_k
     Matrix<Dim> condensed_;  // mean of F_cond on the axes
     Matrix<Dim> mean_, change_;
+    Angles omega_;                             // of the step
     SmallMatrix<n_axial, n_axial> to_angles_;  // -L^-T
     Matrix<Dim> arms_;                         // what a change of r moves, by its axis
     double stretch_slope_ = 0.0;               // of r in |F t|^2
 };
+
+/// F_cond - I in one state. `swelling`: s [-].
+template <int Dim>
+[[nodiscard]] Matrix<Dim> edge_gradient(const FreeCell<Dim>& free, double poisson, double swelling, const Matrix<Dim>& g);
 
 }  // namespace abut::solid

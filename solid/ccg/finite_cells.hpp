@@ -89,7 +89,7 @@ public:
         const std::int32_t position = any() ? position_[static_cast<std::size_t>(cell)] : linear;
         return position >= 0 ? &free_[position] : nullptr;
     }
-    /// The same where all their normals are one; null for others, those at edges and corners, too.
+    /// A free cell all of whose normals are one; null for others, those at edges and corners, too.
     [[nodiscard]] const FreeCell<Dim>* of_one_normal(std::ptrdiff_t cell) const {
         const FreeCell<Dim>* free = free_cell(cell);
         return free && free->has_one_normal() ? free : nullptr;

@@ -51,7 +51,7 @@ std::pair<Vector<Dim>, Matrix<Dim>> CcgSweeps<Dim, Real>::tilted_face(BoundaryFa
     if (!free) return {affine, g};
     const FreeEnd<Dim>& state = free_[finite_.free_position(c)];
     const Matrix<Dim> condensed =
-        free->has_one_normal() ? state.gradient() : EdgeStep<Dim>(*free, poisson(c), state.swelling, g).mean();
+        free->has_one_normal() ? state.gradient() : edge_gradient<Dim>(*free, poisson(c), state.swelling, g);
     if (!finite_.is_free(face)) return {affine, condensed};
     return {affine + (condensed - g) * (free->to_faces * arrays_.normal_of(face)), condensed};
 }

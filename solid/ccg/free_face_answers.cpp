@@ -10,9 +10,20 @@
 namespace abut::solid {
 namespace {
 
-constexpr double no_stiffness = 1e-10;  // of the largest eigenvalue: below it a combination of faces has none
+constexpr double no_stiffness = 1e-10;  // of the largest eigenvalue, as of BoundaryReconstruction
 
 }  // namespace
+
+template <int Dim>
+StressOfPushes<Dim> stress_of_gradient(const Matrix<Dim>& g, double lambda, double mu,
+                                       const DirectedStiffness<Dim>* directed) {
+    StressOfPushes<Dim> sigma{lambda * g.trace() * Matrix<Dim>::Identity() + mu * (g + g.transpose())};
+    if (Dim == 2) sigma.out_of_plane = lambda * g.trace();
+    if (!directed) return sigma;
+    sigma.in_space += directed->stress(g);
+    if constexpr (Dim == 2) sigma.out_of_plane += directed->out_of_plane_stress(g);
+    return sigma;
+}
 
 template <int Dim>
 FreeFaceAnswers<Dim>::FreeFaceAnswers(std::vector<Vector<Dim>> normals, double lambda, double mu,
@@ -36,7 +47,7 @@ FreeFaceAnswers<Dim>::FreeFaceAnswers(std::vector<Vector<Dim>> normals, double l
 }
 
 template <int Dim>
-Matrix<Dim> FreeFaceAnswers<Dim>::stress(std::span<const Vector<Dim>> tractions) const {
+StressOfPushes<Dim> FreeFaceAnswers<Dim>::stress(std::span<const Vector<Dim>> tractions) const {
     Eigen::VectorXd all(std::ssize(normals_) * Dim);
     for (std::size_t i = 0; i < tractions.size(); ++i)
         all.segment<Dim>(static_cast<Eigen::Index>(i) * Dim) = as_eigen(tractions[i]);
@@ -44,9 +55,7 @@ Matrix<Dim> FreeFaceAnswers<Dim>::stress(std::span<const Vector<Dim>> tractions)
     Matrix<Dim> g = Matrix<Dim>::Zero();
     for (std::size_t i = 0; i < normals_.size(); ++i)
         g += Vector<Dim>(z.segment<Dim>(static_cast<Eigen::Index>(i) * Dim)) * normals_[i].transpose();
-    Matrix<Dim> sigma = lambda_ * g.trace() * Matrix<Dim>::Identity() + mu_ * (g + g.transpose());
-    if (directed_) sigma += directed_->stress(g);
-    return sigma;
+    return stress_of_gradient<Dim>(g, lambda_, mu_, directed_);
 }
 
 template <int Dim>
@@ -56,6 +65,8 @@ double FreeFaceAnswers<Dim>::modulus(std::size_t face) const {
     return 1.0 / normals_[face].dot(of_face * normals_[face]);
 }
 
+template StressOfPushes<2> stress_of_gradient<2>(const Matrix<2>&, double, double, const DirectedStiffness<2>*);
+template StressOfPushes<3> stress_of_gradient<3>(const Matrix<3>&, double, double, const DirectedStiffness<3>*);
 template class FreeFaceAnswers<2>;
 template class FreeFaceAnswers<3>;
 

@@ -18,7 +18,7 @@ inline constexpr std::array<Word<MaterialLaw>, 5> material_law_words{
 enum class MaterialUse {
     motion,       ///< of every body
     deformation,  ///< of one that deforms
-    damping,      ///< of Capability::damping
+    damping,      ///< of Feature::damping
     temperature,  ///< of one with a temperature
 };
 

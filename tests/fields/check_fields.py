@@ -41,6 +41,7 @@ def pressed_block(programs, shape, across, kinematics, layer=None, heated=0.0):
     dim = 3 if shape in ("hexahedron", "tetrahedron") else 2
     vector = lambda first, rest: "[" + ", ".join([first] + [rest] * (dim - 1)) + "]"
     shortened = 0 if heated else 1 - STRETCH
+    heat = f'thermal_expansion = 1.0\ntemperature_rise = "{heated}*min(t/20, 1)"\n' if heated else ""
     cells = [] if layer is None else range(across)
     probes = "".join(f'[output.probes.cell_{i}]\nbody = "block"\npoint = [{1 - (layer + 0.5) / across}, {(i + 0.5) / across}]\n'
                      for i in cells)
@@ -59,9 +60,7 @@ poisson = 0.0
 density = 1.0
 mass_damping = 0.5
 kinematics = "{kinematics}"
-thermal_expansion = 1.0
-temperature_rise = "{heated}*min(t/20, 1)"
-[obstacles.wall]
+{heat}[obstacles.wall]
 shape = "plane"
 point = {vector("0", "0")}
 normal = {vector("1", "0")}

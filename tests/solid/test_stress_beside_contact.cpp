@@ -57,11 +57,14 @@ void check_pile(const mesh::Mesh<Dim>& mesh, const solid::SolidOptions<Dim>& opt
     solid.force(solid.cells().to_q(u), force);
     Matrix<Dim> exact = Matrix<Dim>::Zero();
     exact(Dim - 1, Dim - 1) = -block_pressure;
+    // Strain is plane: nu times the pressure out of it.
+    const double out_of_plane = Dim == 2 ? -elastic_block.poisson * block_pressure : 0.0;
     double worst_force = 0.0, worst_stress = 0.0;
     for (std::int32_t c = 0; c < mesh.n_cells(); ++c) {
         const double area = std::pow(mesh.cell_measure[c], (Dim - 1.0) / Dim);
         raise(worst_force, vectors<Dim>(force)[c].norm() / (block_pressure * area));
         raise(worst_stress, (solid.cells().stress(c) - exact).norm() / block_pressure);
+        raise(worst_stress, std::abs(solid.cells().out_of_plane_stress(c) - out_of_plane) / block_pressure);
     }
     CHECK(worst_force < allowed_error(options.kinematics[0]));
     CHECK(worst_stress < allowed_error(options.kinematics[0]));
@@ -115,4 +118,14 @@ TEST_CASE("blocks of bricks whose faces do not match press each other with a uni
         CAPTURE(static_cast<int>(shape));
         check_pile<3>(two_blocks<3>(shape), pressed_pile<3>(2, kinematics, ContactLaw::pair_potential, "upper.zmax"));
     }
+}
+
+TEST_CASE("a block whose law has a stress out of the plane of its own shows that of the pressure on it, too",
+          "[solid][contact][fields]") {
+    const Kinematics kinematics = GENERATE(Kinematics::small, Kinematics::floating, Kinematics::finite);
+    CAPTURE(static_cast<int>(kinematics));
+    solid::SolidOptions<2> options = pressed_pile<2>(1, kinematics, ContactLaw::pair_potential, "ymax");
+    options.materials[0].thermal_expansion = 1e-5;
+    options.temperature_rise = {{.value = [](double, const Vector<2>&) { return 0.0; }}};
+    check_pile<2>(boxes<2>(8).front().mesh, options);
 }

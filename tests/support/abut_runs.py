@@ -59,8 +59,8 @@ def rows_of(file):
 
 
 def open_by(rows):
-    """Largest |H~ - H~0 + D - W| of rows of energy.csv [J], without what restarts change."""
-    kept = [row["pseudo_energy"] + row["dissipated"] - row["work"] - row["restart_jumps"] for row in rows]
+    """Largest |H~ - H~0 + D - W| of rows of energy.csv [J]; neutral restarts keep H~."""
+    kept = [row["pseudo_energy"] + row["dissipated"] - row["work"] for row in rows]
     return max(abs(value - kept[0]) for value in kept)
 
 
@@ -70,7 +70,7 @@ def excess(rows):
 
 
 def balance_of_moved(rows):
-    """The same over the energies that moved, where these are less than the energy in play."""
+    """`open_by` over the energies that moved, where these are less than the energy in play."""
     names = "kinetic", "potential", "work", "dissipated"
     return open_by(rows) / sum(max(abs(row[name] - rows[0][name]) for row in rows) for name in names)
 
