@@ -39,16 +39,22 @@ Events::Events(std::vector<Function> functions, std::vector<int> sides)
                        std::to_string(functions_.size()) + " functions. Give +1 or -1 for each.");
 }
 
-double Events::least(std::span<const double> q) const {
+std::vector<double> Events::values(std::span<const double> q) const {
+    std::vector<double> values(functions_.size());
+    for (std::size_t i = 0; i < values.size(); ++i) values[i] = signed_value(i, q);
+    return values;
+}
+
+double Events::least(std::span<const double> q, std::span<const double> scales) const {
     double least = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i < functions_.size(); ++i) least = std::min(least, signed_value(i, q));
+    for (std::size_t i = 0; i < functions_.size(); ++i) least = std::min(least, signed_value(i, q) / scales[i]);
     return least;
 }
 
-std::size_t Events::turn(std::span<const double> q, double tolerance) {
+std::size_t Events::turn(std::span<const double> q, std::span<const double> scales, double tolerance) {
     std::size_t turned = 0;
     for (std::size_t i = 0; i < functions_.size(); ++i) {
-        if (signed_value(i, q) > tolerance) continue;
+        if (signed_value(i, q) > tolerance * scales[i]) continue;
         sides_[i] = -sides_[i];
         ++turned;
     }
@@ -62,6 +68,15 @@ double Events::signed_value(std::size_t i, std::span<const double> q) const {
                        " is not a number. The run has lost its solution, or the function is not defined there: take a "
                        "shorter step.");
     return value;
+}
+
+std::vector<double> detail::event_scales(std::span<const double> at_start, std::span<const double> at_end) {
+    std::vector<double> scales(at_start.size(), 0.0);
+    for (const std::span<const double> values : {at_start, at_end})
+        for (std::size_t i = 0; i < scales.size(); ++i)
+            if (std::isfinite(values[i])) scales[i] = std::max(scales[i], std::abs(values[i]));
+    std::ranges::replace(scales, 0.0, 1.0);
+    return scales;
 }
 
 }  // namespace abut::dynamics

@@ -19,11 +19,12 @@ public:
     Events(std::vector<Function> functions, std::vector<int> sides);
 
     [[nodiscard]] std::span<const int> sides() const { return sides_; }
-    /// Least of all functions times their sides: < 0 beyond an event, infinite without functions. Throws Diverged where one
-    /// is not a number.
-    [[nodiscard]] double least(std::span<const double> q) const;
-    /// Turns the sides of those that are at most `tolerance` times their side. Returns how many.
-    std::size_t turn(std::span<const double> q, double tolerance);
+    /// All functions times their sides: < 0 beyond an event. Throws Diverged where one is not a number.
+    [[nodiscard]] std::vector<double> values(std::span<const double> q) const;
+    /// Least of these over the scales of the functions, which are > 0; infinite without functions. Throws as `values`.
+    [[nodiscard]] double least(std::span<const double> q, std::span<const double> scales) const;
+    /// Turns the sides of those that, times their side, are at most `tolerance` times their own scale. Returns how many.
+    std::size_t turn(std::span<const double> q, std::span<const double> scales, double tolerance);
 
 private:
     [[nodiscard]] double signed_value(std::size_t i, std::span<const double> q) const;
@@ -31,5 +32,10 @@ private:
     std::vector<Function> functions_;
     std::vector<int> sides_;
 };
+
+namespace detail {
+/// Scale of each function: the largest size of its finite values at both ends of a step; 1 where these are 0 or none.
+[[nodiscard]] std::vector<double> event_scales(std::span<const double> at_start, std::span<const double> at_end);
+}  // namespace detail
 
 }  // namespace abut::dynamics

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstddef>
 #include <utility>
+#include <vector>
 
 #include "abut/dynamics/composed.hpp"
 #include "abut/dynamics/events.hpp"
@@ -24,9 +25,9 @@ public:
     /// The integrator must outlive it.
     Landing(Composed<S>& integrator, Events events) : integrator_(integrator), events_(std::move(events)) {}
 
-    /// One step of the integrator's dt, or a shorter one to the first event within it: where the least function is 0 up to
-    /// 1e-14 of its largest value, or the step is known to 1e-15 of dt. The integrator keeps its dt. Throws Diverged where
-    /// a function is not a number; the state is then that before the step.
+    /// One step of the integrator's dt, or a shorter one to the first event within it: where a function is 0 up to 1e-14 of
+    /// its own values at the ends of the whole step, or the step is known to 1e-15 of dt. The integrator keeps its dt.
+    /// Throws Diverged where a function is not a number; the state is then that before the step.
     LandedStep step() {
         const IntegratorState start = integrator_.state();
         try {
@@ -41,7 +42,7 @@ public:
 private:
     static constexpr double value_tolerance = 1e-14, width_tolerance = 1e-15;
 
-    /// An interval of steps in which the least function becomes negative.
+    /// An interval of steps in which the least function becomes negative, with its values over their scales.
     struct Bracket {
         double low, high, at_low, at_high;
 
@@ -55,28 +56,32 @@ private:
     };
 
     LandedStep step_from(const IntegratorState& start) {
-        const double dt = start.dt, at_start = events_.least(start.q);
-        const double at_end = least_after(start, dt);
-        if (!(at_end < 0.0)) return {dt, 0, 1};
-        const double tolerance = value_tolerance * std::max(std::abs(at_start), std::abs(at_end));
-        Bracket bracket{0.0, dt, std::max(at_start, 0.0), at_end};
-        double taken = dt;
+        const std::vector<double> at_start = events_.values(start.q);
+        take(start, start.dt);
+        const std::vector<double> at_end = events_.values(integrator_.q());
+        if (std::ranges::none_of(at_end, [](double value) { return value < 0.0; })) return {start.dt, 0, 1};
+        return find(start, detail::event_scales(at_start, at_end));
+    }
+    /// The first event, after a whole step that has gone beyond one.
+    LandedStep find(const IntegratorState& start, const std::vector<double>& scales) {
+        const double dt = start.dt;
+        Bracket bracket{0.0, dt, std::max(events_.least(start.q, scales), 0.0), events_.least(integrator_.q(), scales)};
         for (int trials = 2;; ++trials) {
             const bool is_narrow = bracket.width() <= width_tolerance * dt;
-            taken = is_narrow ? bracket.high : trials % 3 == 0 ? bracket.middle() : bracket.secant();
-            const double value = least_after(start, taken);
-            if (is_narrow || std::abs(value) <= tolerance) return land(dt, taken, tolerance, trials);
+            const double taken = is_narrow ? bracket.high : trials % 3 == 0 ? bracket.middle() : bracket.secant();
+            take(start, taken);
+            const double value = events_.least(integrator_.q(), scales);
+            if (is_narrow || std::abs(value) <= value_tolerance) return land(dt, taken, scales, trials);
             (value < 0.0 ? bracket.high : bracket.low) = taken;
             (value < 0.0 ? bracket.at_high : bracket.at_low) = value;
         }
     }
-    double least_after(const IntegratorState& start, double dt) {
+    void take(const IntegratorState& start, double dt) {
         integrator_.restore(start);
         integrator_.step(dt, StepChange::keep);
-        return events_.least(integrator_.q());
     }
-    LandedStep land(double dt, double taken, double tolerance, int trials) {
-        const std::size_t turned = events_.turn(integrator_.q(), tolerance);
+    LandedStep land(double dt, double taken, const std::vector<double>& scales, int trials) {
+        const std::size_t turned = events_.turn(integrator_.q(), scales, value_tolerance);
         integrator_.set_step(dt, StepChange::keep);
         return {taken, turned, trials};
     }

@@ -33,10 +33,15 @@ void check_stable_step(double stable_step) {
                        {.value = stable_step, .allowed = 0.0});
 }
 
-void check_held(std::span<const double> of_scheme) {
+void check_held(std::span<const double> of_scheme, double dt) {
     if (of_scheme.size() != 1 || !(of_scheme.front() >= 0.0) || !std::isfinite(of_scheme.front()))
         throw BadInput("Pairs: a saved state has " + std::to_string(of_scheme.size()) +
                        " lengths of a path that is held back; one is needed, >= 0. Restore it under Pairs.");
+    const double held = of_scheme.front();
+    if (held > 0.0 && dt != held)
+        throw BadInput("Pairs: a saved state holds back a path of " + number(held) + " s, and its dt is " + number(dt) +
+                           " s, which must be the same. Restore a state as Pairs has saved it.",
+                       {.value = dt, .allowed = held});
 }
 
 void refuse_pairs(const char* what) {

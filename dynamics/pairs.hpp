@@ -23,8 +23,9 @@ namespace detail {
 void check_stable_step(double stable_step);
 /// Throws BadInput: `what` the system has, in the words of the user.
 [[noreturn]] void refuse_pairs(const char* what);
-/// Throws BadInput for a saved state without the length of the path that is held back, or with one < 0.
-void check_held(std::span<const double> of_scheme);
+/// Throws BadInput for a saved state without the length of the path that is held back, or with one < 0, or with one that is
+/// not 0 and not the step of the integrator.
+void check_held(std::span<const double> of_scheme, double dt);
 
 /// Counts steps for a report.
 class StepChanges {
@@ -63,22 +64,25 @@ public:
         memm_.restore(std::move(state));
     }
 
-    /// Goes on by d [s]. Throws BadInput, and stays as it is, unless d is > 0 and finite.
+    /// Goes on by d [s]. Throws BadInput unless d is > 0 and finite. Where a step throws, for d or as a mean force does, all
+    /// stays as it is, except a memory of the system itself.
     void step(double d) {
         step(d, [](double, double) {});
     }
-    /// Goes on by d under loads from outside: `load(before, now)` is called before each of the two mean forces, which covers
-    /// `before` seconds under the loads of the last step and `now` seconds under those of this one. The system then has to
-    /// have the mean of both.
+    /// Goes on by d under loads from outside: `load(before, now)` is called before each of the two mean forces, which acts
+    /// for `before` seconds under the loads of the last step and for `now` seconds under those of this one. The system then
+    /// has to have the mean of both. Where `load` throws, all stays as it is, too.
     template <class Load>
     void step(double d, const Load& load) {
         detail::check_step(d);
         const double quarter = 0.25 * d;
-        load(held_, quarter);
-        memm_.step(held_ + quarter, StepChange::keep);
-        load(0.0, 2.0 * quarter);
-        memm_.step(2.0 * quarter, StepChange::keep);
-        memm_.set_step(quarter, StepChange::keep);
+        or_as_before([&] {
+            load(held_, quarter);
+            memm_.step(held_ + quarter, StepChange::keep);
+            load(0.0, 2.0 * quarter);
+            memm_.step(2.0 * quarter, StepChange::keep);
+            memm_.set_step(quarter, StepChange::keep);
+        });
         held_ = quarter;
         ++steps_;
         changes_.count(d);
@@ -91,13 +95,15 @@ public:
     [[nodiscard]] std::span<const double> q() { return held_ > 0.0 ? memm_.next_q() : memm_.q(); }
 
     /// All at this time, with the kick that is held back: a and b are `p_before` and `p_after`, p = (a + b)/2, and H~ =
-    /// 1/2 a . M^-1 b + V(q). 1 force; what follows does not depend on it.
+    /// 1/2 a . M^-1 b + V(q). 1 force; what follows does not depend on it, also where that throws.
     [[nodiscard]] IntegratorState synchronised() requires(!FollowedSystem<S>) {
         if (held_ == 0.0) return memm_.state();
-        const IntegratorState held = memm_.state();
-        memm_.step();
-        IntegratorState state = memm_.state();
-        memm_.restore(held);
+        IntegratorState state;
+        or_as_before([&] {
+            memm_.step();
+            state = memm_.state();
+        });
+        memm_.restore(before_);
         std::swap(state.p_before, state.p_after);
         state.steps = steps_;
         return state;
@@ -115,10 +121,10 @@ public:
         state.of_scheme = {held_};
         return state;
     }
-    /// Goes on from there with the same bits; the report goes on from what it is. Throws BadInput, and stays as it is, for a
-    /// state of another size or with a value that is not finite.
+    /// Goes on from there, bitwise identical; the report goes on from what it is. Throws BadInput, and stays as it is, for a
+    /// state of another size, with a value that is not finite, or whose dt is not the length of the path that is held back.
     void restore(IntegratorState state) {
-        detail::check_held(state.of_scheme);
+        detail::check_held(state.of_scheme, state.dt);
         const double held = state.of_scheme.front();
         const std::int64_t steps = state.steps;
         state.of_scheme.clear();
@@ -139,9 +145,31 @@ private:
         return system;
     }
 
+    /// Does it, or throws with the integrator as it was. No allocation after the first time.
+    template <class Action>
+    void or_as_before(const Action& action) {
+        remember();
+        try {
+            action();
+        } catch (...) {
+            memm_.restore(before_);
+            throw;
+        }
+    }
+    void remember() {
+        before_.q.assign(memm_.q().begin(), memm_.q().end());
+        before_.p_before.assign(memm_.p_before().begin(), memm_.p_before().end());
+        before_.p_after.assign(memm_.p_after().begin(), memm_.p_after().end());
+        before_.dt = memm_.dt();
+        before_.time = memm_.time();
+        before_.steps = memm_.steps();
+        before_.restart_jumps = memm_.restart_jumps();
+    }
+
     S& system_;
-    Memm<S> memm_;       // at the start of the path that is held back, with its length as dt
-    double held_ = 0.0;  // length of that path [s]
+    Memm<S> memm_;            // at the start of the path that is held back, with its length as dt
+    double held_ = 0.0;       // length of that path [s]
+    IntegratorState before_;  // of memm_, before what may throw
     std::int64_t steps_ = 0;
     detail::StepChanges changes_;
 };

@@ -4,17 +4,20 @@
 // area vector (N_x, N_y, N_t) of all patches in a cell tells how much of its sides is open during the step, and its area
 // after it: gas in a cell is closed in space and time, so that these are sums along rows and columns. Fluxes balance for
 // any motion: mass, momentum and energy are exact, and a uniform flow stays uniform past a solid that flows with it. A cell
-// of less than half a square mixes with its neighbour away from the wall, which keeps the long step. The pressure on a wall
-// is that of the exact Riemann problem between the gas and a piston. L. Monasse et al., J. Comput. Phys. 231 (2012) 2977,
-// have solids in a fixed grid with mixing of small cells; the sums in space and time are simpler than their swept areas.
+// of less than half a square, before a step or after it, mixes with its neighbour away from the wall, which keeps the long
+// step. The pressure on a wall is that of the exact Riemann problem between the gas and a piston. L. Monasse et al., J.
+// Comput. Phys. 231 (2012) 2977, have solids in a fixed grid with mixing of small cells; the sums in space and time are
+// simpler than their swept areas.
 //
-// Solids may be several, and turn. One that breaks goes on as its parts, if these cover at first what it covered. They must be
-// thicker than a square: gas in one square on both sides of a thin one mixes. Gas that is squeezed to nothing ends the run.
+// Solids may be several, and turn. One that breaks goes on as its parts, if these cover at first what it covered. They must
+// be thicker than a square: gas in one square on both sides of a thin one mixes. Gas that is squeezed to nothing ends the
+// run, as does a vacuum.
 #pragma once
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdio>
 #include <functional>
 #include <numeric>
 #include <span>
@@ -43,7 +46,7 @@ inline State state_of(const Content& content, double area) {
     return {content[0] / area, u, v, (ratio - 1.0) * (content[3] - 0.5 * (content[1] * u + content[2] * v)) / area};
 }
 
-/// On a piston towards which gas flows with w, relative to it: a shock, or a fan for w < 0. Exact.
+/// Pressure on a piston towards which gas flows with w, relative to it: a shock, or a fan for w < 0. Exact.
 inline double wall_pressure(const State& gas, double w) {
     const double a = gas.sound(), b = 0.25 * (ratio + 1.0) * w;
     if (w > 0.0) return gas.p + gas.rho * w * (b + std::hypot(b, a));
@@ -56,7 +59,7 @@ inline Content flux(const State& gas) {
     return {q[1], q[1] * gas.u + gas.p, q[2] * gas.u, (q[3] + gas.p) * gas.u};
 }
 
-/// Along x between two states: Toro's HLLC, with the speeds of Davis.
+/// Flux along x between two states: Toro's HLLC, with the speeds of Davis.
 inline Content hllc(const State& left, const State& right) {
     const double s_left = std::min(left.u - left.sound(), right.u - right.sound());
     const double s_right = std::max(left.u + left.sound(), right.u + right.sound());
@@ -122,6 +125,7 @@ struct Grid {
     Point corner;  // the lowest [m]
     double size;   // of its squares [m]
     int columns, rows;
+    [[nodiscard]] double line(int axis, int i) const { return corner[axis] + i * size; }  // before cells i
     [[nodiscard]] int cells() const { return columns * rows; }
     [[nodiscard]] Point centre(int cell) const {
         return {corner[0] + (cell % columns + 0.5) * size, corner[1] + (cell / columns + 0.5) * size};
@@ -130,9 +134,23 @@ struct Grid {
 
 enum class Side { wall, open };  // open: nothing comes back
 
+/// Cells in groups, each known by one of its cells.
+class Groups {
+public:
+    explicit Groups(int cells) : next_(cells) { std::iota(next_.begin(), next_.end(), 0); }
+    [[nodiscard]] int of(int cell) {
+        while (next_[cell] != cell) cell = next_[cell] = next_[next_[cell]];
+        return cell;
+    }
+    void join(int cell, int other) { next_[of(cell)] = of(other); }
+
+private:
+    std::vector<int> next_;
+};
+
 class Gas {
 public:
-    /// With solids that rest at `after` of their walls, and gas in the state that `start` has at centres of cells.
+    /// Starts with solids that rest at `after` of their walls, and gas in the state that `start` has at centres of cells.
     Gas(const Grid& grid, Side sides, const std::vector<Wall>& walls, const std::function<State(Point)>& start)
         : grid_(grid),
           sides_(sides),
@@ -147,8 +165,9 @@ public:
         }
     }
 
-    [[nodiscard]] double stable_step() const {
-        double fastest = 0.0;
+    /// Longest stable step [s], with walls of at most this speed [m/s]. It matters where they withdraw faster than sound.
+    [[nodiscard]] double stable_step(double wall_speed = 0.0) const {
+        double fastest = wall_speed;
         for (int cell = 0; cell < grid_.cells(); ++cell) {
             const State& here = state_[cell];
             if (!is_empty(area_[cell]))
@@ -157,19 +176,22 @@ public:
         return 0.3 * grid_.size / fastest;
     }
 
-    /// Returns the impulse on each wall [N s/m]. Throws where solids leave no room for gas that is between them.
+    /// Returns the impulse on each wall [N s/m]. Throws, and is of no use afterwards, where solids leave no room for gas
+    /// between them, where they part and no gas reaches what they uncover, and where a density or pressure is not > 0: the
+    /// step is too long, or a wall leaves a vacuum behind.
     std::vector<Point> step(double dt, const std::vector<Wall>& walls) {
         cut(walls, dt);
-        const std::vector<int> mixed = groups();
-        fill(mixed);
+        Groups groups = mixing_groups();
+        const std::vector<Part> before = parts(groups);
+        fill(groups, before);
         add_fluxes();
-        const std::vector<Point> impulse = push(walls, dt);
+        const std::vector<Point> impulse = push(walls, dt, groups, before);
         for (int cell = 0; cell < grid_.cells(); ++cell) area_[cell] -= inside(cell)[2];
-        mix(mixed);
+        mix(groups, before);
         return impulse;
     }
 
-    /// What is in the gas, and what has left it through the sides of the grid: 0 mass, 1 and 2 momentum, 3 energy.
+    /// Content of the gas, with that which has left it through the sides of the grid: 0 mass, 1 and 2 momentum, 3 energy.
     [[nodiscard]] double sum(int k) const {
         double sum = left_[k];
         for (const Content& cell : content_) sum += cell[k];
@@ -185,15 +207,20 @@ private:
         int cell;
         Event area;
     };
+    struct Part {
+        double area = 0.0;
+        Content content{};
+    };
     static constexpr double tiny = 1e-12;
     [[nodiscard]] bool is_empty(double area) const { return area < tiny * grid_.size * grid_.size; }
     [[nodiscard]] Event& around(int i, int j) { return swept_[(j + 1) * (grid_.columns + 2) + i + 1]; }
     [[nodiscard]] const Event& inside(int cell) { return around(cell % grid_.columns, cell / grid_.columns); }
-    // What was open of sides during the step [m s]: before cell i of row j along x, before cell j of column i along y.
+    // Sides, as far as they were open during the step [m s]: before cell i of row j along x, before cell j of column i
+    // along y.
     [[nodiscard]] double& open_x(int i, int j) { return open_x_[j * (grid_.columns + 1) + i]; }
     [[nodiscard]] double& open_y(int i, int j) { return open_y_[j * grid_.columns + i]; }
 
-    /// The same solids, which come from where there is no grid: what they sweep is what they cover.
+    /// These solids, but coming from where there is no grid: what they sweep is what they cover.
     [[nodiscard]] std::vector<Wall> from_beyond(std::vector<Wall> walls) const {
         double lowest = grid_.corner[0];
         for (const Wall& wall : walls) lowest = std::min({lowest, wall.after[0][0], wall.after[1][0]});
@@ -213,36 +240,46 @@ private:
             const auto& [before, after, motion] = walls[wall];
             const auto event = [](const Point& x, double t) { return Event{x[0], x[1], t}; };
             const Patch ring{event(before[0], 0.0), event(after[0], dt), event(after[1], dt), event(before[1], 0.0)};
-            Event middle{};  // four triangles, and not two: a mirrored wall is cut as its image
-            for (const Event& corner : ring)
-                for (int i = 0; i < 3; ++i) middle[i] += 0.25 * corner[i];
+            Event middle;  // four triangles, and not two: a mirrored wall is cut as its image
+            for (int i = 0; i < 3; ++i) middle[i] = 0.25 * ((ring[0][i] + ring[2][i]) + (ring[1][i] + ring[3][i]));
             for (int k = 0; k < 4; ++k) cut(wall, {ring[k], ring[(k + 1) % 4], middle}, 0, {});
         }
         find_open_sides(dt);
     }
 
-    /// Along one axis after the other; what lies beyond the grid goes to its border.
-    void cut(std::size_t wall, Patch patch, int axis, std::array<int, 2> place) {
+    /// Cuts along one axis after the other; what lies beyond the grid goes to its border.
+    void cut(std::size_t wall, Patch patch, int axis, std::array<int, 2> index) {
         if (patch.size() < 3) return;
-        if (axis == 2) {
-            const Event area = area_vector(patch);
-            for (int i = 0; i < 3; ++i) around(place[0], place[1])[i] += area[i];
-            if (place[0] >= 0 && place[0] < grid_.columns && place[1] >= 0 && place[1] < grid_.rows)
-                pieces_.push_back({wall, place[1] * grid_.columns + place[0], area});
-            return;
-        }
-        const int n = axis == 0 ? grid_.columns : grid_.rows;
+        if (axis == 2) return add(wall, area_vector(patch), index);
         const auto by_axis = [&](const Event& a, const Event& b) { return a[axis] < b[axis]; };
-        const double lowest = (*std::ranges::min_element(patch, by_axis))[axis];
-        int i = static_cast<int>(std::clamp(std::floor((lowest - grid_.corner[axis]) / grid_.size), -1.0, double(n)));
-        for (; i < n && patch.size() >= 3; ++i) {
-            auto [below, above] = split(patch, axis, grid_.corner[axis] + (i + 1) * grid_.size);
-            place[axis] = i;
-            cut(wall, std::move(below), axis + 1, place);
+        const auto [low, high] = std::ranges::minmax_element(patch, by_axis);
+        int& i = index[axis];
+        i = index_of((*low)[axis], axis);
+        if ((*low)[axis] == (*high)[axis]) {  // on a line it is in the cell that has its gas, not in both
+            if (i >= 0 && (*low)[axis] == grid_.line(axis, i) && area_vector(patch)[axis] > 0.0) --i;
+            return cut(wall, std::move(patch), axis + 1, index);
+        }
+        for (; i < cells_along(axis) && patch.size() >= 3; ++i) {
+            auto [below, above] = split(patch, axis, grid_.line(axis, i + 1));
+            cut(wall, std::move(below), axis + 1, index);
             patch = std::move(above);
         }
-        place[axis] = n;
-        cut(wall, std::move(patch), axis + 1, place);
+        cut(wall, std::move(patch), axis + 1, index);
+    }
+    void add(std::size_t wall, const Event& area, std::array<int, 2> index) {
+        for (int i = 0; i < 3; ++i) around(index[0], index[1])[i] += area[i];
+        if (index[0] >= 0 && index[0] < grid_.columns && index[1] >= 0 && index[1] < grid_.rows)
+            pieces_.push_back({wall, index[1] * grid_.columns + index[0], area});
+    }
+    [[nodiscard]] int cells_along(int axis) const { return axis == 0 ? grid_.columns : grid_.rows; }
+
+    /// Index of the cell with line(i) <= x < line(i + 1), as these are rounded; -1 before the first line, n from the last.
+    [[nodiscard]] int index_of(double x, int axis) const {
+        const int n = cells_along(axis);
+        int i = static_cast<int>(std::clamp(std::floor((x - grid_.corner[axis]) / grid_.size), -1.0, double(n)));
+        while (i >= 0 && x < grid_.line(axis, i)) --i;
+        while (i < n && x >= grid_.line(axis, i + 1)) ++i;
+        return i;
     }
 
     void find_open_sides(double dt) {
@@ -277,58 +314,96 @@ private:
         const int axis = std::abs(wall[0]) >= std::abs(wall[1]) ? 0 : 1;
         const auto& away = sides[2 * axis + (wall[axis] > 0.0 ? 0 : 1)];
         if (wall[axis] != 0.0 && away.first >= 0 && away.second > 0.0) return away.first;
+        return most_open(sides, [](int) { return true; });
+    }
+    /// The neighbour of those that are `wanted` towards which most is open, or -1.
+    template <class Wanted>
+    [[nodiscard]] static int most_open(const std::array<std::pair<int, double>, 4>& sides, const Wanted& wanted) {
         std::pair<int, double> best{-1, 0.0};
         for (const auto& side : sides)
-            if (side.first >= 0 && side.second > best.second) best = side;
+            if (side.first >= 0 && side.second > best.second && wanted(side.first)) best = side;
         return best.first;
     }
 
-    /// Of each cell, the first of those that it mixes with at the end of the step.
-    [[nodiscard]] std::vector<int> groups() {
-        std::vector<int> first(grid_.cells());
-        std::iota(first.begin(), first.end(), 0);
-        const auto root = [&](int cell) {
-            while (first[cell] != cell) cell = first[cell] = first[first[cell]];
-            return cell;
-        };
+    /// Cells that mix at the end of the step.
+    [[nodiscard]] Groups mixing_groups() {
+        Groups groups(grid_.cells());
         for (int cell = 0; cell < grid_.cells(); ++cell) {
-            if (area_[cell] - inside(cell)[2] >= 0.5 * grid_.size * grid_.size) continue;
-            if (const int other = partner(cell); other >= 0) first[root(cell)] = root(other);
+            const double least = std::min(area_[cell], area_[cell] - inside(cell)[2]);
+            if (least >= 0.5 * grid_.size * grid_.size) continue;
+            if (const int other = partner(cell); other >= 0) groups.join(cell, other);
         }
-        for (int cell = 0; cell < grid_.cells(); ++cell) first[cell] = root(cell);
-        return first;
+        for (bool changed = true; changed;) changed = join_uncovered(groups);
+        return groups;
+    }
+    /// Joins groups that have no gas before the step to where most is open, as in a gap between solids that part. Returns
+    /// whether there was one.
+    bool join_uncovered(Groups& groups) {
+        bool changed = false;
+        std::vector<double> area(grid_.cells(), 0.0);
+        for (int cell = 0; cell < grid_.cells(); ++cell) area[groups.of(cell)] += area_[cell];
+        for (int cell = 0; cell < grid_.cells(); ++cell) {
+            const int group = groups.of(cell);
+            if (!is_empty(area[group])) continue;
+            const int other = most_open(neighbours(cell), [&](int next) { return groups.of(next) != group; });
+            if (other < 0) continue;
+            area[groups.of(other)] += area[group];
+            groups.join(cell, other);
+            changed = true;
+        }
+        return changed;
     }
 
-    /// Gives each cell of a group that has more than one the state of all.
-    void share(const std::vector<int>& first, bool only_empty) {
-        std::vector<int> members(grid_.cells(), 0);
-        std::vector<double> area(grid_.cells(), 0.0);
-        std::vector<Content> sum(grid_.cells(), Content{});
+    /// Area and content by groups.
+    [[nodiscard]] std::vector<Part> parts(Groups& groups) const {
+        std::vector<Part> parts(grid_.cells());
         for (int cell = 0; cell < grid_.cells(); ++cell) {
-            ++members[first[cell]];
-            area[first[cell]] += area_[cell];
-            for (int k = 0; k < 4; ++k) sum[first[cell]][k] += content_[cell][k];
+            Part& part = parts[groups.of(cell)];
+            part.area += area_[cell];
+            for (int k = 0; k < 4; ++k) part.content[k] += content_[cell][k];
         }
+        return parts;
+    }
+    /// Gives cells that a solid uncovers in this step, and that have no gas yet, the state of their group, for the fluxes.
+    void fill(Groups& groups, const std::vector<Part>& before) {
         for (int cell = 0; cell < grid_.cells(); ++cell) {
-            const int group = first[cell];
-            if (members[group] == 1 || (only_empty && !is_empty(area_[cell]))) continue;
-            if (is_empty(area[group])) no_room(cell);
-            state_[cell] = state_of(sum[group], area[group]);
-            if (only_empty) continue;
-            for (int k = 0; k < 4; ++k) content_[cell][k] = area_[cell] / area[group] * sum[group][k];
+            const Part& part = before[groups.of(cell)];
+            if (is_empty(area_[cell]) && !is_empty(part.area)) state_[cell] = state_of(part.content, part.area);
         }
     }
-    [[noreturn]] void no_room(int cell) const {
+    /// Gives each cell the state of its group.
+    void mix(Groups& groups, const std::vector<Part>& before) {
+        const std::vector<Part> after = parts(groups);
+        for (int cell = 0; cell < grid_.cells(); ++cell) {
+            const int group = groups.of(cell);
+            const auto& [area, content] = after[group];
+            const bool had_gas = !is_empty(before[group].area), has_gas = !is_empty(area);
+            if (had_gas && !has_gas)
+                refuse(cell, "solids leave no room for the gas", "Take smaller cells, or end the run before they meet");
+            if (!had_gas && has_gas)
+                refuse(cell, "solids part, and no gas reaches what they uncover",
+                       "Let gas in at the side, or keep them together");
+            if (!has_gas) continue;
+            state_[cell] = state_of(content, area);
+            check(cell);
+            for (int k = 0; k < 4; ++k) content_[cell][k] = area_[cell] / area * content[k];
+        }
+    }
+    void check(int cell) const {
+        const State& here = state_[cell];
+        if (here.rho > 0.0 && here.p > 0.0) return;
+        refuse(cell, "the density is " + text(here.rho) + " and the pressure " + text(here.p) + ", which must be > 0",
+               "Take shorter steps, or walls that withdraw more slowly");
+    }
+    [[noreturn]] void refuse(int cell, const std::string& what, const std::string& remedy) const {
         const Point at = grid_.centre(cell);
-        throw std::runtime_error("gas: solids leave no room for the gas at (" + std::to_string(at[0]) + ", " +
-                                 std::to_string(at[1]) + "). Take smaller cells, or end the run before they meet.");
+        throw std::runtime_error("gas: " + what + " at (" + text(at[0]) + ", " + text(at[1]) + "). " + remedy + ".");
     }
-    /// Cells that a solid uncovers in this step have no gas yet: fluxes see that of their group.
-    void fill(const std::vector<int>& first) { share(first, true); }
-    void mix(const std::vector<int>& first) {
-        for (int cell = 0; cell < grid_.cells(); ++cell)
-            if (!is_empty(area_[cell])) state_[cell] = state_of(content_[cell], area_[cell]);
-        share(first, false);
+    static std::string text(double value) {
+        if (std::isnan(value)) return "not a number";
+        std::array<char, 32> buffer{};
+        std::snprintf(buffer.data(), buffer.size(), "%.3g", value);
+        return buffer.data();
     }
 
     void add_fluxes() {
@@ -343,7 +418,7 @@ private:
                 pass(j > 0 ? after - grid_.columns : -1, j < grid_.rows ? after : -1, open_y(i, j), true);
             }
     }
-    /// From one cell to the next along x or y; -1 is beyond the grid.
+    /// Moves content from one cell to the next along x or y; -1 is beyond the grid.
     void pass(int before, int after, double open, bool along_y) {
         if (open == 0.0) return;
         const auto state = [&](int cell) { return along_y ? turned(state_[cell]) : state_[cell]; };
@@ -360,12 +435,14 @@ private:
         return sides_ == Side::open ? flux(inner) : Content{0.0, wall_pressure(inner, outwards * inner.u), 0.0, 0.0};
     }
 
-    [[nodiscard]] std::vector<Point> push(const std::vector<Wall>& walls, double dt) {
+    /// Pressure of the gas on walls. In cells without gas there is none.
+    [[nodiscard]] std::vector<Point> push(const std::vector<Wall>& walls, double dt, Groups& groups,
+                                          const std::vector<Part>& before) {
         std::vector<Point> impulse(walls.size(), Point{});
         for (const auto& [wall, cell, area] : pieces_) {
             const double u = walls[wall].motion[0] / dt, v = walls[wall].motion[1] / dt;  // of the wall
             const double size = std::hypot(area[0], area[1]);
-            if (size == 0.0) continue;
+            if (size == 0.0 || is_empty(before[groups.of(cell)].area)) continue;
             const State& here = state_[cell];
             const double p = wall_pressure(here, ((here.u - u) * area[0] + (here.v - v) * area[1]) / size);
             const Point pushed{p * area[0], p * area[1]};

@@ -7,11 +7,12 @@
 
 #include "abut/base/error.hpp"
 #include "abut/run/options.hpp"
+#include "abut/solid/combinations/combinations.hpp"
 
 namespace abut::run {
 namespace {
 
-constexpr double rounding = 1e-12;  // of the end
+constexpr double rounding_of_end = 1e-12;
 
 void check_time(std::span<const double> times, std::size_t i, double end) {
     const double time = times[i];
@@ -24,7 +25,7 @@ void check_time(std::span<const double> times, std::size_t i, double end) {
                         "once.",
                         i + 1, time, times[i - 1]),
             {.value = time, .allowed = times[i - 1]});
-    if (time > (1.0 + rounding) * end)
+    if (time > (1.0 + rounding_of_end) * end)
         throw BadInput(
             fmt::format("output.times: number {} is {:.6g} s, and the run ends at {:.6g} s. Leave it out, or give "
                         "a later end.",
@@ -36,11 +37,7 @@ void check_time(std::span<const double> times, std::size_t i, double end) {
 
 void check_output_times(std::span<const double> times, const RunOptions& options, double end) {
     if (times.empty()) return;
-    if (options.integrator == SolidIntegrator::memm_async)
-        throw BadInput(
-            "output.times is not made for memm_async, whose cells have nodes of their own. Take --integrator memm, or "
-            "equally spaced frames (--frames).");
-    if (options.pieces) throw BadInput("output.times is not made for --pieces. Leave one of them out.");
+    solid::require_together("", "", features_of(options) | solid::FeatureSet{solid::Feature::output_times});
     for (std::size_t i = 0; i < times.size(); ++i) check_time(times, i, end);
 }
 

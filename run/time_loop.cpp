@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <stdexcept>
@@ -45,7 +47,7 @@ const std::string observers_kind = "observers of a run";
 constexpr int observers_version = 5;
 const std::string looks_kind = "looks at surfaces";
 constexpr int looks_version = 7;
-constexpr double rounding_of_times = 1e-12;     // so near a node is at it
+constexpr double same_as_node = 1e-6;           // of a step: so near a node a time is at it, as sums of steps are rounded
 constexpr std::int64_t sightings_per_run = 40;  // looks for bodies past a rim and together with themselves, about
 
 /// One run, from the first step to the last.
@@ -117,12 +119,11 @@ public:
 
 private:
     void step() {
-        const double from = integrator_->time();
-        const bool has_time = time_is_due(from + integrator_->dt());
-        std::vector<double> q_0;
-        if (has_time) q_0.assign(integrator_->q().begin(), integrator_->q().end());
+        std::optional<StepStart> start;
+        if (time_is_due(integrator_->time() + integrator_->dt(), integrator_->steps() + 1))
+            start = StepStart{integrator_->state(), solid_.state()};
         take_step();
-        if (has_time) look_at_times(from, q_0);
+        if (start) look_at_times(*start);
     }
     void take_step() {
         try {
@@ -163,29 +164,72 @@ private:
 
     // Times of the scene, inside of steps
 
-    /// Whether there is one until then, which is so where it is off by rounding.
-    [[nodiscard]] bool time_is_due(double until) const {
+    /// All of this rank and of its solid.
+    struct StepStart {
+        dynamics::IntegratorState motion;
+        std::vector<std::byte> solid;  // the same on all ranks
+    };
+
+    /// Whether there is one until this node; all are that are left at the last one, whose time is a sum of steps.
+    [[nodiscard]] bool time_is_due(double node, std::int64_t steps) const {
         const std::vector<double>& times = scene_.outputs.times;
-        return n_times_ < times.size() && times[n_times_] <= (1.0 + rounding_of_times) * until;
+        return n_times_ < times.size() && (steps >= result_.steps || is_at_or_before(times[n_times_], node));
     }
-    /// On the straight path of the step that began with q_0 at `from`.
-    void look_at_times(double from, const std::vector<double>& q_0) {
+    [[nodiscard]] bool is_at_or_before(double time, double node) const { return time <= node + same_as_node * result_.dt; }
+
+    /// On the straight path of the step that began there.
+    void look_at_times(const StepStart& start) {
         dynamics::IntegratorState state = integrator_->state();
+        const std::vector<double>& q_0 = start.motion.q;
         const std::vector<double> q_1 = state.q;
-        const double dt = integrator_->dt(), end = state.time;
+        const double from = start.motion.time, node = state.time, dt = integrator_->dt();
         const std::span<const double> masses = solid_.masses();
         for (std::size_t i = 0; i < q_1.size(); ++i)
             state.p_before[i] = state.p_after[i] = masses[i / Dim] * (q_1[i] - q_0[i]) / dt;
-        for (; time_is_due(end); ++n_times_) {
+        for (; time_is_due(node, state.steps); ++n_times_) {
             state.time = scene_.outputs.times[n_times_];
             const double share = (state.time - from) / dt;
             for (std::size_t i = 0; i < q_1.size(); ++i) state.q[i] = q_0[i] + share * (q_1[i] - q_0[i]);
-            if (state.time >= (1.0 - rounding_of_times) * end) state.q = q_1;
+            if (!is_at_or_before(node, state.time)) {
+                show_inside(start, state);
+                continue;
+            }
+            state.q = q_1;
+            show_time(state);
+        }
+    }
+    void show_first_times() {
+        dynamics::IntegratorState state = integrator_->state();
+        const double node = state.time;
+        for (; time_is_due(node, 0); ++n_times_) {
+            state.time = scene_.outputs.times[n_times_];
             show_time(state);
         }
     }
     void show_time(const dynamics::IntegratorState& state) {
         whole_.show_state(state, [&](const auto& run, auto& solid) { observer_.look_at_time(run, solid); });
+    }
+    /// With loads, obstacles and what materials and friction remember as they are then: another solid goes there from the
+    /// start of the step, and that of the run knows nothing of it.
+    void show_inside(const StepStart& start, const dynamics::IntegratorState& own) {
+        const dynamics::IntegratorState from = whole_.of(start.motion), state = whole_.of(own);
+        whole_.on_first([&] {
+            solid::Solid<Dim>& other = solid_of_times();
+            other.restore(start.solid, from.q);
+            std::vector<double> force(state.q.size());
+            const double dt = state.time - from.time;
+            if (features_of(options_).has(solid::Feature::end_forces))
+                other.end_force(from.q, state.q, from.time, dt, force);
+            else
+                other.mean_force(from.q, state.q, from.time, dt, force);
+            observer_.look_at_time(dynamics::RunView<Dim>(state), other);
+        });
+    }
+    /// On rank 0: of several ranks the one that shows the whole.
+    [[nodiscard]] solid::Solid<Dim>& solid_of_times() {
+        if (!solid_.ranks().is_one()) return whole_.seen();
+        if (!solid_of_times_) solid_of_times_ = std::make_unique<solid::Solid<Dim>>(solid_.mesh(), solid_.options());
+        return *solid_of_times_;
     }
 
     void make_piece(std::int64_t frame) {
@@ -232,10 +276,7 @@ private:
     void begin() {
         whole_.on_first([&] { observer_.begin(scene_, result_); });
         record();
-        if (time_is_due(0.0)) {
-            ++n_times_;
-            show_time(integrator_->state());
-        }
+        show_first_times();
         const Wanted wanted = ask(true);
         look(wanted);
         if (wanted.stop) stop(true);
@@ -305,7 +346,7 @@ private:
         result_.scale = known_scale<Dim>(scene_.energy_scale, result_);
         result_.inadmissible_overlaps_max = from.inadmissible_overlaps_max;
         result_.resumed_after = integrator_->steps();
-        while (time_is_due(integrator_->time())) ++n_times_;
+        while (time_is_due(integrator_->time(), integrator_->steps())) ++n_times_;
         sound_.keep(*integrator_, result_.dt);
         whole_.on_first([&] {
             StateReader state(from.observers, observers_kind, observers_version);
@@ -359,7 +400,7 @@ private:
             obstacle_watch_.look(solid_, integrator_->q(), integrator_->time(), result_.sightings.past_rims);
             if (self_watch_.is_on()) look_for_crossings();
             whole_.show(*integrator_, [&](const auto& run, auto& solid) {
-                result_.fine_energy_max = std::max(result_.fine_energy_max, fine_kinetic_energy<Dim>(run, solid));
+                result_.fine_energy_max = std::max(result_.fine_energy_max, fine_energy(run, solid));
             });
         }
         const auto& entries = result_.ledger.entries();
@@ -392,7 +433,14 @@ private:
         }
     }
 
-    /// At the end, and at evenly spaced records before it: a look costs about as much as a tenth of a step.
+    /// Neighbours of cells are listed at the first look.
+    [[nodiscard]] double fine_energy(const dynamics::RunView<Dim>& run, const solid::Solid<Dim>& solid) {
+        if (!fine_motion_) fine_motion_.emplace(solid.mesh());
+        return fine_motion_->energy(run, solid);
+    }
+
+    /// At the end, and at evenly spaced records before it: a look at fine motion costs about a tenth of a step, and the
+    /// lists for the first one less than a step (27,000 bricks, or as many tetrahedra).
     [[nodiscard]] bool is_sighting_due(std::int64_t step) const {
         const std::int64_t interval = options_.interval;
         const std::int64_t every = interval * std::max<std::int64_t>(1, result_.steps / (interval * sightings_per_run));
@@ -438,8 +486,10 @@ private:
     FrictionWatch<Dim> friction_watch_;
     RankBalance balance_;
     double own_seconds_before_ = 0.0;
-    std::size_t n_times_ = 0;  // of the scene, that are past
-    SurfaceWatch<Dim> watch_;  // on rank 0
+    std::size_t n_times_ = 0;                            // of the scene, that are past
+    SurfaceWatch<Dim> watch_;                            // on rank 0
+    std::optional<FineMotion<Dim>> fine_motion_;         // on rank 0
+    std::unique_ptr<solid::Solid<Dim>> solid_of_times_;  // on one rank, from the first time inside of a step on
 };
 
 }  // namespace

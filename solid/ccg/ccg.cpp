@@ -90,6 +90,7 @@ Ccg<Dim>::Impl::Impl(const mesh::Mesh<Dim>& mesh, std::span<const Material> mate
 template <int Dim>
 void Ccg<Dim>::Impl::give_way_at_corners(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials) {
     for (std::int32_t c = 0; c < arrays.n_cells(); ++c) {
+        if (!finite.shows_condensed(c)) continue;
         const std::vector<BoundaryFace> free = free_faces_of(c);
         for (const BoundaryFace b : free) {
             const Vector<Dim>& normal = arrays.normal_of(b);

@@ -94,18 +94,25 @@ public:
         const FreeCell<Dim>* free = free_cell(cell);
         return free && free->has_one_normal() ? free : nullptr;
     }
-    /// Whether F_cond is that of its traces, too: it has one normal, and is not of FaceConditions::is_thick. Else they
-    /// have that of the affine faces.
+    /// Whether F_cond is that of its traces, too: it has one normal, and is not of FaceConditions::is_thick or remembers
+    /// what happens to it. Else they have that of the affine faces.
     [[nodiscard]] bool has_condensed_traces(std::ptrdiff_t cell) const {
-        return of_one_normal(cell) && (is_thick_.empty() || is_thick_[static_cast<std::size_t>(cell)] == 0);
+        const bool is_thick = !is_thick_.empty() && is_thick_[static_cast<std::size_t>(cell)] != 0;
+        return of_one_normal(cell) && (!is_thick || inelastic(cell) >= 0);
     }
     /// Whether it is one of the free faces of a FreeCell.
     [[nodiscard]] bool is_free(BoundaryFace face) const { return is_free_[face] != 0; }
+    /// Whether contact sees F_cond at the free faces of a cell. At edges and corners of a material that flows it does not:
+    /// a cell that bears nothing there has no memory of how it has flowed.
+    [[nodiscard]] bool shows_condensed(std::ptrdiff_t cell) const {
+        const FreeCell<Dim>* free = free_cell(cell);
+        return free && (free->has_one_normal() || inelastic(cell) < 0);
+    }
     /// The free cell behind a boundary face if contact and bonds at this face see F_cond: at an edge or a corner only
     /// where the face is free itself. Null: they see F of the affine faces.
     [[nodiscard]] const FreeCell<Dim>* condensed_behind(BoundaryFace face, std::ptrdiff_t cell) const {
         const FreeCell<Dim>* free = free_cell(cell);
-        return free && (free->has_one_normal() || is_free(face)) ? free : nullptr;
+        return shows_condensed(cell) && (free->has_one_normal() || is_free(face)) ? free : nullptr;
     }
 
 private:

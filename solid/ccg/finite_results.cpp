@@ -14,7 +14,7 @@ template <int Dim, class Real>
 void CcgSweeps<Dim, Real>::add_moments(std::int32_t begin, std::int32_t end) {
     moments_.for_each(begin, end, [&](std::int32_t c, const CellPush<Dim>& push) {
         Matrix<Dim> added = push.affine;
-        if (finite_.free_cell(c)) {
+        if (finite_.shows_condensed(c)) {
             const Matrix<Dim> gradient = push.condensed + push.of_moved_faces;
             added += (end_.empty() ? pull_back(c, gradient) : kept_.pull_back_contact(c, gradient)) - push.of_moved_faces;
         }

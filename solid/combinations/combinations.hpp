@@ -183,6 +183,14 @@ inline constexpr auto combinations = std::to_array<Combination>({
      {Feature::xdmf},
      "pieces are written as vtu alone",
      "Leave --pieces out: rank 0 then writes the whole as xdmf; or leave --format xdmf out."},
+    {Feature::output_times,
+     {Feature::local_steps},
+     "cells with local steps have nodes of their own",
+     "Take one step for all cells (memm), or frames that are equally far apart (--frames)."},
+    {Feature::output_times,
+     {Feature::pieces},
+     "pieces are those of nodes",
+     "Leave --pieces out: rank 0 then writes the whole; or take frames that are equally far apart (--frames)."},
 });
 
 /// Features that do not go together: a row, and which of those without which it is.

@@ -57,8 +57,9 @@ enum class Feature {
     settling,             ///< bodies that come to rest before the run
     pieces,               ///< frames that each rank writes its part of
     xdmf,                 ///< frames in one file of HDF5
+    output_times,         ///< frames at times that are given
 };
-inline constexpr std::size_t n_features = static_cast<std::size_t>(Feature::xdmf) + 1;
+inline constexpr std::size_t n_features = static_cast<std::size_t>(Feature::output_times) + 1;
 /// Features from here on are of the whole scene, and of no body.
 inline constexpr Feature first_of_scene = Feature::bonded;
 
@@ -124,6 +125,7 @@ inline constexpr std::array<FeatureWords, n_features> feature_words{{
     {Feature::settling, "settle", "bodies come to rest first (--settle)"},
     {Feature::pieces, "frames in pieces", "ranks write pieces of frames (--pieces)"},
     {Feature::xdmf, "frames as xdmf", "frames are written as xdmf (--format xdmf)"},
+    {Feature::output_times, "frames at given times", "frames are at given times (output.times)"},
 }};
 
 [[nodiscard]] constexpr const FeatureWords& words_of(Feature feature) {

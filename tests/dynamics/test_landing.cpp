@@ -104,6 +104,38 @@ TEST_CASE("of several events in a step the first ends it, and the next step goes
     CHECK(flight.integrator.steps() == 3);
 }
 
+TEST_CASE("only the function that has crossed turns, whatever the scales of others", "[dynamics][landing]") {
+    for (const double scale : {1.0, 1e9, 1e-9}) {
+        Flight flight;
+        const auto large = [=](std::span<const double> q) { return scale * (q[0] - 0.3); };
+        const auto small = [](std::span<const double> q) { return q[0] - 0.3 - 1e-6; };
+        const auto steady = [](std::span<const double> q) { return 1e-7 + 1e-8 * q[0]; };
+        Landing landing(flight.integrator, Events({large, small, steady}, std::vector{0.0}));
+        const auto first_step = landing.step();
+        CHECK(first_step.events == 1);
+        CHECK(first_step.dt == Approx(0.3).epsilon(1e-13));
+        CHECK(std::ranges::equal(landing.events().sides(), std::vector{1, -1, 1}));
+        const auto next = landing.step();
+        CHECK(next.events == 1);
+        CHECK(next.dt == Approx(1e-6).epsilon(1e-8));
+        CHECK(std::ranges::equal(landing.events().sides(), std::vector{1, 1, 1}));
+        CHECK(landing.step().events == 0);
+    }
+}
+
+TEST_CASE("a function that is 0 or infinite at an end of a step does not hide an event of another", "[dynamics][landing]") {
+    Flight flight;
+    const auto far = [](std::span<const double> q) { return q[0] < 0.5 ? std::numeric_limits<double>::infinity() : 1.0; };
+    const auto zero = [](std::span<const double>) { return 0.0; };
+    const auto at = [](std::span<const double> q) { return q[0] - 0.25; };
+    Landing landing(flight.integrator, Events({far, at}, std::vector{0.0}));
+    CHECK(landing.step().dt == Approx(0.25).epsilon(1e-14));
+    CHECK(std::ranges::equal(landing.events().sides(), std::vector{1, 1}));
+    Flight other;
+    Landing beside_zero(other.integrator, Events({zero, at}, std::vector{1, -1}));
+    CHECK(beside_zero.step().dt == Approx(0.25).epsilon(1e-14));
+}
+
 TEST_CASE("events refuse a start on neither side, sides that are none, and a function that is not a number",
           "[dynamics][landing][errors]") {
     const Values zero{0.0};

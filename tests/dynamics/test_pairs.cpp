@@ -82,6 +82,25 @@ double largest_excess(bool exchanges) {
     return excess;
 }
 
+/// A spring whose n-th mean force from now on throws; none if n is 0.
+struct FailingSpring {
+    Values inverse_masses{1.0};
+    int fails_at = 0;
+    std::size_t size() const { return 1; }
+    std::span<const double> inverse_mass() const { return inverse_masses; }
+    double potential(std::span<const double> q) const { return 0.5 * q[0] * q[0]; }
+    void force(std::span<const double> q, std::span<double> f) const { f[0] = -q[0]; }
+    void mean_force(std::span<const double> q_0, std::span<const double> q_1, double, double, std::span<double> f) {
+        if (fails_at > 0 && --fails_at == 0) throw Diverged("lost");
+        f[0] = -0.5 * (q_0[0] + q_1[0]);
+    }
+};
+
+bool are_equal(const dynamics::IntegratorState& a, const dynamics::IntegratorState& b) {
+    return a.q == b.q && a.p_before == b.p_before && a.p_after == b.p_after && a.dt == b.dt && a.time == b.time &&
+           a.steps == b.steps && a.restart_jumps == b.restart_jumps && a.of_scheme == b.of_scheme;
+}
+
 Chain oscillator() { return Chain({1.0}, {{-1, 0, {.stiffness = 1.0}}}); }
 
 }  // namespace
@@ -224,7 +243,7 @@ TEST_CASE("a load that varies from step to step acts with order 2", "[dynamics][
     CHECK(0.5 * std::log2(error(0.04) / error(0.01)) == Approx(2.0).margin(0.2));
 }
 
-TEST_CASE("pairs go on with the same bits from a saved state, and after a look at their momenta", "[dynamics][pairs]") {
+TEST_CASE("pairs go on bitwise identical from a saved state, and after a look at their momenta", "[dynamics][pairs]") {
     Chain chain = held_chain(), other = held_chain();
     Pairs pairs(chain, held_q, held_p, unknown), restored(other, Values(6, 0.0), Values(6, 0.0), unknown);
     const auto lengths = steps(0.1, 2.0, true);
@@ -243,6 +262,38 @@ TEST_CASE("pairs go on with the same bits from a saved state, and after a look a
     CHECK_FALSE(std::ranges::equal(pairs.q(), held_q));
 }
 
+TEST_CASE("where a force or a load throws, pairs stay as they are and go on bitwise identical",
+          "[dynamics][pairs][errors]") {
+    FailingSpring system, undisturbed;
+    Pairs pairs(system, {1.0}, std::vector{0.3}, 2.0), other(undisturbed, {1.0}, std::vector{0.3}, 2.0);
+    for (int i = 0; i < 5; ++i) {
+        const dynamics::IntegratorState before = pairs.state();
+        for (const int n : {1, 2}) {
+            system.fails_at = n;
+            CHECK_THROWS_AS(pairs.step(0.1), Diverged);
+            CHECK(are_equal(pairs.state(), before));
+            int loads = 0;
+            const auto load = [&](double, double) {
+                if (++loads == n) throw BadInput("no load");
+            };
+            CHECK_THROWS_AS(pairs.step(0.1, load), BadInput);
+            CHECK(are_equal(pairs.state(), before));
+        }
+        if (i > 0) {
+            system.fails_at = 1;
+            CHECK_THROWS_AS(pairs.synchronised(), Diverged);
+            system.fails_at = 1;
+            CHECK_THROWS_AS(pairs.pseudo_energy(), Diverged);
+        }
+        CHECK(are_equal(pairs.state(), before));
+        CHECK(pairs.report().longest == other.report().longest);
+        pairs.step(0.1 + 0.05 * i);
+        other.step(0.1 + 0.05 * i);
+        CHECK(are_equal(pairs.state(), other.state()));
+        CHECK(are_equal(pairs.synchronised(), other.synchronised()));
+    }
+}
+
 TEST_CASE("pairs refuse steps and states that are none, by name, and stay as they are", "[dynamics][pairs][errors]") {
     Chain spring = oscillator();
     Pairs pairs(spring, {1.0}, std::vector{0.3}, 2.0);
@@ -253,6 +304,9 @@ TEST_CASE("pairs refuse steps and states that are none, by name, and stay as the
     dynamics::IntegratorState wrong = good;
     wrong.of_scheme.clear();
     CHECK_THROWS_WITH(pairs.restore(wrong), Contains("Pairs") && Contains("held back"));
+    wrong = good;
+    wrong.dt = 0.1;
+    CHECK_THROWS_WITH(pairs.restore(wrong), Contains("path of 0.025 s") && Contains("dt is 0.1 s"));
     wrong = good;
     wrong.q[0] = std::nan("");
     CHECK_THROWS_AS(pairs.restore(wrong), BadInput);

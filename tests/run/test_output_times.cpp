@@ -1,4 +1,5 @@
 // Frames at times that a scene gives: on the path of a step, which stays as it is.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
@@ -6,6 +7,7 @@
 #include <vector>
 
 #include "abut/base/error.hpp"
+#include "abut/contact/obstacle.hpp"
 #include "abut/dynamics/ledger.hpp"
 #include "abut/run/checkpoint.hpp"
 #include "abut/run/report/result_files.hpp"
@@ -101,6 +103,66 @@ TEST_CASE("between two nodes bodies are on the line between them, with its veloc
     }
 }
 
+TEST_CASE("at a press that moves at constant speed gap and pressure are those of the time, inside of steps as well",
+          "[run][output_times]") {
+    constexpr double speed = 0.02;
+    struct Press : Seen {
+        void look_at_time(const dynamics::RunView<2>& run, solid::Solid<2>& solid) override {
+            Seen::look_at_time(run, solid);
+            field.push_back(solid.contact_at(run.q).field());
+        }
+        std::vector<solid::ContactField> field;
+    };
+    run::Scene<2> scene;
+    scene.mesh = mesh::structured_box<2>({0.0, 0.0}, {1.0, 0.5}, {4, 2}, mesh::CellShape::quadrangle, "block");
+    scene.solid.materials = {{.young = 1.0, .poisson = 0.0, .density = 1.0}};
+    scene.solid.kinematics = {solid::Kinematics::rigid};
+    const auto path = [](double t) { return Vector<2>(-speed * t, 0.0); };
+    scene.solid.obstacles = {contact::plane_obstacle<2>({1.01, 0.25}, -Vector<2>::UnitX(), 2.0, path)};
+    scene.velocity = {Vector<2>::Zero()};
+    scene.time = 1.5;
+    for (int k = 1; k < 97; ++k) scene.outputs.times.push_back(0.0155 * k);
+    Press press;
+    static_cast<void>(run::simulate<2>(
+        scene, {.integrator = GENERATE(run::SolidIntegrator::memm, run::SolidIntegrator::leapfrog)}, press));
+    REQUIRE(press.times == scene.outputs.times);
+    double stiffness = 0.0;
+    for (std::size_t k = 0; k < press.times.size(); ++k) {
+        CAPTURE(press.times[k]);
+        double moved = 0.0;  // of the three points of the block, along x
+        for (std::size_t point = 0; point < 3; ++point) moved += press.q[k][2 * point] / 3.0;
+        const double gap = 0.01 - speed * press.times[k] - moved;
+        const double found = std::ranges::min(press.field[k].gap), pressure = std::ranges::max(press.field[k].pressure);
+        const bool is_known = gap < 0.0 || std::isfinite(found);  // to no face that is apart and was not touched before
+        if (is_known) CHECK(found == Approx(gap).margin(1e-13));
+        CHECK((pressure > 0.0) == (gap < 0.0));
+        if (gap > -1e-6) continue;
+        if (stiffness == 0.0) stiffness = pressure / -gap;
+        CHECK(pressure == Approx(stiffness * -gap).epsilon(1e-9));
+    }
+    CHECK(stiffness > 0.0);
+}
+
+TEST_CASE("a last time at the end of a run is shown, though the sum of many steps falls short of it",
+          "[run][output_times]") {
+    run::Scene<2> scene;
+    scene.mesh = mesh::structured_box<2>({0.0, 0.0}, {1.0, 1.0}, {2, 2}, mesh::CellShape::quadrangle, "block");
+    scene.solid.materials = {{.young = 1.0, .poisson = 0.0, .density = 1.0}};
+    scene.solid.kinematics = {solid::Kinematics::rigid};
+    scene.velocity = {Vector<2>(1.0, 0.0)};
+    scene.contact = false;
+    scene.time = 1.0;
+    struct AtTimes : Seen {
+        [[nodiscard]] bool wants_look(std::int64_t step) const override { return step == 100000; }
+    } found;
+    scene.outputs.times = {0.5, 1.0};
+    static_cast<void>(run::simulate<2>(scene, {.dt = 1e-5}, found));
+    REQUIRE(found.nodes.size() == 1);
+    CHECK(found.nodes[0] < 1.0 - 1e-12);
+    CHECK(found.times == scene.outputs.times);
+    CHECK(found.q.back() == found.q_of_nodes[0]);
+}
+
 TEST_CASE("a run that goes on from a checkpoint shows the times after it, as the whole run does", "[run][output_times]") {
     struct Keeping : Seen {
         [[nodiscard]] bool wants_checkpoint(std::int64_t step, bool) const override { return step == 5; }
@@ -150,6 +212,6 @@ TEST_CASE("times that a run cannot show are refused before it begins", "[run][ou
          {{infinity}, {}, "number 1 is inf s"},
          {{0.1, 2.0}, {}, "number 2 is 2 s, and the run ends at 1.5"},
          {{0.1}, {.law = solid::ContactLaw::reconstruction, .integrator = run::SolidIntegrator::memm_async}, "memm_async"},
-         {{0.1}, {.pieces = true}, "--pieces"}}));
+         {{0.1}, {.pieces = true}, "output.pieces"}}));
     CHECK_THROWS_WITH(seen(scene, times, options), Catch::Contains("output.times") && Catch::Contains(words));
 }

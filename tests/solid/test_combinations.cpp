@@ -162,6 +162,19 @@ TEST_CASE("a conflict is found from either side, and not where neither feature i
           "body 'ring' is rigid and yields (law = \"j2\"): nothing deforms. Take other kinematics, or another law.");
 }
 
+TEST_CASE("frames at given times go with all that steps as a whole and is written as one", "[solid][combinations]") {
+    for (const solid::FeatureWords& words : solid::feature_words) {
+        CAPTURE(words.name);
+        const bool is_refused = words.feature == Feature::local_steps || words.feature == Feature::pieces;
+        CHECK(solid::go_together(Feature::output_times, words.feature) != is_refused);
+    }
+    const auto found = solid::first_conflict({Feature::output_times, Feature::pieces}, {Feature::pieces});
+    REQUIRE(found);
+    CHECK(
+        solid::text_of(*found).starts_with("ranks write pieces of frames (--pieces), and frames are at given times "
+                                           "(output.times): pieces are those of nodes. Leave --pieces out"));
+}
+
 TEST_CASE("a solid refuses by its kinematics what the table says, with its reason and remedy, and nothing else",
           "[solid][combinations]") {
     const auto mesh = together(mesh::structured_box<2>({0.0, 0.0}, {1.0, 0.5}, {3, 3}, CellShape::quadrangle, "left"),
