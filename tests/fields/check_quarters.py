@@ -107,8 +107,12 @@ QUARTER = [(1, 1)]
 WHOLE = list(itertools.product((1, -1), (1, -1)))
 
 
+def roller(body, group):
+    return f'[supports.{body}_{group}]\ngroup = "{body}.{group}"\nconstraint = "normal"\n'
+
+
 def rollers(body):
-    return "".join(f'[supports.{body}_{group}]\ngroup = "{body}.{group}"\nconstraint = "normal"\n' for group in ("foot", "side"))
+    return roller(body, "foot") + roller(body, "side")
 
 
 def turned(stress, points):
@@ -222,6 +226,106 @@ def strips_with_a_hole_have_the_stress_concentration_of_their_width(programs):
         stress = pulled(programs, part, "small", ("x > 12 - 1e-9 ? 1 : 0", "0"), 1e-3)[0]
         ratio = stress[0, -1, 0] / kirsch(part.middles())[0, -1, 0]
         near(LARGEST * ratio, (2 + narrow**3) / narrow, 0.02 * LARGEST, f"{shape}s: the stress concentration")
+
+
+# A roller on a rigid plane -----------------------------------------------------------------------------------------------
+
+# Hertz's pressure p sqrt(1 - x^2) on the surface of a half plane, y into it, and McEwen's stresses under it over p (Johnson, Contact
+# Mechanics (1985), section 4.2), as formulas of scenes. The half width of the contact is 1.
+RADIUS, POISSON = 1000.0, 0.3
+PEAK = 1 / (1 - POISSON**2) / (2 * RADIUS)  # [Pa], E = 1 Pa
+D, Q = "(1 - x^2 + y^2)", "sqrt((1 - x^2 + y^2)^2 + 4*x^2*y^2)"
+M2, N2 = f"(({Q} + {D})/2)", f"max(0, ({Q} - {D})/2)"
+UNDER = {"xx": f"(2*y - sqrt({M2})*(1 + (y^2 + {N2})/({M2} + {N2})))", "yy": f"(-sqrt({M2})*(1 - (y^2 + {N2})/({M2} + {N2})))",
+         "xy": f"(-sign(x)*sqrt({N2})*({M2} - y^2)/({M2} + {N2}))"}
+RIGHT, BOTH = [(1, 1)], [(1, 1), (-1, 1)]
+
+
+def under_hertz(points):
+    """xx, yy and xy over p (..., 3)"""
+    names = {"x": points[..., 0], "y": points[..., 1], "sqrt": numpy.sqrt, "max": numpy.maximum, "sign": numpy.sign}
+    return numpy.stack([eval(formula.replace("^", "**"), names) for formula in UNDER.values()], axis=-1)
+
+
+class Roller:
+    """2 wide to each side and 2 high, on a plane, at rest under the tractions that stand there in a half plane."""
+
+    def __init__(self, programs, kinematics, shape, images, per_half_width=14):
+        steps = [i / per_half_width for i in range(2 * per_half_width + 1)]
+        grid = [[(x, bottom + y / 2 * (2 - bottom)) for y in steps] for x, bottom in ((x, x * x / (2 * RADIUS)) for x in steps)]
+        self.part = Part(grid, shape, ("side", "far", "bottom", "top"), images)
+        with tempfile.TemporaryDirectory() as folder:
+            self.part.write(pathlib.Path(folder) / "roller.msh")
+            scene = pathlib.Path(folder) / "roller.toml"
+            scene.write_text(f"""dim = 2
+energy_scale = 1e-5
+[bodies.roller]
+mesh = "roller.msh"
+young = 1
+poisson = {POISSON}
+density = 1
+kinematics = "{kinematics}"
+mass_damping = 0.7
+[tractions.top]
+group = "roller.top"
+value = ["{PEAK}*{UNDER["xy"]}", "{PEAK}*{UNDER["yy"]}"]
+[tractions.far]
+group = "roller.far"
+value = ["{PEAK}*sign(x)*{UNDER["xx"]}", "{PEAK}*sign(x)*{UNDER["xy"]}"]
+[obstacles.plane]
+shape = "plane"
+point = [0, 0]
+normal = [0, 1]
+{"" if len(images) > 1 else roller("roller", "side")}[run]
+time = 60
+[output]
+frames = 2
+""")
+            done = Run(programs, scene).require_end()
+            faces = last_faces(done)
+            self.stress = self.part.stress(last_cells(done)) / PEAK
+        bottom = faces["group: roller.bottom"] > 0
+        self.places = faces.centres[bottom, 0]
+        self.pressures = faces["contact pressure"][bottom] / PEAK
+
+    def pressure(self, side):
+        """Of the faces on a side, from the middle outwards."""
+        there = self.places * side > 0
+        return self.pressures[there][numpy.argsort(numpy.abs(self.places[there]))]
+
+
+@claim
+def halves_of_a_roller_have_the_pressure_of_hertz_and_the_stress_under_it(programs):
+    """Pressure where it is largest and half width, by its mean square, within 1 %; stress along the axis within 2.5 % of the pressure."""
+    for shape in ("quadrangle", "triangle"):
+        half = Roller(programs, "small", shape, RIGHT)
+        near(half.pressures.max(), 1, 0.01, f"{shape}s: the largest pressure over Hertz's")
+        width = 2 * math.sqrt(numpy.average(half.places**2, weights=half.pressures))
+        near(width, 1, 0.01, f"{shape}s: the half width over Hertz's")
+        off = numpy.abs(half.stress[0] - under_hertz(half.part.middles()))[0, :, 1]
+        near(off.max(), 0, 0.025, f"{shape}s: the error of the stress along the axis over the pressure")
+
+
+@claim
+def halves_of_a_roller_have_pressure_and_stress_of_whole_ones(programs):
+    """Within 1 % of the largest pressure: stress of quadrangles in each image, of triangles in the mean of both."""
+    for shape in ("quadrangle", "triangle"):
+        half = Roller(programs, "small", shape, RIGHT)
+        for kinematics in ("small", "floating"):
+            whole = Roller(programs, kinematics, shape, BOTH)
+            off = max(numpy.abs(whole.pressure(side) - half.pressure(1)).max() for side in (1, -1))
+            near(off, 0, 0.01, f"{kinematics} {shape}s: the difference of pressures over the largest one")
+            stress = whole.stress if shape == "quadrangle" else whole.stress.mean(axis=0)
+            off = numpy.abs(stress - half.stress[0])[..., :2].max()
+            near(off, 0, 0.01, f"{kinematics} {shape}s: the difference of stresses over the largest pressure")
+
+
+@claim
+def finite_rollers_have_pressure_and_stress_of_small_ones_where_they_touch(programs):
+    """Of quadrangles, within 1 % of the largest pressure, which is 0.05 % of Young's modulus."""
+    small, finite = (Roller(programs, kinematics, "quadrangle", BOTH) for kinematics in ("small", "finite"))
+    near(numpy.abs(finite.pressures - small.pressures).max(), 0, 0.01, "the difference of pressures over the largest one")
+    near(numpy.abs(finite.stress - small.stress)[:, :, 0].max(), 0, 0.01, "the difference of stresses over the largest pressure")
 
 
 if __name__ == "__main__":
