@@ -328,5 +328,109 @@ def finite_rollers_have_pressure_and_stress_of_small_ones_where_they_touch(progr
     near(numpy.abs(finite.stress - small.stress)[:, :, 0].max(), 0, 0.01, "the difference of stresses over the largest pressure")
 
 
+# A press fit -------------------------------------------------------------------------------------------------------------
+
+RADII = {"shaft": (0.7, 1.0), "ring": (1.0, 1.3)}
+EXCESS = 1e-3  # of the radius of the shaft over that of the ring
+SECTORS, RINGS = 32, 6  # cells of a quarter and of each part
+
+
+def lame(radius, inner, outer, inside, outside):
+    """Radial stress, hoop stress and radial displacement at a radius of a ring under pressures, in plane strain."""
+    mean = (inside * inner**2 - outside * outer**2) / (outer**2 - inner**2)
+    swing = (inside - outside) * inner**2 * outer**2 / (outer**2 - inner**2)
+    return mean - swing / radius**2, mean + swing / radius**2, (1 + POISSON) * ((1 - 2 * POISSON) * mean * radius + swing / radius)
+
+
+SEAT = EXCESS / (lame(1, *RADII["ring"], 1, 0)[2] - lame(1, *RADII["shaft"], 0, 1)[2])  # pressure [Pa]
+LARGEST_HOOP = abs(lame(RADII["shaft"][0], *RADII["shaft"], 0, 1)[1])  # over it, in the bore of the shaft
+
+
+class PressFit:
+    """A ring on a hollow shaft at rest. Stresses and pressures are over Lame's pressure."""
+
+    def __init__(self, programs, kinematics, shape, images):
+        around = [(math.cos(angle), math.sin(angle)) for angle in (math.pi / 2 * k / SECTORS for k in range(SECTORS))] + [(0.0, 1.0)]
+        excess = {"shaft": (0, EXCESS / 2), "ring": (-EXCESS / 2, 0)}
+        self.parts = {}
+        for name, (inner, outer) in RADII.items():
+            first, last = inner + excess[name][0], outer + excess[name][1]
+            radii = [first + (last - first) * i / RINGS for i in range(RINGS + 1)]
+            grid = [[(radius * x, radius * y) for x, y in around] for radius in radii]
+            self.parts[name] = Part(grid, shape, ("inside", "outside", "foot", "side"), images)
+        with tempfile.TemporaryDirectory() as folder:
+            for name, part in self.parts.items():
+                part.write(pathlib.Path(folder) / f"{name}.msh")
+            bodies = "".join(f"""[bodies.{name}]
+mesh = "{name}.msh"
+young = 1
+poisson = {POISSON}
+density = 1
+kinematics = "{kinematics}"
+mass_damping = 0.5
+{"" if len(images) > 1 else rollers(name)}""" for name in RADII)
+            scene = pathlib.Path(folder) / "fit.toml"
+            scene.write_text(f"""dim = 2
+energy_scale = 1e-6
+{bodies}[[contact.pairs]]
+bodies = ["shaft", "ring"]
+interference = "resolve"
+interference_time = 10
+[run]
+time = 60
+[output]
+frames = 2
+""")
+            done = Run(programs, scene).require_end()
+            cells, faces = last_cells(done), last_faces(done)
+        self.stress = {name: numpy.array(turned(part.stress(cells, body) / SEAT, part.middles()))
+                       for body, (name, part) in enumerate(self.parts.items())}
+        self.hole = faces["group: ring.inside"] > 0
+        self.angles = numpy.arctan2(*numpy.abs(faces.centres[self.hole, 1::-1]).T)
+        self.faces = faces["contact pressure"][self.hole] / SEAT
+
+    def pressures(self):
+        """Of each face of the hole in a quarter, the mean of its images."""
+        sector = (self.angles / (math.pi / 2) * SECTORS).astype(int)
+        return numpy.bincount(sector, weights=self.faces) / numpy.bincount(sector)
+
+
+@claim
+def quarters_of_a_press_fit_have_pressure_and_hoop_stress_of_lame(programs):
+    """Pressure of each face within 1.5 %, of all within 0.5 %; hoop stress of each cell within 2.5 % of the largest one."""
+    for shape in ("quadrangle", "triangle"):
+        fit = PressFit(programs, "small", shape, QUARTER)
+        for pressure in fit.faces:
+            near(pressure, 1, 0.015, f"{shape}s: the pressure of a face over Lame's")
+        near(fit.faces.mean(), 1, 0.005, f"{shape}s: the mean pressure over Lame's")
+        for name, loads in (("shaft", (0, 1)), ("ring", (1, 0))):
+            exact = lame(numpy.linalg.norm(fit.parts[name].middles(), axis=-1), *RADII[name], *loads)[1]
+            off = numpy.abs(fit.stress[name][1, 0] - exact).max() / LARGEST_HOOP
+            near(off, 0, 0.025, f"{name} of {shape}s: the error of the hoop stress over the largest one")
+
+
+def compare_with_quarter(programs, shape, kinematics_of_whole, of_images):
+    quarter = PressFit(programs, "small", shape, QUARTER)
+    for kinematics in kinematics_of_whole:
+        whole = PressFit(programs, kinematics, shape, WHOLE)
+        off = numpy.abs(whole.pressures() - quarter.pressures()).max()
+        near(off, 0, 0.01, f"{kinematics}: the difference of pressures over Lame's")
+        for name, stress in whole.stress.items():
+            off = numpy.abs(of_images(stress) - quarter.stress[name]).max() / LARGEST_HOOP
+            near(off, 0, 0.01, f"{name}, {kinematics}: the difference of stresses over the largest one")
+
+
+@claim
+def quarters_of_a_press_fit_of_quadrangles_agree_with_whole_ones(programs):
+    """Pressures within 1 % of Lame's; radial and hoop stress of each image within 1 % of the largest stress."""
+    compare_with_quarter(programs, "quadrangle", ("small", "floating", "finite"), of_images=lambda stress: stress)
+
+
+@claim
+def quarters_of_a_press_fit_of_triangles_agree_with_whole_ones(programs):
+    """In the mean of the images: pressures within 1 % of Lame's, radial and hoop stress within 1 % of the largest stress."""
+    compare_with_quarter(programs, "triangle", ("small", "floating"), of_images=lambda stress: stress.mean(axis=1, keepdims=True))
+
+
 if __name__ == "__main__":
     sys.exit(main(CLAIMS))
