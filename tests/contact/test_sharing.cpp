@@ -147,7 +147,7 @@ contact::Surface<3> pairs_of_tiles(int n) {
 
 }  // namespace
 
-TEMPLATE_TEST_CASE_SIG("parts that share a contact of random faces have the bits of one process", "[contact][sharing]",
+TEMPLATE_TEST_CASE_SIG("parts that share a contact of random faces have the bits of one process", "[contact][sharing][long]",
                        ((int Dim), Dim), 2, 3) {
     std::mt19937 random(3);
     auto surface = random_surface<Dim>(random, Dim == 2 ? 40 : 33);

@@ -52,7 +52,7 @@ TEST_CASE("every scene of the project has no fault, starts, and keeps its pseudo
 
 TEST_CASE(
     "a ring whose ends meet, a rolled-up sheet, and a needle that falls on its point press by no more than 0.3 of a cell",
-    "[input][scenes]") {
+    "[input][scenes][long]") {
     const std::string name = GENERATE("c_ring.toml", "falling_needle.toml", "rolled_sheet.toml");
     CAPTURE(name);
     const input::SceneFile file(fs::path(ABUT_SOURCE "/scenes") / name, {});

@@ -79,7 +79,7 @@ TEMPLATE_TEST_CASE_SIG("the force on a warm finite body is the slope of its ener
 
 TEMPLATE_TEST_CASE_SIG(
     "the work of heat in finite bodies that spin, collide and flow is booked: H~ + D - W and both momenta are kept",
-    "[solid][finite][thermal]", ((int Dim), Dim), 2, 3) {
+    "[solid][finite][thermal][long]", ((int Dim), Dim), 2, 3) {
     for (const Material& material : run_materials) {
         CAPTURE(static_cast<int>(material.law), material.kinematic_hardening);
         auto options = finite_of<Dim>(material, 2);

@@ -126,8 +126,8 @@ State on_threads(int threads, const Run& run) {
 
 }  // namespace
 
-TEMPLATE_TEST_CASE_SIG("runs of a crowd do not depend on when candidates are searched", "[solid][kinematics][candidates]",
-                       ((int Dim), Dim), 2, 3) {
+TEMPLATE_TEST_CASE_SIG("runs of a crowd do not depend on when candidates are searched",
+                       "[solid][kinematics][candidates][long]", ((int Dim), Dim), 2, 3) {
     const double speed = GENERATE(Dim == 2 ? 1.0 : 0.8, 2.0);
     const Crowd<Dim> crowd(1, speed);
     const double time = (Dim == 2 ? 40.0 : 15.0) / speed;

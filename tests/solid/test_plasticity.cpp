@@ -271,7 +271,7 @@ TEST_CASE("hardly any kinematic hardening is none where axes do not turn, and in
     CHECK(shear_off(2.0, true) == Approx(-0.20).epsilon(0.1));
 }
 
-TEST_CASE("a bar that hits a wall has the two fronts and the plateau of the exact bilinear bar", "[solid][material]") {
+TEST_CASE("a bar that hits a wall has the two fronts and the plateau of the exact bilinear bar", "[solid][material][long]") {
     // Two bricks across each way, each with two free sides: a bar of E and E_t = E H/(E + H). An elastic front at c, then a plastic one at
     // sqrt(E_t/rho), behind which the stress is sigma_y + rho sqrt(E_t/rho) (v_0 - sigma_y/(rho c)).
     constexpr int n = 200;
@@ -433,7 +433,8 @@ TEST_CASE("a material that remembers is refused where nothing keeps what it reme
     auto options = alone<2>({.young = 1.0, .poisson = 0.3, .density = 1.0});
     options.kinematics = {Kinematics::floating};
     options.finite.inelastic = {std::make_shared<Counting<2>>(metal)};
-    CHECK_THROWS_WITH(solid::Solid<2>(mesh, options), Catch::Contains("has a law of large strains") && Catch::Contains("Take Kinematics::finite"));
+    CHECK_THROWS_WITH(solid::Solid<2>(mesh, options),
+                      Catch::Contains("has a law of large strains") && Catch::Contains("Take Kinematics::finite"));
     options = alone<2>(metal);
     options.materials[0].yield_stress = 0.0;
     CHECK_THROWS_WITH(solid::Solid<2>(mesh, options), Catch::Contains("yield_stress"));
