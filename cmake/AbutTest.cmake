@@ -22,7 +22,7 @@ function(abut_test name)
   set(usual "")
   if(test_LONG)
     set(usual TEST_SPEC "~[long]")
-    catch_discover_tests(test_${name} TEST_SPEC "[long]" TEST_LIST test_${name}_LONG_TESTS TEST_PREFIX "${test_LAYER}/"
+    catch_discover_tests(test_${name} TEST_SPEC "[long]~[.]" TEST_LIST test_${name}_LONG_TESTS TEST_PREFIX "${test_LAYER}/"
       PROPERTIES TIMEOUT 1200 LABELS long ${test_PROPERTIES})
   endif()
   catch_discover_tests(test_${name} ${usual} TEST_PREFIX "${test_LAYER}/" PROPERTIES TIMEOUT 600 ${test_PROPERTIES})
