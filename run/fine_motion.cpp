@@ -38,8 +38,8 @@ public:
         }
     }
 
-    /// Neighbours that have another one on the opposite side of the cell, as in rows of bricks; where there are none, all of a
-    /// cell inside of its body.
+    /// Neighbours that have another one on the opposite side of the cell, as in rows of bricks; where there are none, all
+    /// of a cell inside of its body.
     void append_around(std::size_t cell, std::vector<std::int32_t>& list) const {
         const std::span<const std::int32_t> others = of(cell);
         std::vector<Vector<Dim>> directions;
