@@ -58,7 +58,7 @@ Load load_of_layer() {
     return {-charge_at / speed, p, reflected.rho * reflected.sound()};
 }
 
-/// What the plate does: deflection of its middle [m], and mean velocity [m/s].
+/// Motion of the plate: deflection of its middle [m], and mean velocity [m/s].
 struct Motion {
     double middle, velocity;
 };

@@ -35,7 +35,7 @@ public:
     void mean_force(std::span<const double> q_0, std::span<const double> q_1, double, double, std::span<double> f) {
         f[0] = mean(q_0[0], q_1[0]);
     }
-    /// That mean is the integral, which compositions of order 4 and 6 ask for.
+    /// The mean is the integral, which compositions of order 4 and 6 ask for.
     [[nodiscard]] static bool mean_is_exact() { return true; }
     /// d^2V/dq^2, for the implicit scheme.
     void append_stiffness(std::span<const double> q, double factor, std::vector<dynamics::MatrixEntry>& entries) const {

@@ -97,7 +97,7 @@ public:
     /// Defect of the step from `start` to `end`, less the moment of `direct`.
     [[nodiscard]] StepDefect<Dim> defect(std::int32_t c) const;
 
-    // What contact adds to cells with free faces, by dV/dF_cond over |c|. It acts along the step.
+    // Terms that contact adds to cells with free faces, by dV/dF_cond over |c|. It acts along the step.
 
     void clear_contact();
     /// Such terms by F of the affine faces.
