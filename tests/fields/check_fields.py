@@ -2,7 +2,7 @@
 """Stresses where people look first: at faces that touch, and at holes.
 
     check_fields.py build/dev/bin --list
-    check_fields.py build/dev/bin finite_blocks_that_planes_press_bear_what_the_table_says
+    check_fields.py build/dev/bin blocks_that_planes_press_show_the_stress_in_each_cell_that_touches
 """
 import math
 import pathlib
@@ -85,13 +85,13 @@ interval = 49
 
 
 @claim
-def finite_blocks_that_planes_press_bear_what_the_table_says(programs):
-    """The force is off the closed form by no more than docs/kinematics.md says."""
+def finite_blocks_that_planes_press_bear_their_force_and_the_page_says_how_nearly(programs):
+    """Within 5 % with four cells across and 0.5 % with eight; docs/kinematics.md has what they bear, as it is rounded."""
     table = table_of_pressed_blocks()
-    for shape, across in (("quadrangle", 4), ("quadrangle", 8), ("triangle", 8)):
-        off = abs(table[shape, across]["finite"] - 1) + 5e-4  # as the table is rounded
-        force = pressed_block(programs, shape, across, "finite")
-        near(force / EXACT["finite"], 1.0, off, f"the force on {across} {shape}s across over the exact one")
+    for shape, across, allowed in (("quadrangle", 4, 0.05), ("quadrangle", 8, 0.005), ("triangle", 8, 0.005)):
+        ratio = pressed_block(programs, shape, across, "finite") / EXACT["finite"]
+        near(ratio, 1.0, allowed, f"the force on {across} {shape}s across over the exact one")
+        near(ratio, table[shape, across]["finite"], 6e-4, f"the page on {across} {shape}s across")
 
 
 @claim
@@ -125,6 +125,17 @@ def heated_blocks_between_planes_press_with_the_force_of_the_heat_that_they_cann
 # A ring with a hole ------------------------------------------------------------------------------------------------------
 
 BORE, RIM, PRESSURE = 0.5, 1.0, 0.01
+
+
+def compare_ranks(programs, scene, ranks, what):
+    """Energies and frames of several ranks against those of one."""
+    one = Run(programs, scene, "--ranks", 1).require_end()
+    require(one.summary["active_pairs_max"] > 0, f"{what} does not touch")
+    expected = frames_of(one)
+    require(len(expected) >= 4, f"{what}: there are no frames")
+    shared = Run(programs, scene, "--ranks", ranks).require_end()
+    require((shared.out / "energy.csv").read_bytes() == (one.out / "energy.csv").read_bytes(), f"{what}: energies have other bits")
+    require(frames_of(shared) == expected, f"{what}: fields have other bits")
 
 
 def frames_of(done):
@@ -161,13 +172,41 @@ time = 3
 [output]
 frames = 4
 {more}""")
-            one = Run(programs, scene, "--ranks", 1).require_end()
-            require(one.summary["active_pairs_max"] > 0, f"{kinematics}: the ring does not touch the plane")
-            expected = frames_of(one)
-            require(len(expected) >= 4, f"{kinematics}: there are no frames")
-            shared = Run(programs, scene, "--ranks", 2).require_end()
-            require((shared.out / "energy.csv").read_bytes() == (one.out / "energy.csv").read_bytes(), f"{kinematics}: energies have other bits")
-            require(frames_of(shared) == expected, f"{kinematics}: fields have other bits")
+            compare_ranks(programs, scene, 2, f"the {kinematics} ring")
+
+
+@claim
+def finite_blocks_pressed_at_edges_and_corners_are_bitwise_identical_on_ranks_at_given_times(programs):
+    """In space, where faces of cells at edges and corners touch; the times lie inside of steps and at their ends."""
+    with tempfile.TemporaryDirectory() as folder:
+        scene = pathlib.Path(folder) / "block.toml"
+        scene.write_text("""dim = 3
+energy_scale = 1e-5
+[bodies.block]
+shape = "structured_box"
+lower = [0, 0, 0]
+upper = [1, 1, 1]
+counts = [4, 4, 4]
+young = 1
+poisson = 0.3
+density = 1
+kinematics = "finite"
+[obstacles.wall]
+shape = "plane"
+point = [0, 0, 0]
+normal = [1, 0, 0]
+[obstacles.press]
+shape = "plane"
+point = [1, 0, 0]
+normal = [-1, 0, 0]
+path = ["-0.01*min(t/2, 1)", 0, 0]
+[run]
+time = 3
+[output]
+times = [0.5, 1.2345, 3]
+""")
+        compare_ranks(programs, scene, 3, "the block")
+
 
 
 if __name__ == "__main__":
