@@ -11,7 +11,7 @@
 
 #include <functional>
 
-#include "abut/contact/overlaps.hpp"
+#include "abut/contact/overlap/overlaps.hpp"
 #include "abut/contact/search/candidate_search.hpp"
 #include "support/detection_scenes.hpp"
 #include "support/measure.hpp"

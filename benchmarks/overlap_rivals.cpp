@@ -12,8 +12,8 @@
 #include <exception>
 #include <random>
 
-#include "abut/contact/overlaps.hpp"
-#include "abut/contact/pair.hpp"
+#include "abut/contact/overlap/overlaps.hpp"
+#include "abut/contact/pairs/pair.hpp"
 #include "support/clippers.hpp"
 #include "support/measure.hpp"
 #include "support/options.hpp"

@@ -11,7 +11,7 @@
 #include "abut/contact/report.hpp"
 #include "abut/contact/sharing.hpp"
 #include "abut/contact/step.hpp"
-#include "abut/contact/surface.hpp"
+#include "abut/contact/surface/surface.hpp"
 
 namespace abut::contact {
 

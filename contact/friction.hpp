@@ -4,7 +4,7 @@
 #include <limits>
 #include <vector>
 
-#include "abut/contact/surface.hpp"
+#include "abut/contact/surface/surface.hpp"
 
 namespace abut::contact {
 

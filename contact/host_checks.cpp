@@ -9,9 +9,9 @@
 
 #include "abut/base/decompositions.hpp"
 #include "abut/base/error.hpp"
-#include "abut/contact/messages.hpp"
 #include "abut/contact/nodal_contact.hpp"
 #include "abut/contact/option_table.hpp"
+#include "abut/contact/surface/face_name.hpp"
 
 namespace abut::contact {
 namespace {

@@ -3,7 +3,7 @@
 #include <functional>
 #include <vector>
 
-#include "abut/contact/surface.hpp"
+#include "abut/contact/surface/surface.hpp"
 
 namespace abut::contact {
 

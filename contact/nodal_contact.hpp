@@ -9,15 +9,15 @@
 #include <vector>
 
 #include "abut/base/strided_points.hpp"
-#include "abut/contact/blind_corners.hpp"
 #include "abut/contact/friction.hpp"
 #include "abut/contact/interference.hpp"
 #include "abut/contact/nodal_step.hpp"
-#include "abut/contact/nodal_surface.hpp"
 #include "abut/contact/options.hpp"
 #include "abut/contact/report.hpp"
 #include "abut/contact/sharing.hpp"
-#include "abut/contact/unseen_edges.hpp"
+#include "abut/contact/surface/blind_corners.hpp"
+#include "abut/contact/surface/nodal_surface.hpp"
+#include "abut/contact/surface/unseen_edges.hpp"
 #include "abut/geometry/pair_potential/pair_potential.hpp"
 
 namespace abut::contact {

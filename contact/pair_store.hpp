@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "abut/base/state_bytes.hpp"
-#include "abut/contact/surface.hpp"
+#include "abut/contact/surface/surface.hpp"
 
 namespace abut::contact {
 

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "abut/base/ids.hpp"
-#include "abut/contact/surface.hpp"
+#include "abut/contact/surface/surface.hpp"
 
 namespace abut::contact {
 

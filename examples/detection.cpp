@@ -10,7 +10,7 @@
 #include <exception>
 #include <vector>
 
-#include "abut/contact/overlaps.hpp"
+#include "abut/contact/overlap/overlaps.hpp"
 #include "abut/contact/search/candidate_search.hpp"
 #include "abut/mesh/io/read_surface.hpp"
 #include "abut/mesh/shapes/shapes.hpp"

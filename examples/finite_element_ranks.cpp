@@ -17,7 +17,7 @@
 #include <span>
 #include <vector>
 
-#include "abut/contact/nodal_faces.hpp"
+#include "abut/contact/surface/nodal_faces.hpp"
 #include "abut/mesh/shapes/shapes.hpp"
 #include "abut/ranks/shared_nodal_contact.hpp"
 

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <cstdio>
 
-#include "abut/contact/obstacle.hpp"
+#include "abut/contact/surface/obstacle.hpp"
 #include "abut/mesh/shapes/shapes.hpp"
-#include "abut/run/simulation.hpp"
+#include "abut/run/steps/simulation.hpp"
 
 using namespace abut;
 

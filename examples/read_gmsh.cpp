@@ -9,7 +9,7 @@
 #include <fstream>
 
 #include "abut/mesh/io/read_mesh.hpp"
-#include "abut/run/simulation.hpp"
+#include "abut/run/steps/simulation.hpp"
 
 using namespace abut;
 

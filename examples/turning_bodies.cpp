@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "abut/contact/nodal_contact.hpp"
-#include "abut/contact/nodal_faces.hpp"
+#include "abut/contact/surface/nodal_faces.hpp"
 #include "abut/dynamics/memm.hpp"
 #include "abut/mesh/shapes/shapes.hpp"
 

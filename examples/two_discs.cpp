@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "abut/mesh/shapes/shapes.hpp"
-#include "abut/run/simulation.hpp"
-#include "abut/run/warnings.hpp"
+#include "abut/run/steps/simulation.hpp"
+#include "abut/run/words/warnings.hpp"
 
 using namespace abut;
 

@@ -11,7 +11,7 @@
 #include <span>
 #include <string>
 
-#include "abut/contact/obstacle_side.hpp"
+#include "abut/contact/surface/obstacle_side.hpp"
 #include "abut/geometry/box.hpp"
 #include "abut/geometry/broad_phase/broad_phase.hpp"
 #include "abut/geometry/convex_proximity.hpp"

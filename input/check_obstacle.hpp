@@ -2,7 +2,7 @@
 // Private to the layer.
 #include <vector>
 
-#include "abut/contact/obstacle.hpp"
+#include "abut/contact/surface/obstacle.hpp"
 #include "abut/input/fault.hpp"
 #include "abut/input/settings.hpp"
 #include "abut/mesh/interpenetration.hpp"

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "abut/base/error.hpp"
-#include "abut/contact/obstacle.hpp"
+#include "abut/contact/surface/obstacle.hpp"
 #include "abut/geometry/box.hpp"
 #include "abut/geometry/health/surface_health.hpp"
 #include "abut/input/check_obstacle.hpp"

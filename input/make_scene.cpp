@@ -20,7 +20,7 @@
 #include "abut/input/names.hpp"
 #include "abut/input/values.hpp"
 #include "abut/mesh/interpenetration.hpp"
-#include "abut/run/probes.hpp"
+#include "abut/run/files/probes.hpp"
 #include "abut/solid/body_interference.hpp"
 
 namespace abut::input {

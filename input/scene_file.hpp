@@ -7,6 +7,7 @@
 
 #include "abut/input/fault.hpp"
 #include "abut/input/given_meshes.hpp"
+#include "abut/run/result.hpp"
 #include "abut/run/scene.hpp"
 
 namespace abut::input {

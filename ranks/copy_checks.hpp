@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "abut/base/strided_points.hpp"
-#include "abut/contact/nodal_surface.hpp"
+#include "abut/contact/surface/nodal_surface.hpp"
 #include "abut/ranks/node_gather.hpp"
 #include "abut/ranks/shared_surface.hpp"
 

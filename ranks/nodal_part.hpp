@@ -3,7 +3,7 @@
 #include <span>
 
 #include "abut/base/strided_points.hpp"
-#include "abut/contact/nodal_surface.hpp"
+#include "abut/contact/surface/nodal_surface.hpp"
 
 namespace abut::ranks {
 

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "abut/contact/nodal_surface.hpp"
+#include "abut/contact/surface/nodal_surface.hpp"
 #include "abut/ranks/communicator.hpp"
 #include "abut/ranks/nodal_part.hpp"
 

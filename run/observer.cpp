@@ -2,10 +2,11 @@
 
 #include <algorithm>
 
-#include "abut/run/checkpoint.hpp"
-#include "abut/run/failure.hpp"
-#include "abut/run/frame_piece.hpp"
+#include "abut/run/result.hpp"
 #include "abut/run/scene.hpp"
+#include "abut/run/values/checkpoint.hpp"
+#include "abut/run/values/failure.hpp"
+#include "abut/run/values/frame_piece.hpp"
 
 namespace abut::run {
 

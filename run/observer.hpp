@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "abut/base/state_bytes.hpp"
-#include "abut/run/forward.hpp"
+#include "abut/run/values/forward.hpp"
 
 namespace abut::run {
 

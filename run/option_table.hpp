@@ -3,7 +3,7 @@
 
 #include "abut/base/option.hpp"
 #include "abut/run/options.hpp"
-#include "abut/run/value.hpp"
+#include "abut/run/values/value.hpp"
 
 namespace abut::run {
 

@@ -25,7 +25,7 @@ inline constexpr int restart_not_given = std::numeric_limits<int>::min();
 using SolidIntegrator = dynamics::Scheme;
 
 /// How bodies may move (solid::Kinematics): one choice for all of them, that of the scene, or `automatic`: for each body the
-/// cheapest one that a pilot run allows (run/pilot.hpp).
+/// cheapest one that a pilot run allows (run/steps/pilot.hpp).
 enum class BodyKinematics { scene, automatic, small, floating, finite, rigid };
 
 /// Files of frames for ParaView: a .vtu and a .vtp file for each, or one .h5 file for all with XDMF beside it.
@@ -36,7 +36,7 @@ enum class FrameFormat : std::uint8_t { vtu, xdmf };
 struct RunOptions {
     double time = not_given;      ///< end of the run [s]; not given: as many steps as `steps`, or the scene's own time
     int steps = 0;                ///< of the run where no time is given; 0: not given
-    bool settle = false;          ///< bodies are brought to rest under the loads of t = 0 first (run/settling.hpp)
+    bool settle = false;          ///< bodies are brought to rest under the loads of t = 0 first (run/steps/settling.hpp)
     double cfl = 0.9;             ///< time step over the stable step [-]
     double dt = not_given;        ///< time step [s], instead of `cfl`
     bool allow_unstable = false;  ///< takes `dt` even above the stable step

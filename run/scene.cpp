@@ -1,4 +1,5 @@
 #include "abut/run/scene.hpp"
+#include "abut/run/result.hpp"
 
 #include <fmt/format.h>
 

@@ -51,9 +51,9 @@ public:
     /// Cell of the mesh that has a face which an error of contact names (ErrorFacts::face_1, face_2); -1: none has.
     [[nodiscard]] std::int32_t cell_of_face(std::int64_t face) const;
     /// Corners that are too sharp for contact to see them coming, by the law that acts. Bodies are those of the mesh, then
-    /// obstacles. contact/blind_corners.hpp, contact::NodalContact::blind_corners.
+    /// obstacles. contact/surface/blind_corners.hpp, contact::NodalContact::blind_corners.
     [[nodiscard]] std::vector<contact::BlindCorner<Dim>> blind_corners() const;
-    /// Edges of two bodies that would cross unseen. contact/unseen_edges.hpp.
+    /// Edges of two bodies that would cross unseen. contact/surface/unseen_edges.hpp.
     [[nodiscard]] std::optional<contact::EdgePair<Dim>> unseen_edges() const;
 
 private:

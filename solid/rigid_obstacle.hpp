@@ -1,7 +1,7 @@
 #pragma once
 #include <functional>
 
-#include "abut/contact/obstacle.hpp"
+#include "abut/contact/surface/obstacle.hpp"
 #include "abut/mesh/mesh.hpp"
 
 namespace abut::solid {

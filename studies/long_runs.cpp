@@ -13,7 +13,7 @@
 
 #include "abut/base/error.hpp"
 #include "abut/mesh/shapes/shapes.hpp"
-#include "abut/run/simulation.hpp"
+#include "abut/run/steps/simulation.hpp"
 #include "apps/support/program.hpp"
 #include "studies/extremes/scenes.hpp"
 #include "studies/long_runs/rattle.hpp"

@@ -13,8 +13,8 @@
 #include <cmath>
 
 #include "abut/base/error.hpp"
-#include "abut/run/files.hpp"
-#include "abut/run/folder_lock.hpp"
+#include "abut/run/files/files.hpp"
+#include "abut/run/files/folder_lock.hpp"
 #include "apps/support/preset.hpp"
 #include "studies/program/entry.hpp"
 #include "studies/table/table.hpp"

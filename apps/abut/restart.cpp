@@ -11,7 +11,7 @@
 #include "abut/base/text.hpp"
 #include "abut/input/changes.hpp"
 #include "abut/input/fault.hpp"
-#include "abut/run/checkpoint_folder.hpp"
+#include "abut/run/files/checkpoint_folder.hpp"
 
 namespace abut::apps {
 namespace {

@@ -12,8 +12,8 @@
 #include <utility>
 
 #include "abut/base/error.hpp"
-#include "abut/run/files.hpp"
-#include "abut/run/folder_lock.hpp"
+#include "abut/run/files/files.hpp"
+#include "abut/run/files/folder_lock.hpp"
 #include "apps/support/csv.hpp"
 #include "apps/support/signals.hpp"
 #include "apps/support/standard_streams.hpp"

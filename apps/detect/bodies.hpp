@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "abut/contact/surface.hpp"
+#include "abut/contact/surface/surface.hpp"
 #include "abut/geometry/health/surface_health.hpp"
 #include "apps/detect/options.hpp"
 

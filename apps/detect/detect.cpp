@@ -10,8 +10,8 @@
 #include <stdexcept>
 
 #include "abut/base/stopwatch.hpp"
-#include "abut/run/files.hpp"
-#include "abut/run/scene.hpp"
+#include "abut/run/files/files.hpp"
+#include "abut/run/result.hpp"
 #include "apps/detect/output.hpp"
 #include "apps/detect/report.hpp"
 #include "apps/support/csv.hpp"

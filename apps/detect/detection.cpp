@@ -9,7 +9,7 @@
 
 #include "abut/base/index.hpp"
 #include "abut/base/stopwatch.hpp"
-#include "abut/contact/face_distance.hpp"
+#include "abut/contact/overlap/face_distance.hpp"
 
 namespace abut::apps {
 namespace {

@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "abut/contact/overlaps.hpp"
+#include "abut/contact/overlap/overlaps.hpp"
 #include "abut/contact/search/candidate_search.hpp"
 #include "apps/detect/motion.hpp"
 #include "apps/detect/nearest.hpp"

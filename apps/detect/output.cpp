@@ -9,7 +9,7 @@
 
 #include "abut/base/index.hpp"
 #include "abut/mesh/io/write_vtp.hpp"
-#include "abut/run/files.hpp"
+#include "abut/run/files/files.hpp"
 
 namespace abut::apps {
 namespace {

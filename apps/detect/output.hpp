@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "abut/mesh/io/write_vtp.hpp"
-#include "abut/run/folder_lock.hpp"
-#include "abut/run/partial_file.hpp"
+#include "abut/run/files/folder_lock.hpp"
+#include "abut/run/files/partial_file.hpp"
 #include "apps/detect/detection.hpp"
 
 namespace abut::apps {

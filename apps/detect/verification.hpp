@@ -3,8 +3,8 @@
 #include <span>
 #include <string>
 
-#include "abut/contact/overlaps.hpp"
-#include "abut/contact/surface.hpp"
+#include "abut/contact/overlap/overlaps.hpp"
+#include "abut/contact/surface/surface.hpp"
 
 namespace abut::apps {
 

@@ -10,7 +10,7 @@
 #include <variant>
 
 #include "abut/base/text.hpp"
-#include "abut/run/files.hpp"
+#include "abut/run/files/files.hpp"
 
 namespace abut::apps {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "abut/run/value.hpp"
+#include "abut/run/values/value.hpp"
 
 namespace abut::apps {
 

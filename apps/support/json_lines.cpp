@@ -7,10 +7,11 @@
 #include <utility>
 
 #include "abut/base/error.hpp"
+#include "abut/run/result.hpp"
 #include "abut/run/scene.hpp"
 #include "abut/run/user_words.hpp"
-#include "abut/run/verdict.hpp"
-#include "abut/run/warnings.hpp"
+#include "abut/run/words/verdict.hpp"
+#include "abut/run/words/warnings.hpp"
 #include "apps/support/csv.hpp"
 
 namespace abut::apps {

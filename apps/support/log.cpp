@@ -8,6 +8,7 @@
 
 #include "apps/support/terminal.hpp"
 
+#include "abut/run/result.hpp"
 #include "abut/run/scene.hpp"
 
 namespace abut::apps {

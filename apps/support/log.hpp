@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "abut/run/observer.hpp"
-#include "abut/run/warnings.hpp"
+#include "abut/run/words/warnings.hpp"
 
 namespace abut::apps {
 

@@ -1,7 +1,7 @@
 #pragma once
 #include <string>
 
-#include "abut/run/preset.hpp"
+#include "abut/run/steps/preset.hpp"
 #include "apps/support/choices.hpp"
 #include "apps/support/run_options.hpp"
 

@@ -9,6 +9,7 @@
 
 #include "apps/support/standard_streams.hpp"
 
+#include "abut/run/result.hpp"
 #include "abut/run/scene.hpp"
 
 namespace abut::apps {

@@ -9,7 +9,7 @@
 
 #include "abut/mesh/mesh.hpp"
 #include "abut/ranks/session.hpp"
-#include "abut/run/share.hpp"
+#include "abut/run/steps/share.hpp"
 #include "abut/solid/options/options.hpp"
 
 namespace abut::apps {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "abut/contact/nodal_surface.hpp"
+#include "abut/contact/surface/nodal_surface.hpp"
 #include "guarded.hpp"
 
 namespace abut::c_layer {

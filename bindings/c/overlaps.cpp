@@ -6,7 +6,7 @@
 #include "abut.h"
 #include "abut/base/ids.hpp"
 #include "abut/base/sort_unique.hpp"
-#include "abut/contact/face_distance.hpp"
+#include "abut/contact/overlap/face_distance.hpp"
 #include "abut/contact/search/near_overlaps.hpp"
 #include "arguments.hpp"
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "abut.h"
-#include "abut/contact/cell_surface.hpp"
+#include "abut/contact/surface/cell_surface.hpp"
 #include "arguments.hpp"
 
 using namespace abut;

@@ -5,7 +5,7 @@
 
 #include "abut/base/error.hpp"
 #include "abut/run/option_table.hpp"
-#include "abut/run/preset.hpp"
+#include "abut/run/steps/preset.hpp"
 #include "numbers.hpp"
 #include "scenes.hpp"
 

@@ -7,9 +7,10 @@
 #include <vector>
 
 #include "abut/run/body_names.hpp"
-#include "abut/run/contact_forces.hpp"
+#include "abut/run/files/contact_forces.hpp"
+#include "abut/run/files/probes.hpp"
 #include "abut/run/observer.hpp"
-#include "abut/run/probes.hpp"
+#include "abut/run/result.hpp"
 #include "abut/run/scene.hpp"
 #include "states.hpp"
 #include "vectors.hpp"

@@ -8,8 +8,9 @@
 
 #include "abut/base/error.hpp"
 #include "abut/dynamics/ledger.hpp"
-#include "abut/run/frames.hpp"
+#include "abut/run/files/frames.hpp"
 #include "abut/run/observer.hpp"
+#include "abut/run/result.hpp"
 #include "abut/run/scene.hpp"
 #include "abut/solid/cell_view.hpp"
 #include "abut/solid/contact_view.hpp"

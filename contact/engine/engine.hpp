@@ -11,17 +11,19 @@
 
 #include "abut/base/error.hpp"
 #include "abut/base/ids.hpp"
+#include "abut/base/messages.hpp"
 #include "abut/base/parallel.hpp"
 #include "abut/base/sort_unique.hpp"
-#include "abut/contact/admission.hpp"
 #include "abut/contact/engine/report_counters.hpp"
 #include "abut/contact/engine/saved_contact.hpp"
-#include "abut/contact/facet_store.hpp"
 #include "abut/contact/host_checks.hpp"
-#include "abut/contact/messages.hpp"
 #include "abut/contact/pair_store.hpp"
+#include "abut/contact/pairs/admission.hpp"
 #include "abut/contact/search/candidate_search.hpp"
 #include "abut/contact/sharing.hpp"
+#include "abut/contact/step.hpp"
+#include "abut/contact/surface/face_name.hpp"
+#include "abut/contact/surface/facet_store.hpp"
 
 namespace abut::contact {
 
@@ -30,6 +32,17 @@ struct CompressionLimits {
     double warning;
     double limit;
 };
+
+/// Error for a pair that is pressed in deeper than a host allows.
+template <int Dim>
+[[nodiscard]] TooDeep too_deep(const std::string& face_1, const std::string& face_2, const PairStep<Dim>& pair,
+                               double limit) {
+    return TooDeep(
+        "contact: " + face_1 + " and " + face_2 + " are pressed " + number(pair.compression) +
+            " times the depth of their cells into each other, " + number(limit) +
+            " is allowed (compression_limit). Refine the mesh at the contact, or lower the speed or the load.",
+        {.face_1 = number_of(pair.face_1), .face_2 = number_of(pair.face_2), .value = pair.compression, .allowed = limit});
+}
 
 /// All that contact has in common, whatever the law: how long a candidate list is valid, the search, which pairs stay listed
 /// and what they remember, their first admission, memory of facets, limits, the report, saving and restoring, and another

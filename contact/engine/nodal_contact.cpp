@@ -5,12 +5,12 @@
 
 #include "abut/base/error.hpp"
 #include "abut/base/messages.hpp"
-#include "abut/contact/bevel_shape.hpp"
-#include "abut/contact/bevels.hpp"
 #include "abut/contact/engine/engine.hpp"
+#include "abut/contact/engine/nodal_stable_step.hpp"
 #include "abut/contact/host_checks.hpp"
 #include "abut/contact/law/node_law.hpp"
-#include "abut/contact/nodal_stable_step.hpp"
+#include "abut/contact/surface/bevel_shape.hpp"
+#include "abut/contact/surface/bevels.hpp"
 
 namespace abut::contact {
 namespace {

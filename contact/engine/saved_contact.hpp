@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "abut/contact/facet_store.hpp"
 #include "abut/contact/pair_store.hpp"
 #include "abut/contact/report.hpp"
+#include "abut/contact/surface/facet_store.hpp"
 
 namespace abut::contact {
 

@@ -1,7 +1,7 @@
 #include "abut/contact/law/face_friction.hpp"
 
 #include "abut/base/ids.hpp"
-#include "abut/contact/nodal_surface.hpp"
+#include "abut/contact/surface/nodal_surface.hpp"
 #include "abut/geometry/plane_frame.hpp"
 
 namespace abut::contact {

@@ -6,12 +6,12 @@
 #include <utility>
 #include <vector>
 
-#include "abut/contact/facet_store.hpp"
 #include "abut/contact/friction.hpp"
 #include "abut/contact/law/friction_pair.hpp"
 #include "abut/contact/law/friction_pass.hpp"
 #include "abut/contact/path/pieces.hpp"
 #include "abut/contact/step.hpp"
+#include "abut/contact/surface/facet_store.hpp"
 #include "abut/geometry/tangents.hpp"
 
 namespace abut::contact {

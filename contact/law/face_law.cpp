@@ -3,8 +3,8 @@
 #include <utility>
 
 #include "abut/base/ids.hpp"
-#include "abut/contact/finite_forces.hpp"
 #include "abut/contact/host_checks.hpp"
+#include "abut/contact/law/finite_forces.hpp"
 
 namespace abut::contact {
 

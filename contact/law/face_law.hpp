@@ -6,16 +6,16 @@
 #include <string>
 #include <vector>
 
-#include "abut/contact/admission.hpp"
-#include "abut/contact/facet_store.hpp"
 #include "abut/contact/law/face_friction.hpp"
 #include "abut/contact/law/reconstruction.hpp"
-#include "abut/contact/messages.hpp"
-#include "abut/contact/pair_list.hpp"
 #include "abut/contact/pair_store.hpp"
+#include "abut/contact/pairs/admission.hpp"
+#include "abut/contact/pairs/pair_list.hpp"
 #include "abut/contact/path/measures.hpp"
 #include "abut/contact/path/pieces.hpp"
 #include "abut/contact/search/candidate_search.hpp"
+#include "abut/contact/surface/face_name.hpp"
+#include "abut/contact/surface/facet_store.hpp"
 
 namespace abut::contact {
 

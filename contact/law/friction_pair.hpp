@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "abut/base/ids.hpp"
-#include "abut/contact/facet_store.hpp"
 #include "abut/contact/friction.hpp"
 #include "abut/contact/law/friction_pass.hpp"
-#include "abut/contact/nodal_surface.hpp"
+#include "abut/contact/surface/facet_store.hpp"
+#include "abut/contact/surface/nodal_surface.hpp"
 #include "abut/geometry/tangents.hpp"
 
 namespace abut::contact {

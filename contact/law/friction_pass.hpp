@@ -5,10 +5,10 @@
 #include <span>
 #include <vector>
 
-#include "abut/contact/facet_store.hpp"
 #include "abut/contact/friction.hpp"
 #include "abut/contact/law/friction_step.hpp"
 #include "abut/contact/step.hpp"
+#include "abut/contact/surface/facet_store.hpp"
 
 namespace abut::contact {
 

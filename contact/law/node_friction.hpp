@@ -6,12 +6,12 @@
 #include <utility>
 #include <vector>
 
-#include "abut/contact/facet_store.hpp"
 #include "abut/contact/friction.hpp"
 #include "abut/contact/law/friction_pair.hpp"
 #include "abut/contact/law/friction_pass.hpp"
-#include "abut/contact/nodal_pairs.hpp"
 #include "abut/contact/nodal_step.hpp"
+#include "abut/contact/pairs/nodal_pairs.hpp"
+#include "abut/contact/surface/facet_store.hpp"
 #include "abut/geometry/pair_potential/pair_slip.hpp"
 
 namespace abut::contact {

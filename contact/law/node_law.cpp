@@ -7,8 +7,8 @@
 #include "abut/base/ids.hpp"
 #include "abut/base/messages.hpp"
 #include "abut/base/parallel.hpp"
-#include "abut/contact/messages.hpp"
-#include "abut/contact/pair.hpp"
+#include "abut/contact/pairs/pair.hpp"
+#include "abut/contact/surface/face_name.hpp"
 
 namespace abut::contact {
 namespace {

@@ -8,18 +8,18 @@
 #include <vector>
 
 #include "abut/base/ids.hpp"
-#include "abut/contact/admission.hpp"
-#include "abut/contact/bevels.hpp"
-#include "abut/contact/facet_store.hpp"
-#include "abut/contact/inside_pairs.hpp"
-#include "abut/contact/interference_ramps.hpp"
+#include "abut/contact/law/interference_ramps.hpp"
 #include "abut/contact/law/pair_potential.hpp"
 #include "abut/contact/nodal_contact.hpp"
-#include "abut/contact/nodal_pairs.hpp"
-#include "abut/contact/nodal_surface.hpp"
 #include "abut/contact/pair_store.hpp"
+#include "abut/contact/pairs/admission.hpp"
+#include "abut/contact/pairs/inside_pairs.hpp"
+#include "abut/contact/pairs/nodal_pairs.hpp"
 #include "abut/contact/search/candidate_search.hpp"
-#include "abut/contact/side_outlines.hpp"
+#include "abut/contact/surface/bevels.hpp"
+#include "abut/contact/surface/facet_store.hpp"
+#include "abut/contact/surface/nodal_surface.hpp"
+#include "abut/contact/surface/side_outlines.hpp"
 
 namespace abut::contact {
 

@@ -8,7 +8,7 @@
 #include <type_traits>
 
 #include "abut/base/parallel.hpp"
-#include "abut/contact/finite_forces.hpp"
+#include "abut/contact/law/finite_forces.hpp"
 
 namespace abut::contact {
 namespace {

@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "abut/contact/law/node_friction.hpp"
-#include "abut/contact/nodal_pairs.hpp"
 #include "abut/contact/nodal_step.hpp"
+#include "abut/contact/pairs/nodal_pairs.hpp"
 #include "abut/contact/shared_work.hpp"
-#include "abut/contact/side_outlines.hpp"
+#include "abut/contact/surface/side_outlines.hpp"
 
 namespace abut::contact {
 

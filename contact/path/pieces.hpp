@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "abut/contact/pair_list.hpp"
 #include "abut/contact/pair_store.hpp"
+#include "abut/contact/pairs/pair_list.hpp"
 #include "abut/contact/shared_work.hpp"
 #include "abut/contact/step.hpp"
 

@@ -11,7 +11,6 @@
 #include "abut/base/error.hpp"
 #include "abut/base/parallel.hpp"
 #include "abut/base/stopwatch.hpp"
-#include "abut/contact/messages.hpp"
 #include "abut/contact/option_table.hpp"
 #include "abut/contact/search/face_boxes.hpp"
 #include "abut/contact/search/face_order.hpp"
@@ -20,6 +19,7 @@
 #include "abut/contact/search/skin_choice.hpp"
 #include "abut/contact/search/translated_faces.hpp"
 #include "abut/contact/shared_work.hpp"
+#include "abut/contact/surface/face_name.hpp"
 #include "abut/geometry/broad_phase/search_part.hpp"
 #include "abut/geometry/broad_phase/sort_pairs.hpp"
 
@@ -354,7 +354,7 @@ private:
     bool list_holds_ = false;
     std::optional<Neighbours> neighbours_;
     const geometry::PairFilter* within_ = nullptr;  // of the present search
-    double extent_ = 0.0;  // of all surfaces at rest [m]
+    double extent_ = 0.0;                           // of all surfaces at rest [m]
     TranslatedFaces<Dim> translated_;
     FaceOrder order_;
     std::vector<Box<Dim>> boxes_;              // in that order

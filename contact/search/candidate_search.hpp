@@ -7,7 +7,7 @@
 #include "abut/contact/options.hpp"
 #include "abut/contact/report.hpp"
 #include "abut/contact/sharing.hpp"
-#include "abut/contact/surface.hpp"
+#include "abut/contact/surface/surface.hpp"
 #include "abut/geometry/broad_phase/broad_phase.hpp"
 
 namespace abut::contact {

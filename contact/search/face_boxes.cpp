@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "abut/contact/pair.hpp"
+#include "abut/contact/pairs/pair.hpp"
 
 namespace abut::contact {
 namespace {

@@ -3,7 +3,7 @@
 #include <cstdint>
 
 #include "abut/contact/options.hpp"
-#include "abut/contact/surface.hpp"
+#include "abut/contact/surface/surface.hpp"
 #include "abut/geometry/box.hpp"
 
 namespace abut::contact {

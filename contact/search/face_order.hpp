@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "abut/contact/surface.hpp"
+#include "abut/contact/surface/surface.hpp"
 
 namespace abut::contact {
 

@@ -6,7 +6,7 @@
 
 #include "abut/base/error.hpp"
 #include "abut/base/parallel.hpp"
-#include "abut/contact/messages.hpp"
+#include "abut/contact/surface/face_name.hpp"
 
 namespace abut::contact {
 namespace {

@@ -1,9 +1,9 @@
 #pragma once
 #include <vector>
 
-#include "abut/contact/nodal_surface.hpp"
-#include "abut/contact/overlaps.hpp"
+#include "abut/contact/overlap/overlaps.hpp"
 #include "abut/contact/report.hpp"
+#include "abut/contact/surface/nodal_surface.hpp"
 
 namespace abut::contact {
 

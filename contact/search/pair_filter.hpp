@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <span>
 
-#include "abut/contact/pair.hpp"
+#include "abut/contact/pairs/pair.hpp"
 #include "abut/contact/search/face_boxes.hpp"
 
 namespace abut::contact {

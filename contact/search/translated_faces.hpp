@@ -7,10 +7,10 @@
 
 #include "abut/base/error.hpp"
 #include "abut/base/parallel.hpp"
-#include "abut/contact/messages.hpp"
 #include "abut/contact/search/face_boxes.hpp"
 #include "abut/contact/search/face_order.hpp"
 #include "abut/contact/search/pair_filter.hpp"
+#include "abut/contact/surface/face_name.hpp"
 
 namespace abut::contact {
 

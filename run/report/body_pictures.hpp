@@ -1,7 +1,7 @@
 #pragma once
 // Private to the sources of run.
 #include "abut/run/drawing/markup.hpp"
-#include "abut/run/snapshots.hpp"
+#include "abut/run/files/snapshots.hpp"
 
 namespace abut::run {
 

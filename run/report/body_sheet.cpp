@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "abut/run/drawing/colours.hpp"
-#include "abut/run/picture_marks.hpp"
+#include "abut/run/files/picture_marks.hpp"
 
 namespace abut::run {
 namespace {

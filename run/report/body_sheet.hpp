@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "abut/run/drawing/raster.hpp"
-#include "abut/run/snapshots.hpp"
+#include "abut/run/files/snapshots.hpp"
 
 namespace abut::run {
 

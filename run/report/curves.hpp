@@ -6,7 +6,7 @@
 #include "abut/dynamics/ledger.hpp"
 #include "abut/run/drawing/markup.hpp"
 #include "abut/run/drawing/plot.hpp"
-#include "abut/run/scene.hpp"
+#include "abut/run/result.hpp"
 
 namespace abut::run {
 

@@ -1,6 +1,6 @@
 #include "abut/run/report/energy_picture.hpp"
 
-#include "abut/run/files.hpp"
+#include "abut/run/files/files.hpp"
 #include "abut/run/report/curves.hpp"
 
 namespace abut::run {

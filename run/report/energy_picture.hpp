@@ -3,7 +3,7 @@
 #include <span>
 #include <string>
 
-#include "abut/run/forward.hpp"
+#include "abut/run/values/forward.hpp"
 
 namespace abut::run {
 

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "abut/run/drawing/markup.hpp"
-#include "abut/run/json.hpp"
-#include "abut/run/scene.hpp"
+#include "abut/run/files/json.hpp"
+#include "abut/run/values/energy_scale.hpp"
 
 namespace abut::run {
 

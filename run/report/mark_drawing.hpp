@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "abut/run/picture_marks.hpp"
 #include "abut/run/drawing/markup.hpp"
+#include "abut/run/files/picture_marks.hpp"
 
 namespace abut::run {
 

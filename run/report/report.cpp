@@ -14,9 +14,9 @@
 #include "abut/run/report/curves.hpp"
 #include "abut/run/report/figures.hpp"
 #include "abut/run/report/watched.hpp"
-#include "abut/run/summary.hpp"
-#include "abut/run/verdict.hpp"
-#include "abut/run/warnings.hpp"
+#include "abut/run/words/summary.hpp"
+#include "abut/run/words/verdict.hpp"
+#include "abut/run/words/warnings.hpp"
 #include "abut/solid/kinematics/properties.hpp"
 #include "abut/solid/material/material_numbers.hpp"
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "abut/run/forward.hpp"
+#include "abut/run/values/forward.hpp"
 
 namespace abut::run {
 

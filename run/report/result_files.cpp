@@ -6,14 +6,15 @@
 
 #include "abut/base/error.hpp"
 #include "abut/base/stopwatch.hpp"
-#include "abut/run/failure_files.hpp"
-#include "abut/run/files.hpp"
-#include "abut/run/frame_piece.hpp"
-#include "abut/run/paraview_script.hpp"
+#include "abut/run/files/failure_files.hpp"
+#include "abut/run/files/files.hpp"
+#include "abut/run/files/paraview_script.hpp"
 #include "abut/run/report/energy_picture.hpp"
+#include "abut/run/result.hpp"
 #include "abut/run/scene.hpp"
-#include "abut/run/summary.hpp"
-#include "abut/run/table_line.hpp"
+#include "abut/run/values/frame_piece.hpp"
+#include "abut/run/words/summary.hpp"
+#include "abut/run/words/table_line.hpp"
 
 namespace abut::run {
 namespace {

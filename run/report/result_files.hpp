@@ -7,16 +7,16 @@
 #include <utility>
 #include <vector>
 
-#include "abut/run/animation.hpp"
-#include "abut/run/checkpoint_folder.hpp"
-#include "abut/run/energy_file.hpp"
-#include "abut/run/folder_lock.hpp"
-#include "abut/run/force_file.hpp"
-#include "abut/run/frames.hpp"
+#include "abut/run/files/animation.hpp"
+#include "abut/run/files/checkpoint_folder.hpp"
+#include "abut/run/files/energy_file.hpp"
+#include "abut/run/files/folder_lock.hpp"
+#include "abut/run/files/force_file.hpp"
+#include "abut/run/files/frames.hpp"
+#include "abut/run/files/probe_file.hpp"
+#include "abut/run/files/snapshots.hpp"
 #include "abut/run/observer.hpp"
-#include "abut/run/probe_file.hpp"
 #include "abut/run/report/report.hpp"
-#include "abut/run/snapshots.hpp"
 
 namespace abut::run {
 

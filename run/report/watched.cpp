@@ -14,7 +14,7 @@
 
 #include "abut/base/error.hpp"
 #include "abut/run/drawing/plot.hpp"
-#include "abut/run/files.hpp"
+#include "abut/run/files/files.hpp"
 
 namespace abut::run {
 namespace {

@@ -8,7 +8,7 @@
 #include "abut/base/error.hpp"
 #include "abut/base/messages.hpp"
 #include "abut/base/sort_unique.hpp"
-#include "abut/contact/overlaps.hpp"
+#include "abut/contact/overlap/overlaps.hpp"
 #include "abut/geometry/polygon.hpp"
 #include "abut/solid/part/value_reader.hpp"
 

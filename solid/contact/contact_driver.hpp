@@ -9,10 +9,10 @@
 #include <variant>
 #include <vector>
 
-#include "abut/contact/blind_corners.hpp"
 #include "abut/contact/contact.hpp"
 #include "abut/contact/nodal_contact.hpp"
-#include "abut/contact/unseen_edges.hpp"
+#include "abut/contact/surface/blind_corners.hpp"
+#include "abut/contact/surface/unseen_edges.hpp"
 #include "abut/dynamics/filter.hpp"
 #include "abut/solid/body/body_frames.hpp"
 #include "abut/solid/ccg/ccg.hpp"

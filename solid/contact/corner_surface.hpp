@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "abut/contact/nodal_faces.hpp"
-#include "abut/contact/nodal_surface.hpp"
+#include "abut/contact/surface/nodal_faces.hpp"
+#include "abut/contact/surface/nodal_surface.hpp"
 #include "abut/solid/body/bodies.hpp"
 #include "abut/solid/ccg/ccg.hpp"
 #include "abut/solid/contact/corner_motion.hpp"

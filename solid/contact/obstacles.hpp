@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "abut/contact/obstacle.hpp"
+#include "abut/contact/surface/obstacle.hpp"
 
 namespace abut::solid {
 

@@ -8,7 +8,7 @@
 
 #include "abut/contact/sharing.hpp"
 #include "abut/contact/step.hpp"
-#include "abut/contact/surface.hpp"
+#include "abut/contact/surface/surface.hpp"
 #include "abut/dynamics/filter.hpp"
 #include "abut/solid/ccg/ccg.hpp"
 #include "abut/solid/part/rank_part.hpp"

@@ -10,8 +10,8 @@
 #include "abut/base/messages.hpp"
 #include "abut/base/sort_unique.hpp"
 #include "abut/base/stopwatch.hpp"
-#include "abut/contact/blind_corners.hpp"
-#include "abut/contact/sharp_edges.hpp"
+#include "abut/contact/surface/blind_corners.hpp"
+#include "abut/contact/surface/sharp_edges.hpp"
 #include "abut/solid/contact/contact_patches.hpp"
 #include "abut/solid/contact/solid_friction.hpp"
 

@@ -6,8 +6,8 @@
 #include <optional>
 #include <vector>
 
-#include "abut/contact/obstacle.hpp"
 #include "abut/contact/options.hpp"
+#include "abut/contact/surface/obstacle.hpp"
 #include "abut/geometry/pair_potential/pair_potential.hpp"
 #include "abut/solid/boundary/boundary_conditions.hpp"
 #include "abut/solid/ccg/finite_options.hpp"

@@ -12,7 +12,7 @@
 #include "abut/base/stopwatch.hpp"
 #include "abut/contact/nodal_contact.hpp"
 #include "abut/run/report/result_files.hpp"
-#include "abut/run/simulation.hpp"
+#include "abut/run/steps/simulation.hpp"
 #include "abut/solid/contact_view.hpp"
 
 namespace abut::studies {

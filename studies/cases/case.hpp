@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "abut/run/scene.hpp"
 #include "studies/table/figures.hpp"
 
 /// Bodies in motion, for whichever host runs them: the solid of this library (`run_case`) or one of linear finite elements

@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "abut/run/files.hpp"
+#include "abut/run/files/files.hpp"
 #include "abut/run/option_table.hpp"
 #include "apps/support/csv.hpp"
 #include "apps/support/run_options.hpp"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "abut/contact/obstacle.hpp"
+#include "abut/contact/surface/obstacle.hpp"
 #include "abut/mesh/shapes/shapes.hpp"
 #include "studies/cases/shapes.hpp"
 

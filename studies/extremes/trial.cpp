@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "abut/run/simulation.hpp"
+#include "abut/run/steps/simulation.hpp"
 
 namespace abut::studies::extremes {
 namespace {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "abut/run/result.hpp"
 #include "abut/run/scene.hpp"
 #include "studies/extremes/scenes.hpp"
 #include "studies/table/figures.hpp"

@@ -1,7 +1,7 @@
 #pragma once
 #include <cmath>
 
-#include "abut/contact/obstacle.hpp"
+#include "abut/contact/surface/obstacle.hpp"
 #include "studies/cases/shapes.hpp"
 
 /// Bodies and obstacles of the scenes.

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "abut/contact/nodal_contact.hpp"
-#include "abut/contact/nodal_faces.hpp"
+#include "abut/contact/surface/nodal_faces.hpp"
 #include "abut/dynamics/filter.hpp"
 #include "abut/dynamics/ledger.hpp"
 #include "abut/dynamics/mass.hpp"

@@ -1,5 +1,5 @@
 #pragma once
-#include "abut/contact/obstacle.hpp"
+#include "abut/contact/surface/obstacle.hpp"
 #include "studies/cases/shapes.hpp"
 
 /// Bodies and obstacles that the scenes of nodal contact are made of.

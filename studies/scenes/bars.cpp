@@ -10,7 +10,7 @@
 #include "abut/base/stopwatch.hpp"
 #include "abut/mesh/shapes/shapes.hpp"
 #include "abut/run/option_table.hpp"
-#include "abut/run/simulation.hpp"
+#include "abut/run/steps/simulation.hpp"
 #include "abut/solid/contact_view.hpp"
 #include "apps/support/log.hpp"
 #include "apps/support/run_options.hpp"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "abut/contact/obstacle.hpp"
+#include "abut/contact/surface/obstacle.hpp"
 #include "abut/mesh/shapes/shapes.hpp"
 #include "abut/solid/contact_view.hpp"
 #include "abut/solid/solid.hpp"

@@ -9,7 +9,7 @@
 #include <string>
 
 #include "abut/base/stopwatch.hpp"
-#include "abut/contact/obstacle.hpp"
+#include "abut/contact/surface/obstacle.hpp"
 #include "abut/mesh/shapes/shapes.hpp"
 #include "abut/solid/contact_view.hpp"
 #include "abut/solid/solid.hpp"

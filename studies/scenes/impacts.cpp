@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "abut/base/stopwatch.hpp"
-#include "abut/contact/obstacle.hpp"
+#include "abut/contact/surface/obstacle.hpp"
 #include "abut/mesh/shapes/shapes.hpp"
 #include "abut/solid/contact_view.hpp"
 #include "apps/support/log.hpp"

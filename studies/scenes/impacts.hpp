@@ -2,7 +2,7 @@
 #include <array>
 #include <vector>
 
-#include "abut/run/simulation.hpp"
+#include "abut/run/steps/simulation.hpp"
 
 /// Round bodies that fall on a plane or run into each other.
 namespace abut::studies {

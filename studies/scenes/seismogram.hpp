@@ -1,7 +1,7 @@
 #pragma once
 #include <vector>
 
-#include "abut/run/simulation.hpp"
+#include "abut/run/steps/simulation.hpp"
 
 /// Records of waves at some places, and the speed of a wave between two of them.
 namespace abut::studies {

@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "abut/base/error.hpp"
-#include "abut/run/files.hpp"
+#include "abut/run/files/files.hpp"
 #include "apps/support/command_line.hpp"
 
 namespace abut::studies {

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "abut/base/stopwatch.hpp"
-#include "abut/run/folder_lock.hpp"
-#include "abut/run/value.hpp"
+#include "abut/run/files/folder_lock.hpp"
+#include "abut/run/values/value.hpp"
 #include "apps/support/csv.hpp"
 #include "apps/support/program.hpp"
 #include "studies/schemes/gnuplot.hpp"

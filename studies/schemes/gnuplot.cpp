@@ -12,7 +12,7 @@
 #include <system_error>
 
 #include "abut/base/text.hpp"
-#include "abut/run/files.hpp"
+#include "abut/run/files/files.hpp"
 
 namespace abut::studies {
 namespace {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "abut/dynamics/with_scheme.hpp"
-#include "abut/run/value.hpp"
+#include "abut/run/values/value.hpp"
 #include "apps/support/command_parser.hpp"
 
 namespace abut::studies {

@@ -2,7 +2,7 @@
 #include <cstdint>
 #include <string>
 
-#include "abut/run/scene.hpp"
+#include "abut/run/result.hpp"
 
 namespace abut::studies {
 

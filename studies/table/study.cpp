@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "abut/run/files.hpp"
+#include "abut/run/files/files.hpp"
 #include "studies/table/columns.hpp"
 
 namespace abut::studies {

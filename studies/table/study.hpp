@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "abut/base/stopwatch.hpp"
-#include "abut/run/folder_lock.hpp"
-#include "abut/run/scene.hpp"
+#include "abut/run/files/folder_lock.hpp"
+#include "abut/run/result.hpp"
 #include "apps/support/csv.hpp"
 #include "apps/support/program.hpp"
 #include "apps/support/run_options.hpp"

@@ -6,8 +6,8 @@
 #include <functional>
 #include <optional>
 
-#include "abut/run/files.hpp"
-#include "abut/run/folder_lock.hpp"
+#include "abut/run/files/files.hpp"
+#include "abut/run/files/folder_lock.hpp"
 #include "studies/program/flags.hpp"
 #include "studies/table/columns.hpp"
 #include "studies/table/figures.hpp"

@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "abut/run/files.hpp"
+#include "abut/run/files/files.hpp"
 #include "apps/support/csv.hpp"
 #include "apps/support/preset.hpp"
 #include "studies/schemes/gnuplot.hpp"

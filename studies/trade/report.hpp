@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "abut/run/value.hpp"
+#include "abut/run/values/value.hpp"
 #include "apps/support/program.hpp"
 #include "studies/trade/ladder.hpp"
 #include "studies/trade/problems.hpp"

@@ -1,5 +1,5 @@
 #pragma once
-#include "abut/run/simulation.hpp"
+#include "abut/run/steps/simulation.hpp"
 #include "studies/trade/errors.hpp"
 
 namespace abut::studies::trade {

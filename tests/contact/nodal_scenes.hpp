@@ -8,8 +8,8 @@
 
 #include "abut/base/rotation.hpp"
 #include "abut/contact/nodal_contact.hpp"
-#include "abut/contact/nodal_faces.hpp"
-#include "abut/contact/placement.hpp"
+#include "abut/contact/surface/nodal_faces.hpp"
+#include "abut/contact/surface/placement.hpp"
 #include "contact/surfaces.hpp"
 
 namespace abut::test {

@@ -5,7 +5,7 @@
 #include <iostream>
 #include <string>
 
-#include "abut/contact/overlaps.hpp"
+#include "abut/contact/overlap/overlaps.hpp"
 #include "contact/surfaces.hpp"
 
 using namespace abut;

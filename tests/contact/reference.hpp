@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "abut/contact/options.hpp"
-#include "abut/contact/surface.hpp"
+#include "abut/contact/surface/surface.hpp"
 
 namespace abut::test {
 

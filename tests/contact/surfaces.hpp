@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "abut/contact/contact.hpp"
-#include "abut/contact/obstacle.hpp"
+#include "abut/contact/surface/obstacle.hpp"
 #include "abut/geometry/plane_frame.hpp"
 
 namespace abut::test {

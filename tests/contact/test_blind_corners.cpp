@@ -1,4 +1,4 @@
-#include "abut/contact/blind_corners.hpp"
+#include "abut/contact/surface/blind_corners.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "abut/base/error.hpp"
-#include "abut/contact/cell_surface.hpp"
+#include "abut/contact/surface/cell_surface.hpp"
 
 using namespace abut;
 using Catch::Matchers::Contains;

@@ -1,6 +1,6 @@
 #include <catch2/catch.hpp>
 
-#include "abut/contact/face_distance.hpp"
+#include "abut/contact/overlap/face_distance.hpp"
 #include "contact/surfaces.hpp"
 
 using namespace abut;

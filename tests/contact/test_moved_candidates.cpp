@@ -6,7 +6,7 @@
 #include <catch2/catch.hpp>
 
 #include "abut/base/rotation.hpp"
-#include "abut/contact/overlaps.hpp"
+#include "abut/contact/overlap/overlaps.hpp"
 #include "abut/contact/search/candidate_search.hpp"
 #include "contact/turning.hpp"
 

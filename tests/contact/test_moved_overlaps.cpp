@@ -6,7 +6,7 @@
 #include <catch2/catch.hpp>
 #include <cstring>
 
-#include "abut/contact/overlaps.hpp"
+#include "abut/contact/overlap/overlaps.hpp"
 #include "contact/turning.hpp"
 
 using namespace abut;
@@ -68,8 +68,8 @@ TEMPLATE_TEST_CASE_SIG("overlaps of moved vertices have the bits of a surface th
     CHECK(found > 100);
 }
 
-TEMPLATE_TEST_CASE_SIG("patches of moved vertices have the bits of a surface that was rebuilt",
-                       "[contact][overlaps][moved]", ((int Dim), Dim), 2, 3) {
+TEMPLATE_TEST_CASE_SIG("patches of moved vertices have the bits of a surface that was rebuilt", "[contact][overlaps][moved]",
+                       ((int Dim), Dim), 2, 3) {
     std::mt19937 random(32);
     const auto surface = random_faces<Dim>(random, 20);
     const auto x = turned_and_deformed(random, surface, 1.0, 0.5, 0.2);

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "abut/base/error.hpp"
-#include "abut/contact/unseen_edges.hpp"
+#include "abut/contact/surface/unseen_edges.hpp"
 #include "contact/nodal_scenes.hpp"
 
 using namespace abut;

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "abut/base/error.hpp"
-#include "abut/contact/obstacle.hpp"
+#include "abut/contact/surface/obstacle.hpp"
 #include "abut/geometry/pair_potential/pair_potential.hpp"
 #include "contact/nodal_scenes.hpp"
 

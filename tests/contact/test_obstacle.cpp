@@ -1,6 +1,6 @@
 #include <catch2/catch.hpp>
 
-#include "abut/contact/obstacle_side.hpp"
+#include "abut/contact/surface/obstacle_side.hpp"
 #include "contact/surfaces.hpp"
 
 using namespace abut;

@@ -4,8 +4,8 @@
 #include <catch2/catch.hpp>
 #include <cstring>
 
-#include "abut/contact/overlaps.hpp"
-#include "abut/contact/pair_list.hpp"
+#include "abut/contact/overlap/overlaps.hpp"
+#include "abut/contact/pairs/pair_list.hpp"
 #include "contact/surfaces.hpp"
 
 using namespace abut;

@@ -1,7 +1,7 @@
 #include <catch2/catch.hpp>
 
-#include "abut/contact/pair.hpp"
-#include "abut/contact/pair_list.hpp"
+#include "abut/contact/pairs/pair.hpp"
+#include "abut/contact/pairs/pair_list.hpp"
 #include "contact/surfaces.hpp"
 
 using namespace abut;

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "abut/contact/overlaps.hpp"
-#include "abut/contact/sharp_edges.hpp"
+#include "abut/contact/overlap/overlaps.hpp"
+#include "abut/contact/surface/sharp_edges.hpp"
 #include "contact/law.hpp"
 #include "contact/surfaces.hpp"
 

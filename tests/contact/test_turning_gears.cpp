@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "abut/base/rotation.hpp"
-#include "abut/contact/overlaps.hpp"
+#include "abut/contact/overlap/overlaps.hpp"
 #include "abut/contact/search/candidate_search.hpp"
 #include "contact/turning.hpp"
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "abut/contact/unseen_edges.hpp"
+#include "abut/contact/surface/unseen_edges.hpp"
 #include "abut/geometry/polygon.hpp"
 #include "contact/surfaces.hpp"
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "abut/contact/nodal_contact.hpp"
-#include "abut/contact/nodal_faces.hpp"
+#include "abut/contact/surface/nodal_faces.hpp"
 
 namespace abut::test {
 

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <string>
 
-#include "abut/run/bond_text.hpp"
-#include "abut/run/simulation.hpp"
-#include "abut/run/summary.hpp"
-#include "abut/run/warnings.hpp"
+#include "abut/run/steps/simulation.hpp"
+#include "abut/run/words/bond_text.hpp"
+#include "abut/run/words/summary.hpp"
+#include "abut/run/words/warnings.hpp"
 #include "input/scenes.hpp"
 
 using namespace abut;

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "abut/run/simulation.hpp"
-#include "abut/run/summary.hpp"
+#include "abut/run/steps/simulation.hpp"
+#include "abut/run/words/summary.hpp"
 #include "input/scenes.hpp"
 
 namespace {

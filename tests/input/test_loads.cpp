@@ -6,7 +6,7 @@
 #include <set>
 #include <string>
 
-#include "abut/run/simulation.hpp"
+#include "abut/run/steps/simulation.hpp"
 #include "abut/solid/cell_view.hpp"
 #include "abut/solid/contact_view.hpp"
 #include "input/scenes.hpp"

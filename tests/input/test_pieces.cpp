@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "abut/run/simulation.hpp"
+#include "abut/run/steps/simulation.hpp"
 #include "input/scenes.hpp"
 
 namespace {

@@ -8,7 +8,7 @@
 #include "abut/input/read_settings.hpp"
 #include "abut/mesh/io/write_vtu.hpp"
 #include "abut/mesh/shapes/shapes.hpp"
-#include "abut/run/simulation.hpp"
+#include "abut/run/steps/simulation.hpp"
 #include "input/scenes.hpp"
 
 namespace {

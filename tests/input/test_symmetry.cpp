@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "abut/run/simulation.hpp"
+#include "abut/run/steps/simulation.hpp"
 #include "input/scenes.hpp"
 
 namespace {

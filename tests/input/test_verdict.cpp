@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "abut/base/error.hpp"
-#include "abut/run/simulation.hpp"
-#include "abut/run/summary.hpp"
-#include "abut/run/verdict.hpp"
+#include "abut/run/steps/simulation.hpp"
+#include "abut/run/words/summary.hpp"
+#include "abut/run/words/verdict.hpp"
 #include "input/scenes.hpp"
 
 namespace {

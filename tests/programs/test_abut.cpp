@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "abut/run/simulation.hpp"
+#include "abut/run/steps/simulation.hpp"
 #include "programs/program.hpp"
 #include "studies/scenes/two_cylinders.hpp"
 

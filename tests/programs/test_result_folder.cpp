@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "abut/run/folder_lock.hpp"
+#include "abut/run/files/folder_lock.hpp"
 #include "programs/child.hpp"
 #include "programs/program.hpp"
 

@@ -6,7 +6,7 @@ import sys
 
 TABLE = "run/user_words.cpp"
 LAYERS = ("base", "geometry", "mesh", "contact", "dynamics", "solid", "ranks", "run", "input", "apps")
-PLAIN = ("run/warnings.cpp", "run/summary.cpp", "run/report", "input", "apps/abut", "apps/support")
+PLAIN = ("run/words/warnings.cpp", "run/words/summary.cpp", "run/report", "input", "apps/abut", "apps/support")
 NAME = re.compile(r"\b[A-Z][A-Za-z]*::[a-z_A-Z]\w*|\babut::\w+")
 TOKEN = re.compile(
     r'//[^\n]*|/\*.*?\*/|R"(?P<mark>\w*)\((?P<raw>.*?)\)(?P=mark)"|"(?P<text>(?:[^"\\\n]|\\.)*)"|\'(?:[^\'\\\n]|\\.)\'', re.S)

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "abut/ranks/partition.hpp"
-#include "abut/run/simulation.hpp"
+#include "abut/run/steps/simulation.hpp"
 #include "ranks/counting_ranks.hpp"
 #include "ranks/shared_solid.hpp"
 #include "ranks/world.hpp"

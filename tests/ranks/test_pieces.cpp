@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "abut/run/frames.hpp"
+#include "abut/run/files/frames.hpp"
 #include "mesh/vtk_arrays.hpp"
 #include "ranks/scenes.hpp"
 #include "ranks/shared_run.hpp"

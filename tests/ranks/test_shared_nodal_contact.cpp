@@ -5,7 +5,7 @@
 #include <string>
 
 #include "abut/base/error.hpp"
-#include "abut/contact/obstacle.hpp"
+#include "abut/contact/surface/obstacle.hpp"
 #include "ranks/shared_scene.hpp"
 
 using namespace abut;

@@ -1,5 +1,5 @@
 #pragma once
-#include "abut/contact/obstacle.hpp"
+#include "abut/contact/surface/obstacle.hpp"
 #include "abut/mesh/shapes/shapes.hpp"
 #include "abut/run/scene.hpp"
 

@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "abut/dynamics/ledger.hpp"
-#include "abut/run/animation.hpp"
-#include "abut/run/frames.hpp"
-#include "abut/run/simulation.hpp"
+#include "abut/run/files/animation.hpp"
+#include "abut/run/files/frames.hpp"
+#include "abut/run/steps/simulation.hpp"
 #include "abut/solid/cell_view.hpp"
 #include "run/folder.hpp"
 #include "run/scenes.hpp"

@@ -13,9 +13,9 @@
 
 #include "abut/base/error.hpp"
 #include "abut/base/state_bytes.hpp"
-#include "abut/run/checkpoint_file.hpp"
+#include "abut/run/files/checkpoint_file.hpp"
 #include "abut/run/report/result_files.hpp"
-#include "abut/run/simulation.hpp"
+#include "abut/run/steps/simulation.hpp"
 #include "run/folder.hpp"
 #include "run/scenes.hpp"
 

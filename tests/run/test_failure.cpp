@@ -12,7 +12,7 @@
 #include "abut/base/error.hpp"
 #include "abut/mesh/io/read_vtu.hpp"
 #include "abut/run/report/result_files.hpp"
-#include "abut/run/simulation.hpp"
+#include "abut/run/steps/simulation.hpp"
 #include "run/folder.hpp"
 #include "run/scenes.hpp"
 

@@ -9,11 +9,11 @@
 
 #include "abut/base/error.hpp"
 #include "abut/mesh/io/read_surface.hpp"
-#include "abut/run/frames.hpp"
+#include "abut/run/files/frames.hpp"
 #include "abut/run/report/result_files.hpp"
-#include "abut/run/simulation.hpp"
-#include "abut/run/summary.hpp"
-#include "abut/run/verdict.hpp"
+#include "abut/run/steps/simulation.hpp"
+#include "abut/run/words/summary.hpp"
+#include "abut/run/words/verdict.hpp"
 #include "run/folder.hpp"
 #include "run/scenes.hpp"
 

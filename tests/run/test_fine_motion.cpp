@@ -1,5 +1,5 @@
 // Motion from cell to cell, which neither H~ nor H - H~ sees.
-#include "abut/run/fine_motion.hpp"
+#include "abut/run/watch/fine_motion.hpp"
 
 #include <algorithm>
 #include <array>
@@ -13,8 +13,8 @@
 #include "abut/dynamics/ledger.hpp"
 #include "abut/dynamics/stable_step.hpp"
 #include "abut/mesh/shapes/shapes.hpp"
-#include "abut/run/scene.hpp"
-#include "abut/run/warnings.hpp"
+#include "abut/run/result.hpp"
+#include "abut/run/words/warnings.hpp"
 #include "abut/solid/solid.hpp"
 #include "abut/solid/stepped_run.hpp"
 

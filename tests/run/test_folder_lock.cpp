@@ -1,4 +1,4 @@
-#include "abut/run/folder_lock.hpp"
+#include "abut/run/files/folder_lock.hpp"
 
 #include <sys/resource.h>
 #include <unistd.h>

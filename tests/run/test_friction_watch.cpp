@@ -1,5 +1,5 @@
 // Friction of bodies that slide, of impulses that are made up.
-#include "abut/run/friction_watch.hpp"
+#include "abut/run/watch/friction_watch.hpp"
 
 #include <algorithm>
 #include <catch2/catch.hpp>

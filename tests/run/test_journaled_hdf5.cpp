@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "abut/run/journaled_hdf5.hpp"
+#include "abut/run/files/journaled_hdf5.hpp"
 #include "run/folder.hpp"
 
 namespace {

@@ -7,11 +7,11 @@
 #include <vector>
 
 #include "abut/base/error.hpp"
-#include "abut/contact/obstacle.hpp"
+#include "abut/contact/surface/obstacle.hpp"
 #include "abut/dynamics/ledger.hpp"
-#include "abut/run/checkpoint.hpp"
 #include "abut/run/report/result_files.hpp"
-#include "abut/run/simulation.hpp"
+#include "abut/run/steps/simulation.hpp"
+#include "abut/run/values/checkpoint.hpp"
 #include "abut/solid/contact_view.hpp"
 #include "run/folder.hpp"
 #include "run/scenes.hpp"

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "abut/base/error.hpp"
-#include "abut/run/probe_file.hpp"
+#include "abut/run/files/probe_file.hpp"
 #include "abut/run/report/result_files.hpp"
-#include "abut/run/simulation.hpp"
+#include "abut/run/steps/simulation.hpp"
 #include "abut/solid/contact_view.hpp"
 #include "run/folder.hpp"
 #include "run/scenes.hpp"

@@ -15,7 +15,7 @@
 #include "abut/run/drawing/raster.hpp"
 #include "abut/run/report/body_pictures.hpp"
 #include "abut/run/report/result_files.hpp"
-#include "abut/run/simulation.hpp"
+#include "abut/run/steps/simulation.hpp"
 #include "run/folder.hpp"
 #include "run/scenes.hpp"
 

@@ -1,10 +1,10 @@
-#include "abut/run/pilot.hpp"
+#include "abut/run/steps/pilot.hpp"
 
 #include <catch2/catch.hpp>
 #include <string>
 
 #include "abut/base/error.hpp"
-#include "abut/run/simulation.hpp"
+#include "abut/run/steps/simulation.hpp"
 #include "run/scenes.hpp"
 
 using namespace abut;

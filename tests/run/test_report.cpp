@@ -19,9 +19,9 @@
 #include "abut/run/report/report.hpp"
 #include "abut/run/report/result_files.hpp"
 #include "abut/run/report/watched.hpp"
-#include "abut/run/simulation.hpp"
-#include "abut/run/summary.hpp"
-#include "abut/run/warnings.hpp"
+#include "abut/run/steps/simulation.hpp"
+#include "abut/run/words/summary.hpp"
+#include "abut/run/words/warnings.hpp"
 #include "run/folder.hpp"
 #include "run/scenes.hpp"
 

@@ -5,7 +5,7 @@
 
 #include "abut/base/error.hpp"
 #include "abut/run/option_table.hpp"
-#include "abut/run/simulation.hpp"
+#include "abut/run/steps/simulation.hpp"
 #include "abut/solid/combinations/combinations.hpp"
 #include "run/scenes.hpp"
 

@@ -7,7 +7,7 @@
 
 #include "abut/base/error.hpp"
 #include "abut/mesh/shapes/shapes.hpp"
-#include "abut/run/simulation.hpp"
+#include "abut/run/steps/simulation.hpp"
 #include "abut/solid/cell_view.hpp"
 
 using namespace abut;

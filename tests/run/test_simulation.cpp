@@ -1,4 +1,4 @@
-#include "abut/run/simulation.hpp"
+#include "abut/run/steps/simulation.hpp"
 
 #include <catch2/catch.hpp>
 #include <functional>
@@ -8,7 +8,7 @@
 
 #include "abut/base/error.hpp"
 #include "abut/base/throw_again.hpp"
-#include "abut/run/summary.hpp"
+#include "abut/run/words/summary.hpp"
 #include "run/scenes.hpp"
 
 namespace {

@@ -5,9 +5,9 @@
 #include <numeric>
 
 #include "abut/mesh/shapes/shapes.hpp"
-#include "abut/run/simulation.hpp"
-#include "abut/run/verdict.hpp"
-#include "abut/run/warnings.hpp"
+#include "abut/run/steps/simulation.hpp"
+#include "abut/run/words/verdict.hpp"
+#include "abut/run/words/warnings.hpp"
 #include "run/scenes.hpp"
 
 namespace {

@@ -1,6 +1,6 @@
 #include "abut/mesh/shapes/shapes.hpp"
-#include "abut/run/summary.hpp"
-#include "abut/run/warnings.hpp"
+#include "abut/run/words/summary.hpp"
+#include "abut/run/words/warnings.hpp"
 
 #include <algorithm>
 #include <array>
@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "abut/base/error.hpp"
-#include "abut/run/simulation.hpp"
+#include "abut/run/steps/simulation.hpp"
 #include "run/scenes.hpp"
 
 namespace {

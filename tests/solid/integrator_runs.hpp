@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "abut/contact/obstacle.hpp"
+#include "abut/contact/surface/obstacle.hpp"
 #include "abut/solid/contact_view.hpp"
 #include "solid/scenes.hpp"
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "abut/contact/obstacle.hpp"
+#include "abut/contact/surface/obstacle.hpp"
 #include "abut/solid/outside_view.hpp"
 #include "solid/turning_scenes.hpp"
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <type_traits>
 
-#include "abut/contact/surface.hpp"
+#include "abut/contact/surface/surface.hpp"
 #include "abut/solid/boundary/boundary_face.hpp"
 
 using namespace abut;

@@ -7,7 +7,7 @@
 #include <cstring>
 
 #include "abut/base/rotation.hpp"
-#include "abut/contact/obstacle.hpp"
+#include "abut/contact/surface/obstacle.hpp"
 #include "abut/dynamics/filter.hpp"
 #include "abut/solid/contact_view.hpp"
 #include "solid/turning_scenes.hpp"

@@ -6,7 +6,7 @@
 
 #include "abut/base/error.hpp"
 #include "abut/base/rotation.hpp"
-#include "abut/contact/obstacle.hpp"
+#include "abut/contact/surface/obstacle.hpp"
 #include "abut/solid/cell_view.hpp"
 #include "abut/solid/contact_view.hpp"
 #include "solid/turning_scenes.hpp"

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "abut/base/error.hpp"
-#include "abut/contact/obstacle.hpp"
+#include "abut/contact/surface/obstacle.hpp"
 #include "abut/solid/cell_view.hpp"
 #include "abut/solid/contact_view.hpp"
 #include "solid/finite_scenes.hpp"

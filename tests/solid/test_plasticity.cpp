@@ -6,7 +6,7 @@
 #include <numeric>
 
 #include "abut/base/error.hpp"
-#include "abut/contact/obstacle.hpp"
+#include "abut/contact/surface/obstacle.hpp"
 #include "abut/solid/cell_view.hpp"
 #include "abut/solid/change.hpp"
 #include "abut/solid/contact_view.hpp"

@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "abut/base/rotation.hpp"
-#include "abut/contact/obstacle.hpp"
+#include "abut/contact/surface/obstacle.hpp"
 #include "abut/dynamics/filter.hpp"
 #include "abut/dynamics/leapfrog.hpp"
 #include "abut/solid/cell_view.hpp"

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "abut/base/rotation.hpp"
-#include "abut/contact/blind_corners.hpp"
-#include "abut/contact/unseen_edges.hpp"
+#include "abut/contact/surface/blind_corners.hpp"
+#include "abut/contact/surface/unseen_edges.hpp"
 #include "abut/mesh/place.hpp"
 #include "abut/solid/contact_view.hpp"
 #include "solid/turning_scenes.hpp"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <functional>
 
-#include "abut/contact/obstacle.hpp"
+#include "abut/contact/surface/obstacle.hpp"
 #include "abut/dynamics/bilbao.hpp"
 #include "abut/dynamics/leapfrog.hpp"
 #include "abut/solid/contact_view.hpp"

@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "abut/contact/blind_corners.hpp"
+#include "abut/contact/surface/blind_corners.hpp"
 #include "abut/solid/contact_view.hpp"
 #include "solid/turning_scenes.hpp"
 

@@ -1,0 +1,88 @@
+#include "abut/run/files/contact_forces.hpp"
+
+#include <cmath>
+#include <utility>
+
+#include "abut/dynamics/ledger.hpp"
+#include "abut/run/result.hpp"
+#include "abut/run/scene.hpp"
+#include "abut/solid/contact_view.hpp"
+#include "abut/solid/solid.hpp"
+
+namespace abut::run {
+namespace {
+
+template <int Dim>
+solid::BodyImpulse<Dim> none_yet(const solid::BodyImpulse<Dim>& pair) {
+    return {.body_1 = pair.body_1, .body_2 = pair.body_2, .impulse = Vector<Dim>::Zero(), .normal_impulse = 0.0};
+}
+
+}  // namespace
+
+template <int Dim>
+ContactForces<Dim>::ContactForces(const Scene<Dim>& scene, const RunResult<Dim>& result)
+    : interval_(scene.outputs.interval > 0 ? scene.outputs.interval : result.options.interval), n_steps_(result.steps) {}
+
+template <int Dim>
+bool ContactForces<Dim>::wants_look(std::int64_t step) const {
+    return std::isnan(time_) || step % interval_ == 0 || step == n_steps_;
+}
+
+template <int Dim>
+std::vector<ForceRow<Dim>> ContactForces<Dim>::rows(const dynamics::RunView<Dim>& run, const solid::Solid<Dim>& solid) {
+    const bool is_start = std::isnan(time_);
+    const double seconds = run.time - time_;
+    time_ = run.time;
+    std::vector<ForceRow<Dim>> rows;
+    for (const solid::BodyImpulse<Dim>& pair : solid.contact().impulses()) {
+        solid::BodyImpulse<Dim>& last = last_.try_emplace({pair.body_1, pair.body_2}, none_yet(pair)).first->second;
+        const solid::BodyImpulse<Dim> before = std::exchange(last, pair);
+        if (is_start) continue;
+        if (pair.impulse == before.impulse && pair.normal_impulse == before.normal_impulse) continue;
+        ForceRow<Dim> row{.step = run.steps, .time = run.time, .body_1 = pair.body_1, .body_2 = pair.body_2};
+        for (int i = 0; i < Dim; ++i) row.force[i] = (pair.impulse[i] - before.impulse[i]) / seconds;
+        row.normal_force = (pair.normal_impulse - before.normal_impulse) / seconds;
+        row.friction = (pair.friction - before.friction) / seconds;
+        const double rubbing_impulse = pair.rubbing_impulse - before.rubbing_impulse;
+        row.rubbing_force = rubbing_impulse / seconds;
+        if (rubbing_impulse > 0.0) row.slip_velocity = (pair.slip - before.slip) / rubbing_impulse;
+        rows.push_back(row);
+    }
+    return rows;
+}
+
+template <int Dim>
+void ContactForces<Dim>::save(StateWriter& state) const {
+    state.put(time_);
+    state.put(static_cast<std::int32_t>(last_.size()));
+    for (const auto& [bodies, pair] : last_) {
+        state.put(bodies.first);
+        state.put(bodies.second);
+        for (const double value : pair.impulse) state.put(value);
+        state.put(pair.normal_impulse);
+        for (const double value : pair.friction) state.put(value);
+        state.put(pair.rubbing_impulse);
+        for (const double value : pair.slip) state.put(value);
+    }
+}
+
+template <int Dim>
+void ContactForces<Dim>::restore(StateReader& state) {
+    time_ = state.get<double>();
+    for (auto n = state.get<std::int32_t>(); n > 0; --n) {
+        solid::BodyImpulse<Dim> pair{};
+        pair.body_1 = state.get<std::int32_t>();
+        pair.body_2 = state.get<std::int32_t>();
+        for (double& value : pair.impulse) value = state.get<double>();
+        pair.normal_impulse = state.get<double>();
+        for (double& value : pair.friction) value = state.get<double>();
+        pair.rubbing_impulse = state.get<double>();
+        for (double& value : pair.slip) value = state.get<double>();
+        last_.emplace(std::pair(pair.body_1, pair.body_2), pair);
+    }
+}
+
+template class ContactForces<2>;
+template class ContactForces<3>;
+
+}  // namespace abut::run

@@ -1,0 +1,164 @@
+#include "abut/run/files/snapshot.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+#include <utility>
+
+#include "abut/contact/surface/obstacle_side.hpp"
+#include "abut/run/files/frames.hpp"
+#include "abut/run/result.hpp"
+#include "abut/run/scene.hpp"
+#include "abut/run/values/cell_velocity.hpp"
+#include "abut/solid/cell_view.hpp"
+#include "abut/solid/kinematics/properties.hpp"
+
+namespace abut::run {
+namespace {
+
+using Position = Snapshot::Position;
+
+constexpr double strain_of_rounding = 1e-9;  // far above it
+constexpr double highest_left_out = 0.02;    // part of the values
+
+/// Kind of the edges of each face of the mesh.
+template <int Dim>
+std::vector<Edge> edges_of_faces(const mesh::Mesh<Dim>& mesh, const solid::BoundaryConditions<Dim>& conditions) {
+    std::vector<Edge> edges(static_cast<std::size_t>(mesh.n_faces()), Edge::inner);
+    const auto edge_of = [&](solid::BoundaryFace face) -> Edge& {
+        return edges[static_cast<std::size_t>(solid::mesh_face(mesh, face))];
+    };
+    if (Dim == 2)
+        for (const std::int32_t face : mesh.boundary_faces) edges[static_cast<std::size_t>(face)] = Edge::rim;
+    const solid::FaceConditions<Dim> sorted = solid::sort_to_faces<Dim>(mesh, conditions);
+    for (const auto& faces : sorted.traction)
+        for (const solid::BoundaryFace face : faces) edge_of(face) = Edge::loaded;
+    for (const auto& faces : sorted.dirichlet)
+        for (const auto& prescribed : faces) edge_of(prescribed.face) = Edge::held;
+    return edges;
+}
+
+/// Adds polygons, and numbers the vertices that they use.
+template <int Dim>
+class PolygonMaker {
+public:
+    PolygonMaker(const mesh::Mesh<Dim>& mesh, const std::vector<Edge>& edges, BodyPolygons& polygons)
+        : mesh_(mesh), polygons_(polygons), number_(mesh.vertices.size(), -1) {
+        const auto edge_of = [&](std::int32_t face) { return edges[static_cast<std::size_t>(face)]; };
+        if constexpr (Dim == 2)
+            for (std::int32_t cell = 0; cell < mesh.n_cells(); ++cell) {
+                add(mesh.cell_vertices[cell], cell);
+                for (const std::int32_t face : mesh.cell_faces[cell]) polygons_.edges.push_back(edge_of(face));
+            }
+        else
+            for (const std::int32_t face : mesh.boundary_faces) {
+                add(mesh.face_vertices[face], mesh.face_cells[static_cast<std::size_t>(face)][0]);
+                polygons_.edges.resize(polygons_.corners.size(), edge_of(face));
+            }
+    }
+
+    /// Number of the position of a vertex of the mesh.
+    std::int32_t number(std::int32_t vertex) {
+        std::int32_t& number = number_[static_cast<std::size_t>(vertex)];
+        if (number < 0) {
+            number = static_cast<std::int32_t>(polygons_.vertex.size());
+            polygons_.vertex.push_back(vertex);
+        }
+        return number;
+    }
+
+private:
+    void add(std::span<const std::int32_t> vertices, std::int32_t cell) {
+        for (const std::int32_t vertex : vertices) polygons_.corners.push_back(number(vertex));
+        polygons_.offsets.push_back(polygons_.corners.size());
+        polygons_.cell.push_back(cell);
+        polygons_.body.push_back(mesh_.cell_body[static_cast<std::size_t>(cell)]);
+    }
+
+    const mesh::Mesh<Dim>& mesh_;
+    BodyPolygons& polygons_;
+    std::vector<std::int32_t> number_;  // of the vertices of the mesh
+};
+
+template <int Dim>
+std::vector<std::vector<Position>> faces_of_obstacles(const std::vector<contact::RigidObstacle<Dim>>& obstacles,
+                                                      double time) {
+    std::vector<std::vector<Position>> faces;
+    for (const auto& obstacle : obstacles) {
+        const contact::Placement<Dim> placement = contact::placement_at<Dim>(obstacle, time);
+        for (const auto& corners : obstacle.faces) {
+            auto& face = faces.emplace_back();
+            for (const Vector<Dim>& corner : corners) face.push_back(in_space<Dim>(placement(corner)));
+        }
+    }
+    return faces;
+}
+
+}  // namespace
+
+template <int Dim>
+SnapshotMaker<Dim>::SnapshotMaker(const Scene<Dim>& scene, const RunResult<Dim>& result) {
+    for (std::size_t body = 0; body < scene.mesh.body_names.size(); ++body)
+        is_rigid_.push_back(!solid::properties_of(kinematics_of(scene, result, body)).deforms);
+    all_rigid_ = std::ranges::all_of(is_rigid_, [](char is_rigid) { return is_rigid != 0; });
+    polygons_ = {.in_space = Dim == 3,
+                 .value_name = all_rigid_ ? "speed" : "von Mises stress",
+                 .value_unit = all_rigid_ ? "m/s" : "Pa"};
+    polygons_.body_names = scene.mesh.body_names;
+    if (!all_rigid_) {
+        polygons_.least_end = std::numeric_limits<double>::infinity();
+        for (std::size_t body = 0; body < is_rigid_.size(); ++body)
+            if (is_rigid_[body] == 0)
+                polygons_.least_end =
+                    std::min(polygons_.least_end, strain_of_rounding * scene.solid.materials[body].mean_young());
+    }
+    PolygonMaker<Dim> maker(scene.mesh, edges_of_faces<Dim>(scene.mesh, scene.solid.boundary), polygons_);
+    polygons_.marks = marks_of<Dim>(scene, [&](std::int32_t vertex) { return maker.number(vertex); });
+}
+
+template <int Dim>
+Snapshot SnapshotMaker<Dim>::taken(std::string what, const dynamics::RunView<Dim>& run,
+                                   const solid::Solid<Dim>& solid) const {
+    Snapshot snapshot{.what = std::move(what), .time = run.time};
+    const std::vector<Vector<Dim>> displacement = solid.cells().vertex_displacement(run.q);
+    for (const std::int32_t vertex : polygons_.vertex) {
+        const auto v = static_cast<std::size_t>(vertex);
+        snapshot.position.push_back(in_space<Dim>(solid.mesh().vertices[v] + displacement[v]));
+    }
+    snapshot.value = values(run, solid);
+    snapshot.obstacles = faces_of_obstacles<Dim>(solid.options().obstacles, run.time);
+    return snapshot;
+}
+
+template <int Dim>
+std::vector<double> SnapshotMaker<Dim>::values(const dynamics::RunView<Dim>& run, const solid::Solid<Dim>& solid) const {
+    const std::vector<Vector<Dim>> velocity = all_rigid_ ? cell_velocity(run, solid) : std::vector<Vector<Dim>>();
+    std::vector<double> result;
+    for (const std::int32_t cell : polygons_.cell) {
+        const auto body = static_cast<std::size_t>(solid.mesh().cell_body[static_cast<std::size_t>(cell)]);
+        if (all_rigid_)
+            result.push_back(velocity[static_cast<std::size_t>(cell)].norm());
+        else if (is_rigid_[body] != 0)
+            result.push_back(std::numeric_limits<double>::quiet_NaN());
+        else
+            result.push_back(von_mises<Dim>(solid.cells().stress(cell), solid.cells().out_of_plane_stress(cell)));
+    }
+    return result;
+}
+
+double upper_end(const std::vector<double>& values) {
+    std::vector<double> finite;
+    for (const double value : values)
+        if (std::isfinite(value)) finite.push_back(value);
+    if (finite.empty()) return 0.0;
+    const auto nth = finite.begin() +
+                     static_cast<std::ptrdiff_t>((1.0 - highest_left_out) * static_cast<double>(finite.size() - 1) + 0.5);
+    std::ranges::nth_element(finite, nth);
+    return *nth;
+}
+
+template class SnapshotMaker<2>;
+template class SnapshotMaker<3>;
+
+}  // namespace abut::run

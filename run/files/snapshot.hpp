@@ -1,0 +1,79 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "abut/base/vector.hpp"
+#include "abut/run/files/picture_marks.hpp"
+#include "abut/run/values/forward.hpp"
+
+namespace abut::run {
+
+/// Bodies of a run at one time, as pictures show them.
+struct Snapshot {
+    using Position = std::array<double, 3>;  ///< in 2D the third is 0 [m]
+
+    std::string what;                ///< "At the start", for its caption
+    double time = 0.0;               ///< [s]
+    double force = 0.0;              ///< of all contacts along their normals, the mean since the look before [N]
+    std::vector<Position> position;  ///< of the vertices of BodyPolygons
+    std::vector<double> value;       ///< by polygon; NaN: none, as of a rigid body
+    std::vector<std::vector<Position>>
+        obstacles;  ///< their faces; in 2D the outside is on the right of a segment, in 3D seen counter-clockwise
+};
+
+/// Style in which an edge of a polygon is drawn.
+enum class Edge : std::int8_t {
+    inner,   ///< between cells
+    rim,     ///< a boundary face in 2D
+    held,    ///< of a face whose displacement is prescribed, in part at least
+    loaded,  ///< of a face under a traction
+};
+
+/// Polygons drawn of the bodies of a run: in 2D their cells, in 3D their boundary faces.
+struct BodyPolygons {
+    bool in_space = false;   ///< 3D
+    std::string value_name;  ///< "von Mises stress"
+    std::string value_unit;
+    double least_end = 0.0;               ///< of the scale of colours: values far below it are rounding
+    std::vector<std::int32_t> vertex;     ///< of the mesh, of each position of a snapshot
+    std::vector<std::size_t> offsets{0};  ///< of the corners of polygon i: offsets[i] to offsets[i + 1]
+    std::vector<std::int32_t> corners;    ///< numbers of positions
+    std::vector<Edge> edges;              ///< from a corner to the next one of its polygon; as many as `corners`
+    std::vector<std::int32_t> cell;       ///< whose value a polygon has
+    std::vector<std::int32_t> body;       ///< of a polygon; empty: all of one
+    std::vector<std::string> body_names;
+    PictureMarks marks;
+};
+
+/// Takes snapshots of the bodies of a scene: von Mises stress, or the speed where all bodies are rigid.
+template <int Dim>
+class SnapshotMaker {
+public:
+    SnapshotMaker(const Scene<Dim>& scene, const RunResult<Dim>& result);
+
+    [[nodiscard]] const BodyPolygons& polygons() const { return polygons_; }
+    /// Snapshot of a state that the solid has evaluated. Its cost is proportional to the cells in 2D, to the boundary in 3D.
+    [[nodiscard]] Snapshot taken(std::string what, const dynamics::RunView<Dim>& run, const solid::Solid<Dim>& solid) const;
+
+private:
+    [[nodiscard]] std::vector<double> values(const dynamics::RunView<Dim>& run, const solid::Solid<Dim>& solid) const;
+
+    BodyPolygons polygons_;
+    std::vector<char> is_rigid_;  // by body
+    bool all_rigid_ = false;
+};
+
+/// Above all but the highest two hundredths of some values; those that are not finite do not count. 0 where there are none.
+[[nodiscard]] double upper_end(const std::vector<double>& values);
+
+/// With 0 for what a plane does not have.
+template <int Dim>
+[[nodiscard]] Snapshot::Position in_space(const Vector<Dim>& x) {
+    Snapshot::Position result{};
+    for (int i = 0; i < Dim; ++i) result[static_cast<std::size_t>(i)] = x[i];
+    return result;
+}
+
+}  // namespace abut::run

@@ -1,0 +1,142 @@
+#include "abut/run/files/snapshots.hpp"
+
+#include <algorithm>
+#include <span>
+#include <utility>
+
+#include "abut/run/result.hpp"
+#include "abut/run/scene.hpp"
+#include "abut/run/values/failure.hpp"
+#include "abut/solid/contact_view.hpp"
+
+namespace abut::run {
+namespace {
+
+using Position = Snapshot::Position;
+
+constexpr std::int64_t looks_per_run = 60;
+constexpr double worth_another = 1.05;  // times the force of the snapshot before
+
+template <int Dim>
+double normal_impulse(const solid::Solid<Dim>& solid) {
+    double sum = 0.0;
+    for (const solid::BodyImpulse<Dim>& pair : solid.contact().impulses()) sum += pair.normal_impulse;
+    return sum;
+}
+
+std::span<const double> numbers(const std::vector<Position>& positions) {
+    return positions.empty() ? std::span<const double>() : std::span(positions.front().data(), 3 * positions.size());
+}
+
+std::vector<Position> positions(const std::vector<double>& numbers) {
+    std::vector<Position> result(numbers.size() / 3);
+    for (std::size_t i = 0; i < result.size(); ++i) result[i] = {numbers[3 * i], numbers[3 * i + 1], numbers[3 * i + 2]};
+    return result;
+}
+
+void put(StateWriter& state, const std::optional<Snapshot>& snapshot) {
+    state.put(static_cast<std::uint8_t>(snapshot.has_value()));
+    if (!snapshot) return;
+    state.put(snapshot->what);
+    state.put(snapshot->time);
+    state.put(snapshot->force);
+    state.put_all(numbers(snapshot->position));
+    state.put_all(std::span<const double>(snapshot->value));
+    state.put(static_cast<std::uint64_t>(snapshot->obstacles.size()));
+    for (const auto& face : snapshot->obstacles) state.put_all(numbers(face));
+}
+
+std::optional<Snapshot> get_snapshot(StateReader& state) {
+    if (state.get<std::uint8_t>() == 0) return {};
+    Snapshot snapshot{.what = state.get_text(), .time = state.get<double>(), .force = state.get<double>()};
+    snapshot.position = positions(state.get_all<double>());
+    snapshot.value = state.get_all<double>();
+    for (auto n = state.get<std::uint64_t>(); n > 0; --n) snapshot.obstacles.push_back(positions(state.get_all<double>()));
+    return snapshot;
+}
+
+}  // namespace
+
+template <int Dim>
+void Snapshots<Dim>::begin(const Scene<Dim>& scene, const RunResult<Dim>& result) {
+    maker_.emplace(scene, result);
+    middle_step_ = result.steps / 2;
+    const std::int64_t interval = result.options.interval;
+    every_ = interval * std::max<std::int64_t>(1, result.steps / (interval * looks_per_run));
+}
+
+template <int Dim>
+void Snapshots<Dim>::record(const dynamics::LedgerEntry<Dim>& entry) {
+    in_contact_ = entry.active_pairs > 0;
+}
+
+template <int Dim>
+bool Snapshots<Dim>::wants_look(std::int64_t step) const {
+    return step == 0 || step == middle_step_ || (in_contact_ && step % every_ == 0);
+}
+
+template <int Dim>
+void Snapshots<Dim>::look(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) {
+    if (!wants_look(run.steps)) return;
+    const bool is_start = run.steps == 0, is_middle = run.steps == middle_step_;
+    double force = 0.0;
+    if (is_start || run.steps % every_ == 0) {
+        const double impulse = normal_impulse(solid);
+        if (!is_start) force = (impulse - last_impulse_) / (run.time - last_time_);
+        last_impulse_ = impulse;
+        last_time_ = run.time;
+    }
+    const bool is_largest = force > (largest_ ? worth_another * largest_->force : 0.0);
+    if (!is_start && !is_middle && !is_largest) return;
+    static_cast<void>(solid.potential(run.q));  // leaves the stresses of this state behind
+    if (is_start) start_ = maker_->taken("At the start", run, solid);
+    if (is_middle && !is_start) middle_ = maker_->taken("In the middle", run, solid);
+    if (!is_largest) return;
+    largest_ = maker_->taken("Near the largest contact force", run, solid);
+    largest_->force = force;
+}
+
+template <int Dim>
+void Snapshots<Dim>::end(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) {
+    end_ = maker_->taken("At the end", run, solid);
+}
+
+template <int Dim>
+void Snapshots<Dim>::fail(const Failure& failure, solid::Solid<Dim>& solid) {
+    solid.restore(solid.state(), failure.sound.q);  // contact was last searched where the run was lost
+    static_cast<void>(solid.potential(failure.sound.q));
+    end_ = maker_->taken("The last sound state", dynamics::RunView<Dim>(failure.sound), solid);
+}
+
+template <int Dim>
+void Snapshots<Dim>::save(StateWriter& state) const {
+    state.put(last_impulse_);
+    state.put(last_time_);
+    put(state, start_);
+    put(state, middle_);
+    put(state, largest_);
+}
+
+template <int Dim>
+void Snapshots<Dim>::resume(const Scene<Dim>& scene, const RunResult<Dim>& result, StateReader& state) {
+    begin(scene, result);
+    last_impulse_ = state.get<double>();
+    last_time_ = state.get<double>();
+    start_ = get_snapshot(state);
+    middle_ = get_snapshot(state);
+    largest_ = get_snapshot(state);
+}
+
+template <int Dim>
+BodyPictures Snapshots<Dim>::pictures() const {
+    BodyPictures pictures{.polygons = maker_ ? maker_->polygons() : BodyPolygons(), .snapshots = {}};
+    for (const std::optional<Snapshot>* snapshot : {&start_, &middle_, &largest_, &end_})
+        if (*snapshot) pictures.snapshots.push_back(**snapshot);
+    std::ranges::stable_sort(pictures.snapshots, {}, &Snapshot::time);
+    return pictures;
+}
+
+template class Snapshots<2>;
+template class Snapshots<3>;
+
+}  // namespace abut::run

@@ -1,0 +1,49 @@
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "abut/base/state_bytes.hpp"
+#include "abut/run/files/snapshot.hpp"
+#include "abut/run/values/forward.hpp"
+
+namespace abut::run {
+
+/// Pictures of the bodies in a report: the snapshots that were taken, in order of time.
+struct BodyPictures {
+    BodyPolygons polygons;
+    std::vector<Snapshot> snapshots;
+};
+
+/// Takes snapshots of a run: at the start, in the middle, near the largest force of contact and at the end. For the
+/// third the forces of contact are looked at in about 60 records, and a snapshot replaces the one before where they are
+/// larger by a twentieth. What it keeps and does is proportional to the cells in 2D, to the boundary in 3D, and
+/// evaluations of the solid; between snapshots it does nothing.
+template <int Dim>
+class Snapshots {
+public:
+    void begin(const Scene<Dim>& scene, const RunResult<Dim>& result);
+    void record(const dynamics::LedgerEntry<Dim>& entry);
+    [[nodiscard]] bool wants_look(std::int64_t step) const;
+    void look(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid);
+    /// The last state, evaluated.
+    void end(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid);
+    /// The last sound state of a run that has failed, which this evaluates, stands for the end.
+    void fail(const Failure& failure, solid::Solid<Dim>& solid);
+    void save(StateWriter& state) const;
+    void resume(const Scene<Dim>& scene, const RunResult<Dim>& result, StateReader& state);
+
+    /// Pictures taken so far.
+    [[nodiscard]] BodyPictures pictures() const;
+
+private:
+    std::optional<SnapshotMaker<Dim>> maker_;  // once the run has begun
+    std::int64_t middle_step_ = 0;
+    std::int64_t every_ = 1;  // steps between looks at forces
+    bool in_contact_ = false;
+    double last_impulse_ = 0.0;  // of all contacts [N s], at the last look
+    double last_time_ = 0.0;
+    std::optional<Snapshot> start_, middle_, largest_, end_;
+};
+
+}  // namespace abut::run

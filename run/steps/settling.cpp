@@ -1,0 +1,269 @@
+#include "abut/run/steps/settling.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "abut/base/error.hpp"
+#include "abut/base/throw_again.hpp"
+#include "abut/dynamics/memm.hpp"
+#include "abut/run/body_names.hpp"
+#include "abut/run/steps/of_all_ranks.hpp"
+#include "abut/solid/contact_view.hpp"
+
+namespace abut::run {
+namespace {
+
+constexpr double cfl = 0.9;  // of the steps to rest
+constexpr double settled =
+    1e-11;  // of the largest peak of the kinetic energy; a rigid body that rocks on a plane stays above 1e-12
+constexpr std::int64_t window = 500;  // steps: where peaks do not fall by a tenth from one to the next, no more is to be had
+constexpr std::int64_t most_rise = 20'000;  // steps without a peak: the bodies fall or slide
+constexpr std::int64_t most_steps = 200'000;
+constexpr std::int64_t between_looks = 50;  // steps
+
+/// Loads and obstacles that stay as they are at t = 0.
+template <int Dim>
+solid::SolidOptions<Dim> frozen(solid::SolidOptions<Dim> options) {
+    const auto freeze = [](solid::Field<Dim>& history) {
+        if (history) history = [of_time = history](double, const Vector<Dim>& position) { return of_time(0.0, position); };
+    };
+    for (auto& condition : options.boundary.dirichlet) freeze(condition.history);
+    for (auto& condition : options.boundary.traction) freeze(condition.history);
+    for (solid::BodyMoment<Dim>& moment : options.moments)
+        if (moment.history) moment.moment = std::exchange(moment.history, {})(0.0);
+    for (contact::RigidObstacle<Dim>& obstacle : options.obstacles) {
+        if (obstacle.path) obstacle.path = [at = obstacle.path(0.0)](double) { return at; };
+        if (obstacle.placement) obstacle.placement = [at = obstacle.placement(0.0)](double) { return at; };
+    }
+    return options;
+}
+
+/// Peaks of the kinetic energy, and whether they have come down as far as they can. Single ones say little: a fast vibration
+/// makes a low one while a slow one has only begun.
+class Peaks {
+public:
+    /// Takes the next one, at a step; whether it is the last.
+    bool is_last(double kinetic, std::int64_t step) {
+        largest_ = std::max(largest_, kinetic);
+        in_window_ = std::max(in_window_, kinetic);
+        if (largest_ == 0.0) return true;
+        if (step < begin_ + window) return false;
+        begin_ = step;
+        const double before = std::exchange(in_window_before_, std::exchange(in_window_, 0.0));
+        return in_window_before_ <= settled * largest_ && in_window_before_ > 0.9 * before;
+    }
+
+private:
+    std::int64_t begin_ = 0;  // of the window
+    double largest_ = 0.0;
+    double in_window_ = 0.0;
+    double in_window_before_ = std::numeric_limits<double>::infinity();
+};
+
+/// Largest speed of the points of each body [m/s].
+template <int Dim>
+std::vector<double> speeds(const solid::Solid<Dim>& solid, std::span<const double> momentum) {
+    std::vector<double> of_body(solid.mesh().body_names.size(), 0.0);
+    const auto p = as_vectors<Dim>(momentum);
+    for (std::size_t i = 0; i < solid.masses().size(); ++i) {
+        double& speed = of_body[static_cast<std::size_t>(solid.body_of_points()[i])];
+        speed = std::max(speed, p[i].norm() / solid.masses()[i]);
+    }
+    for (double& speed : of_body) speed = solid.ranks().largest(speed);
+    return of_body;
+}
+
+/// Sums over the points of a body, of all ranks: what its motion as a whole is made of.
+template <int Dim>
+struct Whole {
+    double mass = 0.0;                                    // [kg]
+    Vector<Dim> first = Vector<Dim>::Zero();              // sum m x [kg m]
+    Matrix<Dim> second = Matrix<Dim>::Zero();             // sum m x x^T [kg m^2]
+    Vector<Dim> momentum = Vector<Dim>::Zero();           // [kg m/s]
+    AxialVector<Dim> angular = AxialVector<Dim>::Zero();  // about the origin [kg m^2/s]
+
+    [[nodiscard]] Vector<Dim> velocity() const { return momentum / mass; }
+    /// As if the body were a disc or a ball [m].
+    [[nodiscard]] double radius() const { return std::sqrt(2.0 * about_centre().trace() / mass); }
+    /// Speed of the points at that radius about the centre [m/s].
+    [[nodiscard]] double speed_of_rim() const {
+        const AxialVector<Dim> spin = angular - moment<Dim>(centre(), momentum);
+        const double inertia = about_centre().trace();
+        return inertia > 0.0 ? spin.norm() / inertia * radius() : 0.0;
+    }
+
+private:
+    [[nodiscard]] Vector<Dim> centre() const { return first / mass; }
+    [[nodiscard]] Matrix<Dim> about_centre() const { return second - mass * centre() * centre().transpose(); }
+};
+
+template <int Dim>
+Whole<Dim> whole_of(const solid::Solid<Dim>& solid, std::span<const double> q, std::span<const double> momentum,
+                    std::size_t body) {
+    Whole<Dim> whole;
+    const auto u = as_vectors<Dim>(q), p = as_vectors<Dim>(momentum);
+    for (std::size_t i = 0; i < solid.masses().size(); ++i) {
+        if (static_cast<std::size_t>(solid.body_of_points()[i]) != body) continue;
+        const Vector<Dim> x = solid.rest_positions()[i] + u[i];
+        whole.mass += solid.masses()[i];
+        whole.first += solid.masses()[i] * x;
+        whole.second += solid.masses()[i] * x * x.transpose();
+        whole.momentum += p[i];
+        whole.angular += moment<Dim>(x, Vector<Dim>(p[i]));
+    }
+    if (solid.ranks().is_one()) return whole;
+    std::vector<double> mine{whole.mass};
+    const auto each = [&](const auto& visit) {
+        visit(whole.first);
+        visit(whole.second);
+        visit(whole.momentum);
+        visit(whole.angular);
+    };
+    each([&](const auto& values) { mine.insert(mine.end(), values.data(), values.data() + values.size()); });
+    const std::vector<double> all = solid.ranks().gather(mine);
+    whole = {};
+    for (std::size_t begin = 0; begin < all.size(); begin += mine.size()) {
+        const double* next = all.data() + begin;
+        whole.mass += *next++;
+        each([&](auto& values) {
+            for (double& value : std::span(values.data(), static_cast<std::size_t>(values.size()))) value += *next++;
+        });
+    }
+    return whole;
+}
+
+/// "along x", "along (0.6, 0.8)"
+template <int Dim>
+std::string along(const Vector<Dim>& direction) {
+    constexpr double nearly = 0.99;
+    const Vector<Dim> unit = direction.normalized();
+    for (int i = 0; i < Dim; ++i)
+        if (std::abs(unit[i]) > nearly) return fmt::format("along {}{}", unit[i] < 0.0 ? "-" : "", "xyz"[i]);
+    return fmt::format("along ({:.2g})", fmt::join(unit, ", "));
+}
+
+/// How a body moves, why nothing brings it to rest, and what would.
+struct Way {
+    std::string motion, remedy;
+};
+template <int Dim>
+Way way_of(const Scene<Dim>& scene, const solid::SolidOptions<Dim>& options, const Whole<Dim>& whole, double speed,
+           std::size_t body) {
+    constexpr double most = 0.5;  // of the speed: it is most of the motion
+    const Vector<Dim> velocity = whole.velocity();
+    const bool travels = velocity.norm() > most * speed, turns = whole.speed_of_rim() > most * speed;
+    const bool rubs = scene.contact && options.has_friction();
+    const Vector<Dim> pull = options.acceleration.empty() ? Vector<Dim>::Zero() : options.acceleration[body];
+    if (travels && pull.dot(velocity) > 0.9 * pull.norm() * velocity.norm() && !pull.isZero(0.0))
+        return {"falls " + along<Dim>(velocity),
+                "hold it by supports or springs, put it nearer to where it rests, or give it something to rest on"};
+    if (travels && turns)
+        return {"rolls " + along<Dim>(velocity), "hold it by supports or springs, or let it begin where it does not roll"};
+    if (travels && !rubs)
+        return {"slides " + along<Dim>(velocity) + " without friction",
+                "give it friction (contact.friction), or hold it by supports or springs"};
+    if (travels) return {"slides " + along<Dim>(velocity), "give it more friction, or hold it by supports or springs"};
+    if (turns) return {"turns", "hold it by supports or springs, or give it a wider base"};
+    return {"vibrates", "look whether a face of it opens and closes again and again, or whether its load has a rest at all"};
+}
+
+/// Motion of a body that does not come to rest. Of one that has gone far since it was at `before`, the path counts:
+/// velocities begin again at each rest.
+template <int Dim>
+Way way_of(const Scene<Dim>& scene, const solid::Solid<Dim>& solid, std::span<const double> before,
+           std::span<const double> q, std::span<const double> p, double speed, std::size_t body) {
+    constexpr double far = 0.05;  // of the radius of the body
+    std::vector<double> gone(q.size());
+    for (std::size_t i = 0; i < gone.size(); ++i) gone[i] = solid.masses()[i / Dim] * (q[i] - before[i]);
+    const Whole<Dim> by_path = whole_of<Dim>(solid, before, gone, body);
+    if (const double farthest = speeds<Dim>(solid, gone)[body]; farthest > far * by_path.radius())
+        return way_of(scene, solid.options(), by_path, farthest, body);
+    return way_of(scene, solid.options(), whole_of<Dim>(solid, q, p, body), speed, body);
+}
+
+template <int Dim>
+[[noreturn]] void refuse(const Scene<Dim>& scene, const solid::Solid<Dim>& solid,
+                         const dynamics::Memm<solid::Solid<Dim>>& motion, std::span<const double> before) {
+    const std::vector<double> of_body = speeds(solid, motion.p_after());
+    const auto fastest = static_cast<std::size_t>(std::ranges::max_element(of_body) - of_body.begin());
+    const Way way = way_of<Dim>(scene, solid, before, motion.q(), motion.p_after(), of_body[fastest], fastest);
+    throw BadInput(
+        fmt::format("--settle: bodies do not come to rest under the loads of t = 0: after {} steps {} {} with {:.3g} "
+                    "m/s, and nothing brings it to rest. To begin at rest {}; else leave --settle out.",
+                    motion.steps(), quoted_name(scene, static_cast<std::int32_t>(fastest)), way.motion, of_body[fastest],
+                    way.remedy),
+        {.value = of_body[fastest], .allowed = 0.0});
+}
+
+/// Tells rank 0 how far it is, and whether that wants to go on.
+template <int Dim>
+void show(const solid::Solid<Dim>& solid, const dynamics::Memm<solid::Solid<Dim>>& motion, Observer<Dim>& observer) {
+    const double speed = std::ranges::max(speeds(solid, motion.p_after()));
+    const bool stops = first_says(solid.ranks(), [&] {
+                           observer.settling(motion.steps(), speed);
+                           return int{observer.asks_to_stop()};
+                       }) != 0;
+    if (stops)
+        throw std::runtime_error(
+            fmt::format("--settle: asked to stop after {} steps to rest, before the run began: there is nothing to go on "
+                        "from. Start it again.",
+                        motion.steps()));
+}
+
+}  // namespace
+
+template <int Dim>
+Settled settle(const Scene<Dim>& scene, const solid::SolidOptions<Dim>& options, const Share<Dim>& share,
+               std::vector<double> q, double stable_dt, Observer<Dim>& observer) {
+    Settled result;
+    solid::Solid<Dim> solid(share.part, frozen(options), share.ranks);
+    const std::vector<double> at_rest(q.size(), 0.0);
+    dynamics::Memm<solid::Solid<Dim>> motion(solid, std::move(q), at_rest, cfl * stable_dt);
+    Peaks peaks;
+    double before = 0.0, last = 0.0;  // of two steps: a swing from step to step is no peak
+    std::int64_t peak_at = 0;
+    std::vector<double> q_before(motion.q().begin(), motion.q().end());  // where the last half of the steps begins
+    for (bool is_last = false; !is_last;) {
+        try {
+            motion.step();
+        } catch (const Error& error) {
+            throw_again(error, fmt::format("--settle: step {} to rest under the loads of t = 0: {}", motion.steps() + 1,
+                                           error.what()));
+        }
+        if (motion.steps() % between_looks == 0) show(solid, motion, observer);
+        const double now = motion.kinetic_energy(), kinetic = 0.5 * (now + std::exchange(last, now));
+        if (motion.steps() > most_steps || motion.steps() - peak_at > most_rise) refuse(scene, solid, motion, q_before);
+        if (motion.steps() == most_steps / 2) q_before.assign(motion.q().begin(), motion.q().end());
+        if (kinetic > before) {
+            before = kinetic;
+            continue;
+        }
+        is_last = peaks.is_last(before, motion.steps());
+        if (is_last) result.report.speed = std::ranges::max(speeds(solid, motion.p_after()));
+        motion.bring_to_rest();
+        ++result.report.rests;
+        before = last = 0.0;
+        peak_at = motion.steps();
+    }
+    result.report.steps = motion.steps();
+    result.report.dissipated = solid.contact().report().friction_dissipated;
+    result.q.assign(motion.q().begin(), motion.q().end());
+    solid.begin_run();
+    result.solid = solid.state();
+    return result;
+}
+
+template Settled settle<2>(const Scene<2>&, const solid::SolidOptions<2>&, const Share<2>&, std::vector<double>, double,
+                           Observer<2>&);
+template Settled settle<3>(const Scene<3>&, const solid::SolidOptions<3>&, const Share<3>&, std::vector<double>, double,
+                           Observer<3>&);
+
+}  // namespace abut::run

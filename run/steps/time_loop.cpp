@@ -1,0 +1,510 @@
+#include "abut/run/steps/time_loop.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <stdexcept>
+#include <utility>
+
+#include "abut/base/error.hpp"
+#include "abut/base/stopwatch.hpp"
+#include "abut/base/throw_again.hpp"
+#include "abut/contact/nodal_contact.hpp"
+#include "abut/dynamics/remedies.hpp"
+#include "abut/dynamics/with_scheme.hpp"
+#include "abut/run/body_names.hpp"
+#include "abut/run/files/run_identity.hpp"
+#include "abut/run/steps/of_all_ranks.hpp"
+#include "abut/run/steps/rank_balance.hpp"
+#include "abut/run/steps/start_contact.hpp"
+#include "abut/run/steps/whole_run.hpp"
+#include "abut/run/values/frame_piece.hpp"
+#include "abut/run/watch/divergence.hpp"
+#include "abut/run/watch/fine_motion.hpp"
+#include "abut/run/watch/friction_watch.hpp"
+#include "abut/run/watch/last_sound.hpp"
+#include "abut/run/watch/obstacle_watch.hpp"
+#include "abut/run/watch/self_watch.hpp"
+#include "abut/run/watch/step_figures.hpp"
+#include "abut/run/watch/surface_watch.hpp"
+#include "abut/run/watch/wanted.hpp"
+#include "abut/solid/cell_view.hpp"
+#include "abut/solid/change.hpp"
+#include "abut/solid/contact_view.hpp"
+
+namespace abut::run {
+namespace {
+
+/// H - H~ up to this part of the energy in play: nothing is wrong yet.
+constexpr double sound_share = 0.5;
+
+const std::string observers_kind = "observers of a run";
+constexpr int observers_version = 5;
+const std::string looks_kind = "looks at surfaces";
+constexpr int looks_version = 7;
+constexpr double same_as_node = 1e-6;           // of a step: so near a node a time is at it, as sums of steps are rounded
+constexpr std::int64_t sightings_per_run = 40;  // looks for bodies past a rim and together with themselves, about
+
+/// One run, from the first step to the last.
+template <int Dim, class Integrator>
+class TimeLoop {
+public:
+    /// `make` makes the integrator of a start.
+    TimeLoop(Start<Dim>& start, Observer<Dim>& observer, std::function<Integrator(Start<Dim>&)> make)
+        : start_(start),
+          scene_(start.scene),
+          options_(start.options),
+          observer_(observer),
+          solid_(*start.solid),
+          result_(start.result),
+          whole_(start),
+          remedies_(solid_, options_.filter, options_.restart),
+          obstacle_watch_(scene_),
+          self_watch_(scene_, whole_.seen()),
+          make_(std::move(make)),
+          integrator_(make_(start)),
+          times_of_setup_(solid_.times()),
+          friction_watch_(scene_, options_),
+          balance_(start.first_share.again ? options_.rebalance : 0, options_.rebalance_above),
+          watch_(start.scene) {
+        remedies_.prepare(*integrator_);
+    }
+
+    void run(const Checkpoint* from) {
+        whole_.show(*integrator_,
+                    [&](const auto& run, auto& solid) { result_.start = solid::body_motions<Dim>(run, solid); });
+        if (from)
+            resume(*from);
+        else
+            begin();
+        while (integrator_->steps() < result_.steps) {
+            step();
+            const bool records = integrator_->steps() % options_.interval == 0 || integrator_->steps() == result_.steps;
+            if (records) record();
+            const Wanted wanted = ask(records);
+            look(wanted);
+            if (wanted.checkpoint) keep();
+            if (wanted.stop) stop(records);
+            if (balance_.is_due(integrator_->steps()) && integrator_->steps() < result_.steps) rebalance();
+        }
+        const contact::ContactReport contact = solid_.contact().report();
+        whole_.show(*integrator_, [&](const auto& run, auto& solid) {
+            result_.end = solid::body_motions<Dim>(run, solid);
+            whole_.evaluate(run, solid);
+            watch_.end(run, solid, result_.accounts.speed, contact.active_pairs > 0, contact.active_pairs_max > 0);
+            observer_.end(run, solid);
+        });
+        result_.looks = watch_.looks();
+        result_.weak_friction = friction_watch_.weakest();
+        result_.local_rotations = solid_.local_rotations(integrator_->q());
+        result_.finite = solid_.cells().finite_extremes();
+        result_.dissipated = solid_.dissipated();
+        result_.contact = solid_.contact().report();
+        if (const auto* by_nodes = solid_.contact().pair_potential())
+            result_.overlaps.assign(by_nodes->interference().begin(), by_nodes->interference().end());
+        result_.skin = solid_.contact().skin();
+        result_.evaluations = solid_.evaluations();
+        result_.times = added(times_before_, solid_.times(), times_of_setup_);
+        if (balance_.is_on()) balance_.end(solid_.ranks(), own_seconds());
+        result_.rebalancing = balance_.report();
+        whole_.on_first([&] {
+            if (scene_.findings) result_.findings = scene_.findings(result_);
+        });
+    }
+
+private:
+    void step() {
+        std::optional<StepStart> start;
+        if (time_is_due(integrator_->time() + integrator_->dt(), integrator_->steps() + 1))
+            start = StepStart{integrator_->state(), solid_.state()};
+        take_step();
+        if (start) look_at_times(*start);
+    }
+    void take_step() {
+        try {
+            integrator_->step();
+        } catch (const Error& error) {
+            fail_at(error);
+            throw_again(error, at_this_step((error.what() + advice_on_law(error, solid_)).c_str()));
+        } catch (const std::exception& error) {
+            throw std::runtime_error(at_this_step(error.what()));
+        }
+        if (scene_.after_step) scene_.after_step(solid_, result_.dt);
+    }
+
+    /// Asks what rank 0 wants now, in one message; progress is told of with it.
+    [[nodiscard]] Wanted ask(bool records) {
+        return Wanted::of(first_says(solid_.ranks(), [&] {
+            const std::int64_t step = integrator_->steps();
+            Wanted wanted;
+            wanted.stop = step < result_.steps && observer_.asks_to_stop();
+            wanted.look = observer_.wants_look(step);
+            wanted.measure = records && step > 0 && step < result_.steps && watch_.is_due(step);
+            wanted.piece = observer_.wants_piece(step);
+            wanted.checkpoint = step > 0 && observer_.wants_checkpoint(step, wanted.stop);
+            observer_.progress(step, integrator_->time());
+            return wanted.as_number();
+        }));
+    }
+    void look(const Wanted& wanted) {
+        if (wanted.piece >= 0) make_piece(wanted.piece);
+        if (wanted.measure)
+            whole_.show(*integrator_, [&](const auto& run, auto& solid) {
+                const Stopwatch watch(result_.seconds.looks);
+                whole_.evaluate(run, solid);
+                watch_.look(run, solid, result_.accounts.speed, result_.contact.active_pairs > 0);
+            });
+        if (wanted.look) whole_.show(*integrator_, [&](const auto& run, auto& solid) { observer_.look(run, solid); });
+    }
+
+    // Times of the scene, inside of steps
+
+    /// All of this rank and of its solid.
+    struct StepStart {
+        dynamics::IntegratorState motion;
+        std::vector<std::byte> solid;  // the same on all ranks
+    };
+
+    /// Whether there is one until this node; all are that are left at the last one, whose time is a sum of steps.
+    [[nodiscard]] bool time_is_due(double node, std::int64_t steps) const {
+        const std::vector<double>& times = scene_.outputs.times;
+        return n_times_ < times.size() && (steps >= result_.steps || is_at_or_before(times[n_times_], node));
+    }
+    [[nodiscard]] bool is_at_or_before(double time, double node) const { return time <= node + same_as_node * result_.dt; }
+
+    /// On the straight path of the step that began there.
+    void look_at_times(const StepStart& start) {
+        dynamics::IntegratorState state = integrator_->state();
+        const std::vector<double>& q_0 = start.motion.q;
+        const std::vector<double> q_1 = state.q;
+        const double from = start.motion.time, node = state.time, dt = integrator_->dt();
+        const std::span<const double> masses = solid_.masses();
+        for (std::size_t i = 0; i < q_1.size(); ++i)
+            state.p_before[i] = state.p_after[i] = masses[i / Dim] * (q_1[i] - q_0[i]) / dt;
+        for (; time_is_due(node, state.steps); ++n_times_) {
+            state.time = scene_.outputs.times[n_times_];
+            const double share = (state.time - from) / dt;
+            for (std::size_t i = 0; i < q_1.size(); ++i) state.q[i] = q_0[i] + share * (q_1[i] - q_0[i]);
+            if (!is_at_or_before(node, state.time)) {
+                show_inside(start, state);
+                continue;
+            }
+            state.q = q_1;
+            show_time(state);
+        }
+    }
+    void show_first_times() {
+        dynamics::IntegratorState state = integrator_->state();
+        const double node = state.time;
+        for (; time_is_due(node, 0); ++n_times_) {
+            state.time = scene_.outputs.times[n_times_];
+            show_time(state);
+        }
+    }
+    void show_time(const dynamics::IntegratorState& state) {
+        whole_.show_state(state, [&](const auto& run, auto& solid) { observer_.look_at_time(run, solid); });
+    }
+    /// With loads, obstacles and what materials and friction remember as they are then: another solid goes there from the
+    /// start of the step, and that of the run knows nothing of it.
+    void show_inside(const StepStart& start, const dynamics::IntegratorState& own) {
+        const dynamics::IntegratorState from = whole_.of(start.motion), state = whole_.of(own);
+        whole_.on_first([&] {
+            solid::Solid<Dim>& other = solid_of_times();
+            other.restore(start.solid, from.q);
+            std::vector<double> force(state.q.size());
+            const double dt = state.time - from.time;
+            if (features_of(options_).has(solid::Feature::end_forces))
+                other.end_force(from.q, state.q, from.time, dt, force);
+            else
+                other.mean_force(from.q, state.q, from.time, dt, force);
+            observer_.look_at_time(dynamics::RunView<Dim>(state), other);
+        });
+    }
+    /// On rank 0: of several ranks the one that shows the whole.
+    [[nodiscard]] solid::Solid<Dim>& solid_of_times() {
+        if (!solid_.ranks().is_one()) return whole_.seen();
+        if (!solid_of_times_) solid_of_times_ = std::make_unique<solid::Solid<Dim>>(solid_.mesh(), solid_.options());
+        return *solid_of_times_;
+    }
+
+    void make_piece(std::int64_t frame) {
+        const FramePiece<Dim> piece = frame_piece<Dim>(frame, scene_.mesh, *integrator_, solid_);
+        dynamics::agreed(solid_.ranks(), [&] { observer_.piece(piece); });
+        whole_.on_first([&] { observer_.all_pieces(piece); });
+    }
+    void keep() {
+        const Checkpoint kept = checkpoint();
+        whole_.on_first([&] { observer_.keep(kept); });
+    }
+
+    // Several ranks share the cells out again
+
+    /// Time of this rank in the operators of its cells, since the last call [s].
+    [[nodiscard]] double own_seconds() {
+        return solid_.times().own_cells - std::exchange(own_seconds_before_, solid_.times().own_cells);
+    }
+
+    /// Rebalances where that is worth it. The run goes on as from a checkpoint.
+    void rebalance() {
+        const dynamics::Ranks& ranks = solid_.ranks();
+        const std::vector<double> weights = balance_.weights(ranks, own_seconds());
+        if (weights.empty()) return;
+        double seconds = 0.0;
+        const std::vector<std::int32_t> before(ranks.numbers().begin(), ranks.numbers().end());
+        {
+            const Stopwatch watch(seconds);
+            const solid::RunState state = solid::run_state(solid_, *integrator_);
+            const dynamics::IntegratorState sound = dynamics::gathered<Dim>(ranks, sound_.state());
+            times_before_ = added(times_before_, solid_.times(), times_of_setup_);
+            start_.take_part(start_.first_share.again(weights));
+            integrator_.emplace(make_(start_));
+            solid::go_on_from(state, solid_, *integrator_);
+            remedies_.go_on_from(integrator_->steps(), remedies_.report());
+            remedies_.prepare(*integrator_);
+            sound_.replace(dynamics::own_of<Dim>(solid_.ranks(), sound));
+            times_of_setup_ = solid_.times();
+            own_seconds_before_ = times_of_setup_.own_cells;
+        }
+        balance_.shared_out(integrator_->steps(), before, solid_.ranks(), seconds);
+    }
+
+    void begin() {
+        whole_.on_first([&] { observer_.begin(scene_, result_); });
+        record();
+        show_first_times();
+        const Wanted wanted = ask(true);
+        look(wanted);
+        if (wanted.stop) stop(true);
+    }
+
+    /// Here; what was not recorded is, so that the last entry is the last step.
+    void stop(bool recorded) {
+        result_.steps = integrator_->steps();
+        result_.complete = false;
+        if (!recorded) record();
+    }
+
+    [[nodiscard]] Checkpoint checkpoint() {
+        Checkpoint checkpoint{.run = identity(scene_, result_),
+                              .motion = whole_.of(integrator_->state()),
+                              .solid = solid_.state(),
+                              .ledger = {},
+                              .restarts = remedies_.report(),
+                              .inadmissible_overlaps_max = result_.inadmissible_overlaps_max,
+                              .looks = {},
+                              .observers = {}};
+        for (const auto& entry : result_.ledger.entries()) {
+            const std::vector<double> values = dynamics::ledger_values(entry);
+            checkpoint.ledger.insert(checkpoint.ledger.end(), values.begin(), values.end());
+        }
+        whole_.on_first([&] {
+            StateWriter looks(looks_kind, looks_version);
+            result_.accounts.save(looks);
+            result_.sliding.save(looks);
+            watch_.save(looks);
+            result_.sightings.save(looks);
+            looks.put(result_.turned.name);
+            looks.put(result_.turned.angle);
+            friction_watch_.save(looks);
+            looks.put(result_.fine_energy_max);
+            checkpoint.looks = std::move(looks).finish();
+            StateWriter state(observers_kind, observers_version);
+            observer_.save(state);
+            checkpoint.observers = std::move(state).finish();
+        });
+        return checkpoint;
+    }
+
+    void resume(const Checkpoint& from) {
+        require_same_run(from.run, identity(scene_, result_), options_.other_end);
+        if (from.motion.steps > result_.steps)
+            throw BadInput(fmt::format(
+                "the run is to end at step {}, t = {:.6g} s, and the checkpoint is of step {}, t = {:.6g} s. "
+                "Give a later end.",
+                result_.steps, static_cast<double>(result_.steps) * result_.dt, from.motion.steps, from.motion.time));
+        solid::go_on_from({from.motion, from.solid}, solid_, *integrator_);
+        remedies_.go_on_from(integrator_->steps(), from.restarts);
+        const std::size_t n = dynamics::ledger_columns<Dim>().size();
+        for (std::span<const double> left(from.ledger); !left.empty(); left = left.subspan(n))
+            result_.ledger.record(dynamics::ledger_entry<Dim>(left.first(std::min(n, left.size()))));
+        if (result_.ledger.entries().empty()) throw BadInput("a checkpoint without ledger cannot be gone on from.");
+        StateReader looks(from.looks, looks_kind, looks_version);
+        result_.accounts.restore(looks);
+        result_.sliding.restore(looks);
+        watch_.restore(looks);
+        result_.sightings.restore(looks);
+        result_.turned.name = looks.get_text();
+        result_.turned.angle = looks.get<double>();
+        friction_watch_.restore(looks);
+        result_.fine_energy_max = looks.get<double>();
+        looks.finish();
+        result_.scale = known_scale<Dim>(scene_.energy_scale, result_);
+        result_.inadmissible_overlaps_max = from.inadmissible_overlaps_max;
+        result_.resumed_after = integrator_->steps();
+        while (time_is_due(integrator_->time(), integrator_->steps())) ++n_times_;
+        sound_.keep(*integrator_, result_.dt);
+        whole_.on_first([&] {
+            StateReader state(from.observers, observers_kind, observers_version);
+            observer_.resume(scene_, result_, state);
+            state.finish();
+        });
+    }
+
+    /// Reports a step that has no end.
+    void fail_at(const Error& error) {
+        const dynamics::IntegratorState sound = whole_.of(sound_.state());
+        tell({.sound = sound,
+              .lost = nullptr,
+              .cells = named_cells(error, solid_.ranks(), whole_.seen(), scene_.mesh.n_cells())});
+    }
+
+    /// The error of the run counts, not one of those who are told of it.
+    void tell(const Failure& failure) {
+        whole_.on_first([&] {
+            try {
+                observer_.fail(failure, whole_.seen());
+            } catch (...) {
+            }
+        });
+    }
+
+    [[nodiscard]] std::string at_this_step(const char* what) const {
+        return fmt::format("step {}, t = {:.4g} s (steps of {:.4g} s, stable are {:.4g} s): {}", integrator_->steps() + 1,
+                           integrator_->time(), result_.dt, result_.stable.dt, what);
+    }
+
+    void record() {
+        const double excess_before = result_.ledger.energy_excess();
+        {
+            const Stopwatch watch(result_.seconds.ledger);
+            result_.ledger.record(dynamics::measure(*integrator_, solid_, remedies_.report()));
+            const dynamics::RunView<Dim> now(*integrator_);
+            result_.accounts.record(result_.ledger.entries().back(), largest_speed(now, solid_),
+                                    momentum_from_outside(integrator_->time(), scene_.mesh.n_bodies(), solid_));
+            result_.contact = solid_.contact().report();
+            result_.sliding.record(result_.contact);
+            const dynamics::LedgerEntry<Dim>& entry = result_.ledger.entries().back();
+            friction_watch_.record(entry, solid_.contact().impulses(), result_.accounts.speed);
+            result_.compressed = most_compressed(scene_, solid_);
+            if (!result_.all_may_turn) record_turned();
+            result_.inadmissible_overlaps_max =
+                std::max(result_.inadmissible_overlaps_max, result_.contact.inadmissible_overlaps);
+        }
+        if (is_sighting_due(integrator_->steps())) {
+            const Stopwatch watch(result_.seconds.looks);
+            obstacle_watch_.look(solid_, integrator_->q(), integrator_->time(), result_.sightings.past_rims);
+            if (self_watch_.is_on()) look_for_crossings();
+            whole_.show(*integrator_, [&](const auto& run, auto& solid) {
+                result_.fine_energy_max = std::max(result_.fine_energy_max, fine_energy(run, solid));
+            });
+        }
+        const auto& entries = result_.ledger.entries();
+        result_.scale = known_scale<Dim>(scene_.energy_scale, result_);
+        if (entries.size() == 1 && scene_.contact && !options_.settle) check_contact(entries.front());
+        whole_.on_first([&] { observer_.record(entries.back(), result_); });
+        const double scale = std::max({result_.accounts.energy_in_play, result_.scale.value, result_.rest_energy});
+        check_alive(entries.back(), scale, excess_before);
+        const dynamics::LedgerEntry<Dim>& last = entries.back();
+        if (entries.size() == 1 || last.energy - last.pseudo_energy <= sound_share * scale)
+            sound_.keep(*integrator_, result_.dt);
+    }
+
+    void record_turned() {
+        const std::vector<double> angles = solid_.rotations(integrator_->q());
+        for (std::size_t body = 0; body < angles.size(); ++body)
+            if (!result_.may_turn[body] && angles[body] > result_.turned.angle)
+                result_.turned = {quoted_name(scene_, static_cast<std::int32_t>(body)), angles[body]};
+    }
+
+    void look_for_crossings() {
+        try {
+            whole_.show(*integrator_, [&](const auto& run, auto& solid) {
+                whole_.evaluate(run, solid);
+                self_watch_.look(solid, run.q, run.time, run.steps, result_.sightings);
+            });
+        } catch (const Diverged&) {
+            tell({.sound = whole_.of(integrator_->state()), .lost = nullptr, .cells = {}});
+            throw;
+        }
+    }
+
+    /// Neighbours of cells are listed at the first look.
+    [[nodiscard]] double fine_energy(const dynamics::RunView<Dim>& run, const solid::Solid<Dim>& solid) {
+        if (!fine_motion_) fine_motion_.emplace(solid.mesh());
+        return fine_motion_->energy(run, solid);
+    }
+
+    /// At the end, and at evenly spaced records before it: a look at fine motion costs about a tenth of a step, and the
+    /// lists for the first one less than a step (27,000 bricks, or as many tetrahedra).
+    [[nodiscard]] bool is_sighting_due(std::int64_t step) const {
+        const std::int64_t interval = options_.interval;
+        const std::int64_t every = interval * std::max<std::int64_t>(1, result_.steps / (interval * sightings_per_run));
+        return step % every == 0 || step == result_.steps;
+    }
+
+    void check_contact(const dynamics::LedgerEntry<Dim>& at_start) {
+        const double scale = std::max(at_start.kinetic, scene_.energy_scale.value);
+        whole_.show(*integrator_, [&](const auto& run, auto& solid) {
+            check_start_contact<Dim>(scene_, solid, run.q, scale, result_.rest_energy);
+        });
+    }
+
+    /// The record before the last one tells of H - H~, and at the end of the run the last one, too, unless all was at
+    /// rest until then.
+    void check_alive(const dynamics::LedgerEntry<Dim>& entry, double scale, double excess_before) {
+        const bool at_end = result_.ledger.entries().size() > 1 && entry.step == result_.steps;
+        const bool moved = result_.accounts.energy_in_play > result_.rest_energy;
+        if (is_alive(entry, scale, at_end && moved ? result_.ledger.energy_excess() : excess_before)) return;
+        if (!sound_.is_kept()) sound_.replace(integrator_->state());
+        const dynamics::IntegratorState sound = whole_.of(sound_.state()), lost = whole_.of(integrator_->state());
+        WorstCell worst;
+        whole_.on_first([&] { worst = worst_cell<Dim>(lost, whole_.seen()); });
+        tell({.sound = sound, .lost = &lost, .cells = {worst.cell}});
+        whole_.on_first([&] { refuse_diverged(scene_, result_, scale, worst); });
+    }
+
+    Start<Dim>& start_;
+    const Scene<Dim>& scene_;
+    const RunOptions& options_;
+    Observer<Dim>& observer_;
+    solid::Solid<Dim>& solid_;  // Start::solid, which may change its part
+    RunResult<Dim>& result_;
+    WholeRun<Dim> whole_;
+    dynamics::Remedies<solid::Solid<Dim>> remedies_;
+    ObstacleWatch<Dim> obstacle_watch_;
+    SelfWatch<Dim> self_watch_;
+    std::function<Integrator(Start<Dim>&)> make_;
+    std::optional<Integrator> integrator_;  // always there
+    LastSound sound_;
+    solid::SolidTimes times_of_setup_;  // the start-up of the scheme, in the seconds of set-up already
+    solid::SolidTimes times_before_;    // of steps with other parts
+    FrictionWatch<Dim> friction_watch_;
+    RankBalance balance_;
+    double own_seconds_before_ = 0.0;
+    std::size_t n_times_ = 0;                            // of the scene, that are past
+    SurfaceWatch<Dim> watch_;                            // on rank 0
+    std::optional<FineMotion<Dim>> fine_motion_;         // on rank 0
+    std::unique_ptr<solid::Solid<Dim>> solid_of_times_;  // on one rank, from the first time inside of a step on
+};
+
+}  // namespace
+
+template <int Dim>
+void take_steps(Start<Dim>& start, Observer<Dim>& observer, const Checkpoint* from) {
+    const SolidIntegrator scheme = start.options.integrator;
+    const double gauge = scheme == SolidIntegrator::bilbao ? run::gauge(start) : 0.0;
+    dynamics::with_scheme<solid::Solid<Dim>>(scheme, {.gauge = gauge}, [&](const auto& make) {
+        const auto make_at = [&](Start<Dim>& s) { return make(*s.solid, s.q, s.momentum, s.result.dt, s.local_steps); };
+        TimeLoop<Dim, decltype(make_at(start))>(start, observer, make_at).run(from);
+    });
+}
+
+template void take_steps<2>(Start<2>&, Observer<2>&, const Checkpoint*);
+template void take_steps<3>(Start<3>&, Observer<3>&, const Checkpoint*);
+
+}  // namespace abut::run

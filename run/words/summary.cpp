@@ -1,0 +1,408 @@
+#include "abut/run/words/summary.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "abut/contact/report.hpp"
+#include "abut/run/body_names.hpp"
+#include "abut/run/files/json.hpp"
+#include "abut/run/option_table.hpp"
+#include "abut/run/result.hpp"
+#include "abut/run/scene.hpp"
+#include "abut/run/words/table_line.hpp"
+#include "abut/run/words/verdict.hpp"
+
+namespace abut::run {
+namespace {
+
+template <int Dim>
+std::vector<double> numbers(const Vector<Dim>& vector) {
+    return {vector.begin(), vector.end()};
+}
+
+/// Time in contact, search included, over the time of the bulk [-].
+template <int Dim>
+double contact_share(const RunResult<Dim>& result) {
+    return (result.times.contact + result.times.search) / result.times.bulk;
+}
+
+template <int Dim>
+Json bodies_json(const Scene<Dim>& scene, const RunResult<Dim>& result) {
+    Json bodies = Json::array();
+    for (std::size_t body = 0; body < result.start.size(); ++body)
+        bodies.push_back(
+            {{"name", scene.mesh.body_names[body]},
+             {"mass", result.start[body].mass},
+             {"velocity_initial", numbers<Dim>(result.start[body].velocity)},
+             {"velocity_final", numbers<Dim>(result.end[body].velocity)},
+             {"rotation_final", result.end[body].rotation},
+             {"spin_initial", std::vector<double>(result.start[body].spin.begin(), result.start[body].spin.end())},
+             {"spin_final", std::vector<double>(result.end[body].spin.begin(), result.end[body].spin.end())},
+             {"local_rotation_final", result.local_rotations[body]},
+             {"inertia_share", body < result.inertia.size() ? result.inertia[body].least() : 1.0}});
+    return bodies;
+}
+
+Json pilot_json(const PilotReport& pilot) {
+    Json bodies = Json::array();
+    for (const PilotBody& body : pilot.bodies)
+        bodies.push_back(
+            {{"kinematics", name_of(body.picked)}, {"rotation", body.rotation}, {"strain_share", body.strain_share}});
+    const auto seconds = [](double value) { return std::isnan(value) ? Json() : Json(value); };
+    return {{"bodies", bodies},
+            {"steps", pilot.steps},
+            {"seconds", pilot.seconds},
+            {"seconds_small", seconds(pilot.small)},
+            {"seconds_floating", seconds(pilot.floating)},
+            {"seconds_rigid", seconds(pilot.rigid)}};
+}
+
+Json settling_json(const SettlingReport& settling) {
+    return {{"steps", settling.steps},
+            {"rests", settling.rests},
+            {"speed", settling.speed},
+            {"dissipated", settling.dissipated},
+            {"seconds", settling.seconds}};
+}
+
+template <int Dim>
+Json seconds_json(const RunResult<Dim>& result) {
+    const auto& seconds = result.seconds;
+    return {{"total", seconds.total},          {"mesh", seconds.mesh},
+            {"setup", seconds.setup},          {"bulk", result.times.bulk},
+            {"contact", result.times.contact}, {"search", result.times.search},
+            {"ledger", seconds.ledger},        {"output", seconds.output},
+            {"looks", seconds.looks}};
+}
+
+/// Nothing where parts stay as they are.
+Json rebalancing_json(const Rebalancing& rebalancing) {
+    if (rebalancing.looks == 0) return Json::object();
+    Json done = Json::array();
+    const auto number = [](double value) { return std::isnan(value) ? Json() : Json(value); };
+    for (const Rebalance& one : rebalancing.done)
+        done.push_back({{"step", one.step},
+                        {"cells_moved", one.cells_moved},
+                        {"imbalance_before", number(one.imbalance_before)},
+                        {"imbalance_after", number(one.imbalance_after)},
+                        {"seconds", one.seconds}});
+    return {{"rebalancing", {{"looks", rebalancing.looks}, {"done", done}}}};
+}
+
+template <int Dim>
+Json options_json(const Scene<Dim>& scene, const RunResult<Dim>& result) {
+    const RunOptions& options = result.options;
+    Json all = to_json(scene.options);
+    if (std::isnan(options.time) && options.steps > 0)
+        all["steps"] = options.steps;
+    else
+        all["time"] = std::isnan(options.time) ? scene.time : options.time;
+    all.update(to_json(named_values(options)));
+    all["skin"] = result.skin;
+    all["threads"] = result.threads;
+    return all;
+}
+
+template <int Dim>
+Json run_json(const RunResult<Dim>& result) {
+    const auto& last = result.ledger.entries().back();
+    return {{"steps", result.steps},
+            {"complete", result.complete},
+            {"resumed_after", result.resumed_after},
+            {"dt", result.dt},
+            {"stable_dt", result.stable.dt},
+            {"dt_over_stable_dt", result.dt / result.stable.dt},
+            {"finest_dt", result.finest_dt},
+            {"level_cells", result.level_cells},
+            {"force_evaluations", result.evaluations},
+            {"time", last.time}};
+}
+
+template <int Dim>
+Json energies_json(const RunResult<Dim>& result) {
+    const auto& ledger = result.ledger;
+    const auto number = [](double value) { return std::isnan(value) ? Json() : Json(value); };
+    const auto if_kept = [&](double drift) { return result.moments_from_outside.empty() ? Json(drift) : Json(); };
+    return {{"kinetic_initial", ledger.entries().front().kinetic},
+            {"energy_scale", {{"name", result.scale.name}, {"value", result.scale.value}}},
+            {"pseudo_energy_drift", ledger.pseudo_energy_drift()},
+            {"energy_drift", ledger.energy_drift()},
+            {"energy_excess_max", ledger.energy_excess()},
+            {"parasitic_max", ledger.parasitic()},
+            {"fine_energy_max", result.fine_energy_max},
+            {"energy_in_play", result.accounts.energy_in_play},
+            {"speed_max", result.accounts.speed},
+            {"forces_from_outside", result.forces_from_outside},
+            {"moments_from_outside", result.moments_from_outside},
+            {"momentum_drift_max", number(momentum_drift(result))},
+            {"angular_momentum_drift_max", if_kept(ledger.angular_momentum_drift())},
+            {"rest_angular_momentum_drift_max", if_kept(ledger.rest_angular_momentum_drift())},
+            {"pseudo_angular_momentum_drift_max", if_kept(ledger.pseudo_angular_momentum_drift())},
+            {"rotation_max", ledger.rotation()}};
+}
+
+Json mesh_json(const mesh::BuildReport& report, const mesh::UnjoinedFaces& unjoined) {
+    return {{"unused_vertices", report.n_unused_vertices},
+            {"ignored_elements", report.n_ignored_elements},
+            {"coincident_vertices", report.n_coincident_vertices},
+            {"unjoined_faces", unjoined.n_faces},
+            {"non_planar_faces", report.n_non_planar_faces},
+            {"cut_cells", report.n_cut_cells},
+            {"turned_cells", report.n_turned_cells},
+            {"worst_planarity", report.worst_planarity},
+            {"warnings", report.warnings}};
+}
+
+template <int Dim>
+Json restarts_json(const RunResult<Dim>& result) {
+    const dynamics::RestartReport& restarts = result.ledger.entries().back().restarts;
+    return {{"restarts", restarts.restarts},
+            {"restarts_shortened", restarts.shortened},
+            {"restarts_skipped", restarts.skipped},
+            {"restart_paid", restarts.paid}};
+}
+
+template <int Dim>
+Json counts_json(const RunResult<Dim>& result) {
+    const auto& contact = result.contact;
+    return {{"events", contact.events},
+            {"active_pairs_max", contact.active_pairs_max},
+            {"active_pairs_final", result.ledger.entries().back().active_pairs},
+            {"missed_contacts", contact.missed_contacts},
+            {"not_admitted_max", result.inadmissible_overlaps_max},
+            {"candidates", contact.candidates_max},
+            {"rebuilds", contact.rebuilds},
+            {"blind_corners", result.blind_corners.size()},
+            {"compression_max", contact.compression_max},
+            {"sliding_ratio_max", contact.sliding_ratio_max},
+            {"slipped_pairs", contact.slipped_pairs},
+            {"slipped_compression_max", contact.slipped_compression_max},
+            {"compressed_steps", contact.compressed_steps},
+            {"tilted_pairs_max", contact.tilted_pairs_max},
+            {"stencil_faces", result.stencils.faces},
+            {"stencil_extrapolations", result.stencils.extrapolated},
+            {"stencil_worst_weight", result.stencils.worst_weight},
+            {"stencil_lowered_floor", result.stencils.lowered_floor},
+            {"boundary_stencil_extrapolations", result.boundary_stencils.extrapolated},
+            {"boundary_stencil_worst_weight", result.boundary_stencils.worst_weight}};
+}
+
+/// Nothing without friction.
+template <int Dim>
+Json friction_json(const RunResult<Dim>& result) {
+    const contact::ContactReport& contact = result.contact;
+    if (contact.sticking_faces_max + contact.sliding_faces_max == 0) return Json::object();
+    const auto& last = result.ledger.entries().back();
+    return {{"friction",
+             {{"dissipated", last.losses.by_friction},
+              {"energy", last.friction_energy},
+              {"least_dissipated", contact.least_dissipated},
+              {"sticking_faces_max", contact.sticking_faces_max},
+              {"sliding_faces_max", contact.sliding_faces_max},
+              {"force_over_limit_max", contact.friction_ratio_max},
+              {"sliding_share", contact.sliding_limit > 0.0 ? Json(contact.sliding_force / contact.sliding_limit) : Json()},
+              {"least_sliding_share", contact.sliding_limit > 0.0 ? Json(result.sliding.least_share()) : Json()}}}};
+}
+
+/// Nothing where no material flows or is damped.
+template <int Dim>
+Json material_json(const RunResult<Dim>& result) {
+    const dynamics::Losses& loss = result.dissipated;
+    Json json = Json::object();
+    if (loss.in_cells + loss.in_jumps != 0.0)
+        json["plasticity"] = {{"dissipated", loss.in_cells},
+                              {"dissipated_in_jumps", loss.in_jumps},
+                              {"dissipated_on_faces", loss.on_faces},
+                              {"strain_max", result.finite.plastic_strain}};
+    if (loss.by_damping != 0.0) json["damping"] = {{"dissipated", loss.by_damping}, {"lagged", loss.lagged}};
+    if (loss.by_viscosity != 0.0) json["viscosity"] = {{"dissipated", loss.by_viscosity}};
+    return json;
+}
+
+/// Nothing without bonds.
+template <int Dim>
+Json bond_json(const Scene<Dim>& scene, const RunResult<Dim>& result) {
+    if (result.bonds.empty()) return Json::object();
+    Json made = Json::array();
+    for (std::size_t i = 0; i < result.bonds.size(); ++i) {
+        const solid::BondCoverage& coverage = result.bonds[i];
+        const auto& sides = scene.solid.bonds[i].sides;
+        made.push_back({{"sides", {quoted_side(scene, sides[0]), quoted_side(scene, sides[1])}},
+                        {"area", coverage.area},
+                        {"opposite_area", coverage.opposite},
+                        {"share", coverage.share()},
+                        {"share_of_smaller_side", coverage.share_of_side()},
+                        {"largest_gap", coverage.largest_gap}});
+    }
+    Json bonds = {{"made", std::move(made)}};
+    if (result.dissipated.in_bonds != 0.0) bonds["dissipated"] = result.dissipated.in_bonds;
+    return {{"bonds", std::move(bonds)}};
+}
+
+/// Nothing where no bodies overlap on purpose.
+template <int Dim>
+Json interference_json(const Scene<Dim>& scene, const RunResult<Dim>& result) {
+    Json pairs = Json::array();
+    for (std::size_t i = 0; i < result.overlaps.size(); ++i) {
+        const solid::BodyInterference& one = scene.solid.interference[i];
+        pairs.push_back({{"bodies", {quoted_side(scene, one.bodies[0]), quoted_side(scene, one.bodies[1])}},
+                         {"overlap", result.overlaps[i]},
+                         {"time", one.time}});
+    }
+    return pairs.empty() ? Json::object() : Json{{"interference", pairs}};
+}
+
+Json encounter_json(const Encounter& met) {
+    if (met.body_1.empty()) return {};
+    return {{"body_1", met.body_1},
+            {"body_2", met.body_2},
+            {"distance", met.distance},
+            {"ratio", met.ratio},
+            {"time", met.time}};
+}
+
+template <int Dim>
+Json verdict_json(const Scene<Dim>& scene, const RunResult<Dim>& result) {
+    const Verdict said = verdict(scene, result);
+    Json warnings = Json::array();
+    for (const Warning& warning : all_warnings(scene, result))
+        warnings.push_back({{"severity", warning.severity == Severity::note ? "note" : "warning"}, {"text", warning.text}});
+    return {{"verdict", {{"good", said.good}, {"text", said.text}}},
+            {"warnings", warnings},
+            {"surfaces",
+             {{"looks", result.looks.looks},
+              {"deepest", encounter_json(result.looks.deepest)},
+              {"remote_contact", encounter_json(result.looks.remote)},
+              {"sliding_pressure", encounter_json(result.looks.pressed)},
+              {"nearest", encounter_json(result.looks.nearest)}}}};
+}
+
+template <int Dim>
+std::string velocity_text(const Vector<Dim>& velocity) {
+    std::vector<std::string> parts;
+    for (const double v : velocity) parts.push_back(fmt::format("{:+.6f}", v));
+    return fmt::format("({})", fmt::join(parts, ", "));
+}
+
+std::string value_text(const Value& value) {
+    const double* number = std::get_if<double>(&value);
+    return number ? fmt::format("{:.6g}", *number) : text_of(to_json(value));
+}
+
+template <int Dim>
+std::string energy_lines(const RunResult<Dim>& result) {
+    const std::string& name = result.scale.name;
+    const dynamics::Ledger<Dim>& ledger = result.ledger;
+    const auto over_scale = [&](double energy) { return fmt::format("{:.2e}", result.scale.over(energy)); };
+    const double momentum = momentum_drift(result);
+    return table_line(fmt::format("drift of pseudo-energy, / {}", name), over_scale(ledger.pseudo_energy_drift())) +
+           table_line(fmt::format("energy excess H - H~, / {}", name), over_scale(ledger.energy_excess())) +
+           table_line("drift of linear momentum",
+                      (std::isnan(momentum) ? "" : fmt::format("{:.2e} kg m/s", momentum)) + momentum_note(result)) +
+           table_line("drift of angular momentum J~",
+                      result.moments_from_outside.empty()
+                          ? fmt::format("{:.2e} kg m^2/s", ledger.pseudo_angular_momentum_drift())
+                          : moment_note(result));
+}
+
+template <int Dim>
+std::string contact_lines(const RunResult<Dim>& result) {
+    const auto& contact = result.contact;
+    return table_line("contact events, missed contacts", fmt::format("{}, {}", contact.events, contact.missed_contacts)) +
+           table_line("compression of the skin, max |g|/D", fmt::format("{:.3g}", contact.compression_max));
+}
+
+/// Nothing where nothing is lost.
+template <int Dim>
+std::string loss_line(const RunResult<Dim>& result) {
+    const dynamics::Losses& loss = result.dissipated;
+    std::vector<std::string> parts;
+    const auto add = [&](const char* by, double energy) {
+        if (energy != 0.0) parts.push_back(fmt::format("{} {:.3g}", by, result.scale.over(energy)));
+    };
+    add("friction", result.ledger.entries().back().losses.by_friction);
+    add("plastic flow", loss.in_cells + loss.in_jumps);
+    add("damping", loss.by_damping);
+    add("viscosity", loss.by_viscosity);
+    add("broken bonds", loss.in_bonds);
+    if (parts.empty()) return "";
+    return table_line(fmt::format("dissipated, / {}", result.scale.name), fmt::format("{}", fmt::join(parts, ", ")));
+}
+
+template <int Dim>
+std::string body_lines(const Scene<Dim>& scene, const RunResult<Dim>& result) {
+    constexpr std::size_t most = 5;
+    std::string text;
+    for (std::size_t body = 0; body < std::min(result.end.size(), most); ++body)
+        text += table_line(fmt::format("velocity of '{}'", scene.mesh.body_names[body]),
+                           fmt::format("{} -> {} m/s", velocity_text<Dim>(result.start[body].velocity),
+                                       velocity_text<Dim>(result.end[body].velocity)));
+    if (result.end.size() > most) text += table_line("", fmt::format("and of {} more bodies", result.end.size() - most));
+    return text;
+}
+
+}  // namespace
+
+template <int Dim>
+std::string summary_json(const std::string& program, const Scene<Dim>& scene, const RunResult<Dim>& result) {
+    Json json = {{"program", program},
+                 {"version", ABUT_VERSION},
+                 {"dim", Dim},
+                 {"cells", scene.mesh.n_cells()},
+                 {"boundary_faces", scene.mesh.boundary_faces.size()}};
+    if (!scene.title.empty()) json["title"] = scene.title;
+    if (!scene.comment.empty()) json["comment"] = scene.comment;
+    json.update(run_json(result));
+    json.update(energies_json(result));
+    json.update(restarts_json(result));
+    json.update(counts_json(result));
+    json.update(friction_json(result));
+    json.update(material_json(result));
+    json.update(bond_json(scene, result));
+    json.update(interference_json(scene, result));
+    for (const Finding& finding : result.findings) json[finding.key] = to_json(finding.value);
+    if (result.pilot) json["pilot"] = pilot_json(*result.pilot);
+    if (result.settling) json["settling"] = settling_json(*result.settling);
+    json.update({{"mesh", mesh_json(scene.mesh.report, result.unjoined)},
+                 {"bodies", bodies_json(scene, result)},
+                 {"seconds", seconds_json(result)},
+                 {"contact_share", contact_share(result)},
+                 {"options", options_json(scene, result)}});
+    json.update(rebalancing_json(result.rebalancing));
+    json.update(verdict_json(scene, result));
+    return text_of(json, 2) + "\n";
+}
+
+template <int Dim>
+std::string closing_table(const std::string& program, const Scene<Dim>& scene, const RunResult<Dim>& result) {
+    std::string text = fmt::format("{}: {}\n", program, verdict(scene, result).text);
+    text += table_line("steps", fmt::format("{} of {:.4g} s, {}{:.3g} of the stable step, in {:.1f} s", result.steps,
+                                            result.dt, result.level_cells.empty() ? "" : "the finest ",
+                                            result.finest_dt / result.stable.dt, result.seconds.total));
+    if (!result.level_cells.empty())
+        text += table_line("cells that step with dt, dt/2, ...", fmt::format("{}", fmt::join(result.level_cells, ", ")));
+    if (!result.complete)
+        text += table_line("asked to stop before the end", fmt::format("t = {:.4g} s", result.ledger.entries().back().time));
+    if (result.settling)
+        text += table_line("brought to rest before the start",
+                           fmt::format("in {} steps, to {:.2g} m/s", result.settling->steps, result.settling->speed));
+    if (result.resumed_after > 0)
+        text += table_line("gone on from a checkpoint", fmt::format("after step {}", result.resumed_after));
+    text += energy_lines(result) + loss_line(result) + contact_lines(result);
+    for (const Finding& finding : result.findings) text += table_line(finding.text, value_text(finding.value));
+    return text + body_lines(scene, result);
+}
+
+#define ABUT_INSTANTIATE(Dim)                                                                             \
+    template std::string summary_json<Dim>(const std::string&, const Scene<Dim>&, const RunResult<Dim>&); \
+    template std::string closing_table<Dim>(const std::string&, const Scene<Dim>&, const RunResult<Dim>&);
+ABUT_INSTANTIATE(2)
+ABUT_INSTANTIATE(3)
+#undef ABUT_INSTANTIATE
+
+}  // namespace abut::run

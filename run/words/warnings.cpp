@@ -1,0 +1,279 @@
+#include "abut/run/words/warnings.hpp"
+#include "abut/run/result.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "abut/run/watch/fine_motion.hpp"
+#include "abut/run/watch/friction_watch.hpp"
+#include "abut/run/watch/remedies.hpp"
+#include "abut/run/words/counts.hpp"
+#include "abut/solid/kinematics/kinematics.hpp"
+#include "abut/solid/kinematics/properties.hpp"
+
+namespace abut::run {
+namespace {
+
+constexpr double kinetic_of_rest = 1e-9;  // of the energy in play: bodies with no more are at rest, or came to it
+
+/// Warns of what was seen at records: bodies past the rim of their floor, and bodies that came near themselves.
+template <int Dim>
+void add_sightings(Counts& counts, const RunResult<Dim>& result) {
+    for (const PastRim& past : result.sightings.past_rims)
+        counts.warnings.push_back(
+            {WarningKind::past_rim, Severity::warning,
+             fmt::format("by t = {:.4g} s body '{}' is past the rim of obstacle '{}', and nothing is below it there. A "
+                         "plane without half_width has no end",
+                         past.time, past.body, past.obstacle),
+             past.time, 0.0});
+    for (const NearItself<Dim>& near : result.sightings.near_themselves)
+        counts.warnings.push_back(
+            {WarningKind::near_itself, Severity::warning,
+             fmt::format(
+                 "by t = {:.4g} s body '{}' has come together with itself at ({:.4g}): two parts of its surface, "
+                 "{:.3g} m apart at rest, have a gap of {:.3g} m, and no contact acts within a body. contact.self = true "
+                 "lets it act",
+                 near.time, near.body, fmt::join(near.position, ", "), near.gap_at_rest, near.gap),
+             near.gap, 0.0});
+    for (const LookEnded& ended : result.sightings.looks_ended)
+        counts.warnings.push_back(
+            {WarningKind::look_ended, Severity::warning,
+             fmt::format("from t = {:.4g} s on nobody looks whether body '{}' comes together with itself: {}", ended.time,
+                         ended.body, ended.reason),
+             ended.time, 0.0});
+}
+
+/// Warns of what H~ does not see.
+template <int Dim>
+void add_motion(Counts& counts, const RunResult<Dim>& result) {
+    const dynamics::Ledger<Dim>& ledger = result.ledger;
+    const auto add_above = [&](WarningKind kind, double value, double threshold, std::string text) {
+        if (value > threshold) counts.warnings.push_back({kind, Severity::warning, std::move(text), value, threshold});
+    };
+    const bool is_memm =
+        result.options.integrator == SolidIntegrator::memm || result.options.integrator == SolidIntegrator::memm_async;
+    // A scale that the user gives is one to quote figures on, and may be any.
+    const double energy = result.accounts.energy_in_play > result.rest_energy ? result.accounts.energy_in_play : 0.0;
+    if (is_memm && energy > 0.0) {
+        const double excess = (ledger.energy_excess() - result.rest_energy) / energy;
+        add_above(WarningKind::energy_excess, excess, large_energy_excess,
+                  fmt::format("H - H~ came to {:.2g} of the energy in play, {:g} is safe: so much swings from step to step, "
+                              "unseen by H~. Where contact excites it take {}; tips and edges that meet are to be blunted",
+                              excess, large_energy_excess, calming_choices(result.options)));
+    }
+    const auto kinetic = [](const auto& entry) { return entry.kinetic; };
+    const auto& entries = ledger.entries();
+    const bool rests = std::ranges::all_of(
+        entries, [&](double value) { return value <= std::max(kinetic_of_rest * energy, result.rest_energy); }, kinetic);
+    if (is_memm && result.accounts.speed > 0.0 && (entries.empty() || !rests)) {
+        const double share = ledger.parasitic() / result.accounts.speed;
+        add_above(WarningKind::parasitic, share, large_parasitic_share,
+                  fmt::format("a cell swings from step to step by |e|/m = {:.2g} m/s, {:.2g} of the largest speed, {:g} is "
+                              "safe: do not read single cells near contact, or take {}",
+                              ledger.parasitic(), share, large_parasitic_share, calming_choices(result.options)));
+    }
+    if (energy > 0.0) {
+        const double share = result.fine_energy_max / energy;
+        add_above(WarningKind::fine_motion, share, large_fine_share,
+                  fmt::format("motion from cell to cell came to {:.2g} of the energy in play, {:g} is safe, and neither H~ "
+                              "nor H - H~ sees it: the upper half of the modes is pumped, or waves are shorter than cells "
+                              "resolve. Take a shorter step (cfl), smaller cells, or damp it (stiffness_damping)",
+                              share, large_fine_share));
+    }
+    if (result.moment_scale > 0.0 && energy > 0.0) {
+        const double drift = ledger.pseudo_angular_momentum_drift() / (result.moment_scale * std::sqrt(energy));
+        add_above(
+            WarningKind::moment_drift, drift, large_moment_drift,
+            fmt::format("J~ changes by {:.2g} kg m^2/s, {:.2g} of what it may be with this energy, {:g} is safe, though "
+                        "nothing acts from outside: forces of contact have a moment",
+                        ledger.pseudo_angular_momentum_drift(), drift, large_moment_drift));
+    }
+}
+
+/// Warns of bodies that glide on less friction than they have.
+template <int Dim>
+void add_weak_friction(Counts& counts, const RunResult<Dim>& result) {
+    const WeakFriction& weak = result.weak_friction;
+    const double time = result.ledger.entries().empty() ? 0.0 : result.ledger.entries().back().time;
+    if (!(weak.seconds > weak_friction_time * time)) return;
+    const char* const remedy =
+        result.options.settle
+            ? "Damp them (stiffness_damping of the body)"
+            : "Weight or load that comes at once sets them off: begin at rest under it (run.settle = true), and damp "
+              "them (stiffness_damping of the body)";
+    counts.warnings.push_back(
+        {WarningKind::weak_friction, Severity::warning,
+         fmt::format("{} and {} slid past each other for {:.2g} s with {:.2g} of the friction of their normal force, {:g} "
+                     "is safe: faces "
+                     "that vibrate stick and slide in turn, so that a body glides too far, or where it should stick. {}",
+                     weak.body_1, weak.body_2, weak.seconds, weak.share, FrictionWatch<Dim>::enough_friction, remedy),
+         weak.seconds, weak_friction_time * time});
+}
+
+/// Warns of what is seen of the surfaces, whatever contact knows.
+template <int Dim>
+void add_looks(Counts& counts, const RunResult<Dim>& result) {
+    const SurfaceLooks& looks = result.looks;
+    const auto add_above = [&](WarningKind kind, const Encounter& met, double threshold, const auto& text) {
+        if (met.ratio > threshold) counts.warnings.push_back({kind, Severity::warning, text(met), met.ratio, threshold});
+    };
+    const std::string looked = fmt::format("; looked at {} times", looks.looks);
+    add_above(WarningKind::interpenetration, looks.deepest, deep_interpenetration, [&](const Encounter& met) {
+        return fmt::format(
+            "{} and {} are inside each other at t = {:.4g} s: two of their cells by {:.2g} m, {:.2g} of the "
+            "size of the smaller one, {:g} is safe{}. Contact has not seen it, or gave way: look at tips and "
+            "edges, at surfaces that look inwards, and at the speed",
+            met.body_1, met.body_2, met.time, met.distance, met.ratio, deep_interpenetration, looked);
+    });
+    add_above(WarningKind::remote_contact, looks.remote, contact_from_afar, [&](const Encounter& met) {
+        return fmt::format(
+            "faces of {} and {} push each other at t = {:.4g} s and are {:.2g} m apart, {:.2g} of the size of "
+            "the smaller one, {:g} is safe{}. Make faces that meet more equal in size{}",
+            met.body_1, met.body_2, met.time, met.distance, met.ratio, contact_from_afar, looked,
+            result.options.law == solid::ContactLaw::reconstruction ? ", or take --law pair_potential" : "");
+    });
+    add_above(WarningKind::sliding_pressure, looks.pressed, high_sliding_pressure, [&](const Encounter& met) {
+        return fmt::format(
+            "{} and {} slide along each other at t = {:.4g} s under a mean pressure of {:.2g} E of the softer "
+            "one, {:g} is safe{}: where faces do not lie in one plane, sliding may cost more than 1 % of "
+            "its speed. Finer faces or a lower pressure make it less",
+            met.body_1, met.body_2, met.time, met.ratio, high_sliding_pressure, looked);
+    });
+    if (looks.pressed.ratio > high_sliding_pressure) counts.warnings.back().severity = Severity::note;
+    if (!looks.nearest.body_1.empty())
+        counts.warnings.push_back({WarningKind::nothing_touched, Severity::note,
+                                   fmt::format("nothing touched: nearest at the end were {} and {}, {:.4g} m apart",
+                                               looks.nearest.body_1, looks.nearest.body_2, looks.nearest.distance),
+                                   looks.nearest.distance, 0.0});
+}
+
+}  // namespace
+
+template <int Dim>
+std::vector<Warning> warnings_during(std::int64_t step, const RunResult<Dim>& result) {
+    const contact::ContactOptions& options = result.options.contact;
+    Counts counts;
+    add_sightings(counts, result);
+    if (const Compressed& pressed = result.compressed; pressed.steps > 0)
+        counts.warnings.push_back(
+            {WarningKind::compression, Severity::warning,
+             fmt::format("by step {} faces of {} and {} are pressed {:.2g} of D, the depth of their cells, into each other, "
+                         "more than {:g}; above {:g} the run stops. A lower speed or load makes it less",
+                         step, pressed.body_1, pressed.body_2, pressed.compression, options.compression_warning,
+                         options.compression_limit),
+             pressed.compression, options.compression_warning});
+    return std::move(counts.warnings);
+}
+
+template <int Dim>
+std::vector<Warning> warnings_after(const RunResult<Dim>& result) {
+    const contact::ContactReport& contact = result.contact;
+    Counts counts;
+    const auto add = [&](WarningKind kind, double value, double threshold, std::string text) {
+        counts.warnings.push_back({kind, Severity::warning, std::move(text), value, threshold});
+    };
+    add_motion(counts, result);
+    add_looks(counts, result);
+    if (const Compressed& pressed = result.compressed; pressed.steps > 0)
+        add(WarningKind::compression, pressed.compression, result.options.contact.compression_warning,
+            fmt::format("{} and {} are strongly compressed in {} of {:.0f} steps, at most {:.2g} of D, the depth of their "
+                        "cells, {:g} is safe. A lower speed or load makes it less, "
+                        "a stiffer material too",
+                        pressed.body_1, pressed.body_2, pressed.steps,
+                        static_cast<double>(result.steps) * result.dt / result.finest_dt, pressed.compression,
+                        result.options.contact.compression_warning));
+    if (contact.sliding_ratio_max > stiff_sliding_ratio)
+        add(WarningKind::stiff_sliding, contact.sliding_ratio_max, stiff_sliding_ratio,
+            fmt::format("faces are pressed into each other deeper than they are wide ({:.2g} of the width where they slide "
+                        "off each other, {:g} is safe): contact is stiffer than the stable step allows for. Look at H - H~ "
+                        "and |e|/m; a lower --cfl, --filter neutral, or faces as wide as their cells are deep make it "
+                        "better",
+                        contact.sliding_ratio_max, stiff_sliding_ratio));
+    if (contact.slipped_compression_max > deep_slip_compression)
+        add(WarningKind::deep_slip, contact.slipped_compression_max, deep_slip_compression,
+            fmt::format("{} pairs of faces slid off each other while pressed in, by up to {:.2g} of D, the depth of their "
+                        "cells. At a free edge that is as it should be; elsewhere bodies pass through each other. A lower "
+                        "speed prevents it, and so does --overlap frozen, under which H~ drifts",
+                        contact.slipped_pairs, contact.slipped_compression_max));
+    if (const double share = result.sliding.least_share(); share < least_sliding_share)
+        add(WarningKind::alternating_slip, share, least_sliding_share,
+            fmt::format(
+                "faces that slide feel {:.2g} of the friction that they should for a part of the run, {:g} is safe: their "
+                "slip alternates from "
+                "step to step, and dissipation is wrong though the balance of energy holds. Leave --restart out (10 and "
+                "the filter act with friction), or take a lower --cfl",
+                share, least_sliding_share));
+    if (const auto& [name, rotation] = result.turned; rotation > far_rotation)
+        add(WarningKind::rotation, rotation, far_rotation,
+            fmt::format("{} has turned by {:.2g} rad, {:g} is safe. A body of kinematics \"small\" grows as it turns, by "
+                        "{:.2g} % at this angle, and no energy shows it. kinematics = \"floating\" lets it turn",
+                        name, rotation, far_rotation, 100.0 * (1.0 / std::cos(rotation) - 1.0)));
+    double local_rotation = 0.0;
+    for (std::size_t body = 0; body < result.local_rotations.size(); ++body)
+        if (result.all_may_turn || (body < result.may_turn.size() && result.may_turn[body]))
+            local_rotation = std::max(local_rotation, result.local_rotations[body]);
+    if (local_rotation > far_rotation)
+        add(WarningKind::local_rotation, local_rotation, far_rotation,
+            fmt::format("a cell has turned by {:.2g} rad against the frame of its body, {:g} is safe. Strains are linear in "
+                        "that frame. Parts that turn against each other are to be bodies of their own, joined by springs",
+                        local_rotation, far_rotation));
+    add_weak_friction(counts, result);
+    if (result.finite.strain > large_strain)
+        add(WarningKind::finite_strain, result.finite.strain, large_strain,
+            fmt::format(
+                "a cell of a finite body was strained by {:.2g}, {:g} is safe, and the least det F was {:.2g}: St. "
+                "Venant and Kirchhoff's material is one of small strains, and weak in compression. Look at H - H~: "
+                "if noise grows, take {}; behind a shock linear_viscosity = 0.25 with quadratic_viscosity = 2 damps it",
+                result.finite.strain, large_strain, result.finite.determinant, calming_choices(result.options)));
+    if (result.finite_kinematic_hardening && result.finite.plastic_strain > large_kinematic_flow)
+        add(WarningKind::kinematic_flow, result.finite.plastic_strain, large_kinematic_flow,
+            fmt::format(
+                "a cell has a plastic strain of {:.2g}, {:g} is safe with kinematic_hardening in a finite body: where "
+                "axes of strain turn, as in shear, its stress is too low (3 % at 0.6, 20 % at 1.2), and no energy "
+                "shows it. Metal that has flowed to and fro in small strains is right; metal that flows so far in one "
+                "direction should have hardening in place of kinematic_hardening",
+                result.finite.plastic_strain, large_kinematic_flow));
+    const dynamics::Losses& loss = result.dissipated;
+    if (const double share = std::abs(loss.on_faces) / loss.in_cells; share > large_face_loss)
+        add(WarningKind::face_loss, share, large_face_loss,
+            fmt::format(
+                "free faces that flow along with their cells take {:.2g} of what plastic flow dissipates out of contact "
+                "and of jumps between cells, {:g} is safe: cells at the surface are too large for what happens "
+                "there, though the balance of energy holds. Take smaller cells",
+                share, large_face_loss));
+    if (const double share = loss.in_jumps / (loss.in_cells + loss.in_jumps); share > large_jump_loss)
+        add(WarningKind::jump_loss, share, large_jump_loss,
+            fmt::format("jumps between cells dissipate {:.2g} of what plastic flow does in all, {:g} is safe: they yield "
+                        "where cells "
+                        "may be elastic, though the balance of energy holds. Take smaller cells, or a larger jump_cap",
+                        share, large_jump_loss));
+    add_sightings(counts, result);
+    counts.add(WarningKind::missed_contacts, Severity::warning, contact.missed_contacts,
+               fmt::format("{} contacts were missed, 0 are allowed: the energy is not exact", contact.missed_contacts));
+    counts.add(WarningKind::inadmissible_overlaps, Severity::note, result.inadmissible_overlaps_max,
+               fmt::format("up to {} pairs of faces overlap without being contacts: far sides of bodies",
+                           result.inadmissible_overlaps_max));
+    return in_user_words(std::move(counts.warnings));
+}
+
+std::vector<Warning> without_notes(std::vector<Warning> warnings) {
+    std::erase_if(warnings, [](const Warning& warning) { return warning.severity == Severity::note; });
+    return warnings;
+}
+
+#define ABUT_INSTANTIATE(Dim)                                                                \
+    template std::vector<Warning> warnings_during<Dim>(std::int64_t, const RunResult<Dim>&); \
+    template std::vector<Warning> warnings_after<Dim>(const RunResult<Dim>&);
+ABUT_INSTANTIATE(2)
+ABUT_INSTANTIATE(3)
+#undef ABUT_INSTANTIATE
+
+}  // namespace abut::run
