@@ -53,14 +53,24 @@ Key<Body> lower() { return required(Of::vector("lower", &Body::lower, "m", "", "
 Key<Body> upper() { return required(Of::vector("upper", &Body::upper, "m", "", "corner with the largest coordinates")); }
 Key<Body> length() { return required(Of::number("length", &Body::length, a_length, "length along z")); }
 
-Key<Body> refinement() {
-    const auto read = [](Reader& reader, const Node& node, const std::string& key) -> std::optional<RefinementSettings> {
+/// A table within that of the body.
+template <class Settings>
+Key<Body> inner_table(const char* name, const char* help, std::optional<Settings> Body::*member,
+                      const Keys<Settings>& keys) {
+    const auto read = [&keys](Reader& reader, const Node& node, const std::string& key) -> std::optional<Settings> {
         if (!reader.is_table(node, key)) return std::nullopt;
-        RefinementSettings settings;
-        read_table(settings, node, key, refinement_keys(), reader);
+        Settings settings;
+        read_table(settings, node, key, keys, reader);
         return settings;
     };
-    return key_of<Body>("refinement", "table", "smaller cells near a point: keys below", &Body::refinement, read);
+    return key_of<Body>(name, "table", help, member, read);
+}
+Key<Body> refinement() {
+    return inner_table("refinement", "smaller cells near a point: keys below", &Body::refinement, refinement_keys());
+}
+Key<Body> fracture() {
+    return inner_table("fracture", "pieces that it may break into, and what holds them together: keys below",
+                       &Body::fracture, fracture_keys());
 }
 
 Key<Body> counts() {
@@ -157,6 +167,23 @@ const Keys<RefinementSettings>& refinement_keys() {
     return keys;
 }
 
+const Keys<FractureSettings>& fracture_keys() {
+    using Part = FractureSettings;
+    using From = Make<Part>;
+    static const Keys<Part> keys = {
+        required(From::number("grain", &Part::grain, a_length,
+                              "size of the pieces: edge of a square or cube as large. Cracks follow their faces")),
+        required(From::number("strength", &Part::strength, {.unit = "Pa", .above = 0.0},
+                              "largest traction that a face between pieces bears, pressure not counted")),
+        From::number("fracture_energy", &Part::fracture_energy, {.unit = "J/m^2", .above = 0.0, .zero = true},
+                     "that a crack takes per area as it opens; 0: faces break at once, with less energy in smaller cells"),
+        From::number("weibull", &Part::weibull, {.above = 0.0},
+                     "modulus of the scatter of strength from face to face, 63 % of which are below `strength`; not given: "
+                     "all have it"),
+        From::count("seed", &Part::seed, 0, Of::many, "another one gives other pieces and another scatter")};
+    return keys;
+}
+
 const Keys<Body>& body_keys() {
     static const Keys<Body> keys = [] {
         Keys<Body> all = {
@@ -176,7 +203,8 @@ const Keys<Body>& body_keys() {
                         "kelvins above where it has no thermal strain, of a body that deforms and whose material has a "
                         "thermal_expansion; x, y, z at rest in the scene"),
             Of::vector("velocity", &Body::velocity, "m/s", "0", "velocity at the start"),
-            Of::axial("spin", &Body::spin, "rad/s", "angular velocity about its centroid at the start")};
+            Of::axial("spin", &Body::spin, "rad/s", "angular velocity about its centroid at the start"),
+            fracture()};
         const Keys<Body> own = material_values<Body>();
         all.insert(all.begin() + 1, own.begin(), own.end());
         return all;
@@ -188,7 +216,7 @@ const Keys<Body>& part_keys() {
     static const Keys<Body> keys = [] {
         Keys<Body> chosen;
         for (const Key<Body>& key : body_keys())
-            if (key.name != "place" && key.name != "turn") {
+            if (key.name != "place" && key.name != "turn" && key.name != "fracture") {
                 chosen.push_back(key);
                 chosen.back().required = false;
             }

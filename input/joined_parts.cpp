@@ -7,6 +7,7 @@
 #include <string>
 
 #include "abut/base/disjoint_sets.hpp"
+#include "abut/input/make_body.hpp"
 #include "abut/solid/kinematics/properties.hpp"
 
 namespace abut::input {
@@ -33,12 +34,28 @@ public:
     void join(const std::vector<std::int32_t>& piece) {
         check(piece);
         const bool touches_itself = std::ranges::all_of(piece, [&](std::int32_t body) { return touches(body); });
-        for (std::size_t i = 0; i < piece.size() && !touches_itself; ++i)
+        const bool breaks = fracture_of(piece.front()) != nullptr;
+        for (std::size_t i = 0; i < piece.size() && !touches_itself && !breaks; ++i)
             for (std::size_t j = 0; j < i; ++j) scene_.solid.ignored_pairs.push_back({piece[j], piece[i]});
         if (!scene_.spin.empty()) turn_about_common_centroid(piece);
     }
 
+    void bond(const std::array<std::int32_t, 2>& sides) {
+        solid::Bond& bond = scene_.solid.bonds.emplace_back(solid::Bond{.sides = sides});
+        const FractureSettings* fracture = fracture_of(sides[0]);
+        if (!fracture) return;
+        bond.strength = fracture->strength;
+        bond.fracture_energy = fracture->fracture_energy;
+        bond.weibull_modulus = fracture->weibull;
+        bond.seed = static_cast<std::uint32_t>(fracture->seed);
+    }
+
 private:
+    /// That of the body which this one is a grain of; none: it is no grain.
+    [[nodiscard]] const FractureSettings* fracture_of(std::int32_t body) const {
+        const BodySettings* table = table_of(name_of(body), settings_.bodies);
+        return table && table->fracture ? &*table->fracture : nullptr;
+    }
     [[nodiscard]] const std::string& name_of(std::int32_t body) const {
         return scene_.mesh.body_names[static_cast<std::size_t>(body)];
     }
@@ -48,6 +65,8 @@ private:
     }
     void check(const std::vector<std::int32_t>& piece) {
         const auto first = static_cast<std::size_t>(piece.front());
+        if (const BodySettings* body = table_of(name_of(piece.front()), settings_.bodies); body && body->fracture)
+            return check_that_turns(*body, scene_.solid.kinematics[first]);
         const auto fault = [&](std::int32_t body, const std::string& what) {
             faults_.push_back(
                 {settings_.file.string(), fmt::format("bodies '{}' and '{}' have faces in common and are one piece, but {}.",
@@ -63,6 +82,14 @@ private:
                                          (!scene_.spin.empty() && scene_.spin[i] != scene_.spin[first]);
             if (moves_otherwise) fault(body, "their velocity or spin differs. Give it to the piece");
         }
+    }
+    void check_that_turns(const BodySettings& body, solid::Kinematics of_scene) const {
+        const auto kinematics = run::kinematics_of_all(settings_.options.kinematics).value_or(of_scene);
+        if (settings_.options.kinematics == run::BodyKinematics::automatic || kinematics == solid::Kinematics::small)
+            faults_.push_back(
+                {body.where, fmt::format("body '{}' may break, and pieces that come off turn. Give it kinematics "
+                                         "= \"floating\", or \"finite\" where it bends far.",
+                                         body.name)});
     }
     void turn_about_common_centroid(const std::vector<std::int32_t>& piece) {
         const mesh::Mesh<Dim>& mesh = scene_.mesh;
@@ -101,8 +128,8 @@ private:
 
 template <int Dim>
 void join_parts(run::Scene<Dim>& scene, const Settings& settings, std::vector<Fault>& faults) {
-    for (const auto& pair : scene.mesh.report.joined_bodies) scene.solid.bonds.push_back({.sides = pair});
     Pieces<Dim> pieces(scene, settings, faults);
+    for (const auto& pair : scene.mesh.report.joined_bodies) pieces.bond(pair);
     for (const auto& piece : pieces_of(scene.mesh)) pieces.join(piece);
 }
 

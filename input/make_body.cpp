@@ -11,6 +11,7 @@
 #include "abut/base/text.hpp"
 #include "abut/input/nearest_word.hpp"
 #include "abut/input/values.hpp"
+#include "abut/mesh/grains.hpp"
 #include "abut/mesh/io/read_mesh.hpp"
 #include "abut/mesh/io/read_surface.hpp"
 #include "abut/mesh/place.hpp"
@@ -200,6 +201,24 @@ mesh::Mesh<Dim> cut_into_regions(const mesh::Mesh<Dim>& mesh, const BodySettings
     return mesh::split_body<Dim>(mesh, part_of, std::move(names));
 }
 
+/// Names of the grains of a body are numbers, from 1 on.
+template <int Dim>
+mesh::Mesh<Dim> cut_into_grains(mesh::Mesh<Dim> mesh, const BodySettings& body) {
+    if (!body.fracture) return mesh;
+    if (mesh.n_bodies() > 1)
+        throw mesh::MeshError(
+            fmt::format("bodies.{}.fracture: it has {} bodies or regions, and one that breaks is made of one. Leave "
+                        "fracture out, or the "
+                        "regions.",
+                        body.name, mesh.n_bodies()));
+    const std::vector<std::int32_t> grains =
+        mesh::grains_of<Dim>(mesh, {.size = body.fracture->grain, .seed = static_cast<std::uint32_t>(body.fracture->seed)});
+    std::vector<std::string> names;
+    for (std::int32_t grain = 0; grain <= *std::ranges::max_element(grains); ++grain)
+        names.push_back(std::to_string(grain + 1));
+    return mesh::split_body<Dim>(mesh, grains, std::move(names));
+}
+
 /// Every table of a body of the file has its body.
 template <int Dim>
 void check_parts(const mesh::Mesh<Dim>& mesh, const BodySettings& body) {
@@ -226,7 +245,7 @@ void name_parts(mesh::Mesh<Dim>& mesh, const std::string& name) {
 
 template <int Dim>
 mesh::Mesh<Dim> make_body(const BodySettings& body, const std::filesystem::path& folder, const GivenMeshes* given) {
-    mesh::Mesh<Dim> mesh = cut_into_regions<Dim>(unplaced<Dim>(body, folder, given), body);
+    mesh::Mesh<Dim> mesh = cut_into_grains<Dim>(cut_into_regions<Dim>(unplaced<Dim>(body, folder, given), body), body);
     const bool turns = !body.turn.isZero(0.0);
     if (turns || (!has_centre(body.shape) && !body.place.isZero(0.0)))
         mesh::place(mesh, turns ? rotation<Dim>(body.turn) : Matrix<Dim>::Identity(), head<Dim>(body.place));
@@ -246,6 +265,12 @@ const BodySettings& settings_of(const BodySettings& body, const std::string& nam
     for (const BodySettings& part : body.parts)
         if (name == body.name + "." + part.name) return part;
     return body;
+}
+
+const BodySettings* table_of(const std::string& body, const std::vector<BodySettings>& tables) {
+    const auto found = std::ranges::find_if(
+        tables, [&](const BodySettings& table) { return body == table.name || body.starts_with(table.name + "."); });
+    return found == tables.end() ? nullptr : &*found;
 }
 
 template mesh::Mesh<2> make_body<2>(const BodySettings&, const std::filesystem::path&, const GivenMeshes*);

@@ -11,7 +11,7 @@ namespace abut::input {
 inline constexpr const char* rest_of_regions = "rest";
 
 /// The mesh of a body in its place; bodies "<name>", of a file with several "<name>.<body of the file>", with regions
-/// "<name>.<region>"; groups "<name>.<group>". What has common vertices in the file, or is cut into regions, is in
+/// "<name>.<region>", with grains "<name>.1" and so on; groups "<name>.<group>". What has common vertices in the file, or is cut into regions, is in
 /// BuildReport::joined_bodies. Files are looked for from `folder`, unless `given` (null: none) has the mesh. Throws
 /// MeshError, also where a table of BodySettings::parts has no body of the file.
 template <int Dim>
@@ -24,5 +24,8 @@ template <int Dim>
 
 /// Settings for the body of this name in the mesh of make_body, from a file with several bodies: its own table, or `body`.
 [[nodiscard]] const BodySettings& settings_of(const BodySettings& body, const std::string& name);
+
+/// The table that a body of the mesh comes from; null: none.
+[[nodiscard]] const BodySettings* table_of(const std::string& body, const std::vector<BodySettings>& tables);
 
 }  // namespace abut::input

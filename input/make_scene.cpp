@@ -92,13 +92,6 @@ void add_bodies(run::Scene<Dim>& scene, const Settings& settings, std::vector<Fa
     if (!meshes.empty()) scene.mesh = mesh::combine<Dim>(meshes);
 }
 
-/// The table that a body of the mesh comes from.
-const BodySettings* table_of(const std::string& body, const std::vector<BodySettings>& tables) {
-    const auto found = std::ranges::find_if(
-        tables, [&](const BodySettings& table) { return body == table.name || body.starts_with(table.name + "."); });
-    return found == tables.end() ? nullptr : &*found;
-}
-
 /// Words behind the depth of two bodies where the search for cells that overlap ended early.
 std::string more_cells(std::span<const mesh::Interpenetration> found, const std::array<std::int32_t, 2>& bodies) {
     const std::int64_t n = std::ranges::count(found, bodies, &mesh::Interpenetration::bodies);
@@ -284,12 +277,6 @@ void add_bonds(run::Scene<Dim>& scene, const Settings& settings, std::vector<Fau
     }
 }
 
-/// The table of a body, or of the file or body of regions that it is a part of.
-const BodySettings& body_of(const Settings& settings, const std::string& name) {
-    return *std::ranges::find_if(
-        settings.bodies, [&](const BodySettings& body) { return name == body.name || name.starts_with(body.name + "."); });
-}
-
 template <int Dim>
 void add_outputs(run::Scene<Dim>& scene, const Settings& settings, std::vector<Fault>& faults) {
     const Names<Dim> names(scene.mesh, settings.bodies, faults);
@@ -299,7 +286,8 @@ void add_outputs(run::Scene<Dim>& scene, const Settings& settings, std::vector<F
         if (!body) continue;
         run::Probe<Dim> made{.name = probe.name, .body = *body, .contact = probe.contact};
         if (probe.point) made.position = head<Dim>(*probe.point);
-        if (made.position && probe.in_body) made.position = placed<Dim>(body_of(settings, probe.body), *made.position);
+        if (made.position && probe.in_body)
+            made.position = placed<Dim>(*table_of(probe.body, settings.bodies), *made.position);
         if (probe.point && probe.contact)
             faults.push_back(
                 {probe.where, path + ".contact is of a body as a whole, and 'point' is given, too. Leave one of them out."});

@@ -48,6 +48,15 @@ struct RefinementSettings {
     double uniform = 0.0;                 ///< [m]
 };
 
+/// Pieces that a body may break into, and what holds them together.
+struct FractureSettings {
+    double grain = 0.0;                                        ///< [m]
+    double strength = 0.0;                                     ///< [Pa]
+    double fracture_energy = 0.0;                              ///< [J/m^2]
+    double weibull = std::numeric_limits<double>::infinity();  ///< modulus [-]
+    int seed = 0;
+};
+
 /// A material that bodies may share.
 struct MaterialSettings : Named {
     solid::Material material;
@@ -79,6 +88,7 @@ struct BodySettings : Named {
     int cells_per_tooth = 4;
     int variant = 0;
     std::optional<RefinementSettings> refinement;
+    std::optional<FractureSettings> fracture;
     Vector<3> place = Vector<3>::Zero();  ///< [m]
     Vector<3> turn = Vector<3>::Zero();   ///< axis times angle [rad]
     std::string material_name;            ///< empty: all values are its own

@@ -24,6 +24,7 @@
 #include "abut/solid/body_inertia.hpp"
 #include "abut/solid/body_motion.hpp"
 #include "abut/solid/boundary/bond_places.hpp"
+#include "abut/solid/fragments.hpp"
 #include "abut/solid/solid.hpp"
 
 namespace abut::run {
@@ -86,11 +87,13 @@ struct RunResult {
     solid::StencilReport boundary_stencils;        ///< of the boundary faces that local equilibrium leaves undetermined
     std::vector<solid::BodyMotion<Dim>> start;
     std::vector<solid::BodyMotion<Dim>> end;
-    solid::FiniteExtremes finite;         ///< of all steps: Solid::finite_extremes
-    dynamics::Losses dissipated;          ///< by materials in all steps: Solid::dissipated
-    std::vector<double> local_rotations;  ///< at the end: Solid::local_rotations [rad]
-    Sightings<Dim> sightings;             ///< at records; on rank 0 all of them
-    solid::SolidTimes times;              ///< of the steps
+    std::vector<solid::Fragment<Dim>> fragments;  ///< at the end; empty where no bond may break
+    double broken_bonds = 0.0;                    ///< BondView::broken_share at the end [-]
+    solid::FiniteExtremes finite;                 ///< of all steps: Solid::finite_extremes
+    dynamics::Losses dissipated;                  ///< by materials in all steps: Solid::dissipated
+    std::vector<double> local_rotations;          ///< at the end: Solid::local_rotations [rad]
+    Sightings<Dim> sightings;                     ///< at records; on rank 0 all of them
+    solid::SolidTimes times;                      ///< of the steps
     RunSeconds seconds;
     Rebalancing rebalancing;        ///< on several ranks
     std::vector<Finding> findings;  ///< of the scene

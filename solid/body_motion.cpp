@@ -1,54 +1,22 @@
 #include "abut/solid/body_motion.hpp"
 
+#include <numeric>
 #include <string>
 
 #include "abut/base/error.hpp"
 #include "abut/dynamics/ledger.hpp"
-#include "abut/solid/body/body_frame.hpp"
+#include "abut/solid/group_motions.hpp"
 #include "abut/solid/solid.hpp"
 
 namespace abut::solid {
-namespace {
-
-/// From masses and momenta of the bodies; velocities are not divided yet.
-template <int Dim>
-std::vector<AxialVector<Dim>> spins_of(const dynamics::RunView<Dim>& run, const Solid<Dim>& solid,
-                                       const std::vector<BodyMotion<Dim>>& motions) {
-    const auto q = as_vectors<Dim>(run.q);
-    const auto at = [&](std::size_t i) -> Vector<Dim> { return solid.rest_positions()[i] + q[i]; };
-    const std::size_t n = motions.size();
-    std::vector<Vector<Dim>> centre(n, Vector<Dim>::Zero());
-    std::vector<Matrix<Dim>> second_moment(n, Matrix<Dim>::Zero());
-    std::vector<AxialVector<Dim>> angular(n, AxialVector<Dim>::Zero()), spins;
-    const auto body_of = [&](std::size_t i) { return static_cast<std::size_t>(solid.body_of_points()[i]); };
-    for (std::size_t i = 0; i < q.size(); ++i) centre[body_of(i)] += solid.masses()[i] / motions[body_of(i)].mass * at(i);
-    for (std::size_t i = 0; i < q.size(); ++i) {
-        const Vector<Dim> arm = at(i) - centre[body_of(i)];
-        second_moment[body_of(i)] += solid.masses()[i] * arm * arm.transpose();
-        angular[body_of(i)] += moment<Dim>(arm, run.momentum(static_cast<std::ptrdiff_t>(i)));
-    }
-    for (std::size_t body = 0; body < n; ++body) spins.push_back(spin_of<Dim>(second_moment[body], angular[body]));
-    return spins;
-}
-
-}  // namespace
-
 template <int Dim>
 std::vector<BodyMotion<Dim>> body_motions(const dynamics::RunView<Dim>& run, const Solid<Dim>& solid) {
-    std::vector<BodyMotion<Dim>> motions(static_cast<std::size_t>(solid.mesh().n_bodies()),
-                                         {0.0, Vector<Dim>::Zero(), 0.0, AxialVector<Dim>::Zero()});
-    for (std::size_t i = 0; i < solid.masses().size(); ++i) {
-        BodyMotion<Dim>& body = motions[solid.body_of_points()[i]];
-        body.mass += solid.masses()[i];
-        body.velocity += run.momentum(static_cast<std::ptrdiff_t>(i));
-    }
-    const std::vector<AxialVector<Dim>> spins = spins_of<Dim>(run, solid, motions);
+    std::vector<std::int32_t> itself(static_cast<std::size_t>(solid.mesh().n_bodies()));
+    std::iota(itself.begin(), itself.end(), 0);
     const std::vector<double> rotations = solid.rotations(run.q);
-    for (std::size_t body = 0; body < motions.size(); ++body) {
-        motions[body].velocity /= motions[body].mass;
-        motions[body].rotation = rotations[body];
-        motions[body].spin = spins[body];
-    }
+    std::vector<BodyMotion<Dim>> motions;
+    for (const GroupMotion<Dim>& motion : group_motions<Dim>(run, solid, itself, itself.size()))
+        motions.push_back({motion.mass, motion.velocity, rotations[motions.size()], motion.spin});
     return motions;
 }
 

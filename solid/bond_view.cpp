@@ -17,6 +17,11 @@ std::span<const BondCoverage> BondView<Dim>::coverage() const {
 }
 
 template <int Dim>
+bool BondView<Dim>::may_break() const {
+    return solid_.bonds_->any_breaks();
+}
+
+template <int Dim>
 bool BondView<Dim>::is_broken(std::size_t place) const {
     return solid_.bonds_->is_broken(place);
 }

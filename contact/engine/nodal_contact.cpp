@@ -15,10 +15,14 @@
 namespace abut::contact {
 namespace {
 
-NodalOptions checked(NodalOptions options, bool has_shear_stiffness) {
+NodalOptions checked(NodalOptions options, std::int32_t n_bodies, bool has_shear_stiffness) {
     check_options(options);
     check_friction(options.friction, has_shear_stiffness);
     check(options.interference);
+    if (!options.pieces.empty() && std::ssize(options.pieces) != n_bodies)
+        throw BadInput("nodal contact: pieces of " + std::to_string(options.pieces.size()) + " bodies are given for " +
+                           std::to_string(n_bodies) + "; give one per body, -1 of a body by itself.",
+                       {.value = static_cast<double>(options.pieces.size()), .allowed = static_cast<double>(n_bodies)});
     const geometry::FacingFade& facing = options.facing;
     if (!(facing.full >= -1.0 && facing.full < facing.none && facing.none <= 0.0))
         throw BadInput("nodal contact: pairs fade out from n_1 . n_2 = " + number(facing.full) + " to " +
@@ -83,7 +87,7 @@ private:
 template <int Dim>
 NodalContact<Dim>::NodalContact(NodalSurface<Dim> surface, NodalOptions options, Sharing* sharing)
     : implementation_([&] {
-          options = checked(std::move(options), surface.has_shear_stiffness());
+          options = checked(std::move(options), surface.n_bodies(), surface.has_shear_stiffness());
           return std::make_unique<Implementation>(std::move(surface), options, sharing);
       }()) {}
 template <int Dim>

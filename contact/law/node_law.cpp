@@ -20,15 +20,19 @@ constexpr double turns_in_all = 0.2;
 /// `turns_at_most`.
 constexpr double turn_of_list = 0.05;
 
-/// Tells for each body whether it may touch itself (n_bodies).
+/// Pieces within which facets may lie inside of each other at rest: those that are given, and bodies that touch
+/// themselves; -1 of all others (n_bodies).
 template <int Dim>
-std::vector<char> touches_itself(const NodalSurface<Dim>& surface, const CandidateOptions& search) {
-    std::vector<char> touches(static_cast<std::size_t>(surface.n_bodies()), search.self_contact ? 1 : 0);
-    for (std::int32_t body = 0; body < surface.n_bodies(); ++body)
-        if (surface.is_rigid(body)) touches[static_cast<std::size_t>(body)] = 0;
-    for (const auto& [body_1, body_2] : search.ignored_bodies)
-        if (body_1 == body_2 && body_1 < surface.n_bodies()) touches[static_cast<std::size_t>(body_1)] = 0;
-    return touches;
+std::vector<std::int32_t> pieces_of(const NodalSurface<Dim>& surface, const NodalOptions& options) {
+    const std::int32_t n = surface.n_bodies();
+    std::vector<std::int32_t> pieces(static_cast<std::size_t>(n));
+    for (std::int32_t body = 0; body < n; ++body)
+        pieces[static_cast<std::size_t>(body)] = options.search.self_contact && !surface.is_rigid(body) ? body : -1;
+    for (const auto& [body_1, body_2] : options.search.ignored_bodies)
+        if (body_1 == body_2 && body_1 < n) pieces[static_cast<std::size_t>(body_1)] = -1;
+    for (std::size_t body = 0; body < options.pieces.size(); ++body)
+        if (options.pieces[body] >= 0) pieces[body] = n + options.pieces[body];
+    return pieces;
 }
 
 }  // namespace
@@ -39,7 +43,7 @@ NodeLaw<Dim>::NodeLaw(BevelledSurface<Dim> surface, const NodalOptions& options,
       options_(options),
       sharing_(sharing),
       sides_(acting().facets().view()),
-      inside_(acting().facets().view(), touches_itself(acting(), options_.search)),
+      inside_(acting().facets().view(), pieces_of(acting(), options_)),
       pairs_(options_.facing, options_.friction, options_.interference, sharing),
       ramps_(options_.interference),
       looks_away_(std::cos(std::acos(std::clamp(options_.facing.none, -1.0, 1.0)) - turns_in_all)),

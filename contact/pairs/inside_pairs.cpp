@@ -57,20 +57,21 @@ double outside_gap(const SurfaceView<Dim>& facets, FacetPair pair) {
 }
 
 template <int Dim>
-InsidePairs<Dim>::InsidePairs(const SurfaceView<Dim>& facets, const std::vector<char>& touches_itself) {
-    if (std::ranges::none_of(touches_itself, [](char touches) { return touches != 0; })) return;
+InsidePairs<Dim>::InsidePairs(const SurfaceView<Dim>& facets, const std::vector<std::int32_t>& piece) {
+    if (std::ranges::none_of(piece, [](std::int32_t number) { return number >= 0; })) return;
+    const auto piece_of = [&](std::int32_t facet) { return piece[static_cast<std::size_t>(facets.body[facet])]; };
     const auto n = static_cast<std::size_t>(facets.size());
     std::vector<double> reach(n);
     std::vector<geometry::Box<Dim>> boxes(n);
     for (std::int32_t facet = 0; facet < facets.size(); ++facet) {
-        if (touches_itself[static_cast<std::size_t>(facets.body[facet])] == 0) continue;
+        if (piece_of(facet) < 0) continue;
         const double depth = facets.is_rigid(facet) ? 0.0 : facets.cell_depth[facet];
         reach[facet] = circumradius(facets, facet) + 2.0 * std::sqrt(static_cast<double>(Dim)) * depth;
         boxes[facet].extend(facets.centroid[facet]);
         boxes[facet] = boxes[facet].grown(reach[facet]);
     }
     const auto is_inside = [&](std::int32_t facet_1, std::int32_t facet_2) {
-        if (facets.body[facet_1] != facets.body[facet_2]) return false;
+        if (piece_of(facet_1) != piece_of(facet_2)) return false;
         const double near = reach[facet_1] + reach[facet_2];
         if ((facets.centroid[facet_2] - facets.centroid[facet_1]).squaredNorm() >= near * near) return false;
         const double gap = gap_at_rest(facets, facet_1, facet_2);

@@ -11,15 +11,16 @@
 
 namespace abut::contact {
 
-/// Pairs of facets of one body that lie inside of each other and near at rest, as the two sides of a wedge or of a thin
+/// Pairs of facets of one piece that lie inside of each other and near at rest, as the two sides of a wedge or of a thin
 /// plate do: they are marked, and no contact. A mark goes for good once the pair is seen from outside: a plate that is
-/// rolled up touches itself with what were its two sides. docs/method.md, A body that touches itself.
+/// rolled up touches itself with what were its two sides. A piece is a body that touches itself, or bodies that were cut out
+/// of one. docs/method.md, A body that touches itself.
 template <int Dim>
 class InsidePairs {
 public:
     InsidePairs() = default;
-    /// Pairs of the bodies that touch themselves, `touches_itself` (n_bodies); facets as they are at rest.
-    InsidePairs(const SurfaceView<Dim>& facets, const std::vector<char>& touches_itself);
+    /// `piece`: of each body, -1 where nothing is to be marked (n_bodies); facets as they are at rest.
+    InsidePairs(const SurfaceView<Dim>& facets, const std::vector<std::int32_t>& piece);
 
     /// Whether the pair bears a mark.
     [[nodiscard]] bool has(FacetPair pair) const;

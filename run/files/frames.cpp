@@ -52,7 +52,7 @@ struct Stresses {
 
 template <int Dim>
 std::vector<mesh::Field<Dim>> cell_fields(const FrameFields& fields, std::span<const Vector<Dim>> velocity,
-                                          const Stresses<Dim>& stresses) {
+                                          const Stresses<Dim>& stresses, std::span<const double> fragment) {
     std::vector<mesh::Field<Dim>> chosen;
     if (fields.velocity) chosen.push_back({"velocity [m/s]", velocity});
     if (fields.stress) chosen.push_back({"stress [Pa]", std::span<const Matrix<Dim>>(stresses.stress)});
@@ -60,6 +60,7 @@ std::vector<mesh::Field<Dim>> cell_fields(const FrameFields& fields, std::span<c
     if (Dim == 2 && fields.stress) chosen.push_back({"stress zz [Pa]", std::span<const double>(stresses.out_of_plane)});
     if (fields.plastic_strain && !stresses.plastic_strain.empty())
         chosen.push_back({"plastic strain", std::span<const double>(stresses.plastic_strain)});
+    if (!fragment.empty()) chosen.push_back({"fragment", fragment});
     return chosen;
 }
 
@@ -87,7 +88,7 @@ mesh::PieceFrame<Dim> shown(const FrameFields& fields, const FramePiece<Dim>& pi
             .boundary = piece.boundary,
             .displacement = piece.displacement,
             .vertex_displacement = piece.vertex_displacement,
-            .cell_fields = cell_fields<Dim>(fields, piece.velocity, stresses),
+            .cell_fields = cell_fields<Dim>(fields, piece.velocity, stresses, piece.fragment),
             .boundary_fields = boundary_fields<Dim>(fields, piece.gap, piece, piece.bond)};
 }
 
@@ -276,7 +277,8 @@ void Frames<Dim>::write(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& so
         const Stresses<Dim> stresses(solid);
         const auto velocity = cell_velocity(run, solid);
         mesh::Frame<Dim> frame{.time = run.time, .displacement = displacement, .vertex_displacement = of_vertices};
-        frame.cell_fields = cell_fields<Dim>(fields_, velocity, stresses);
+        const std::vector<double> fragment = fragment_of_cells(solid);
+        frame.cell_fields = cell_fields<Dim>(fields_, velocity, stresses, fragment);
         const std::vector<double> bonds = left_of_bonds(solid);
         frame.boundary_fields = boundary_fields<Dim>(fields_, gap, contact, bonds);
         if (pairs_) write_pairs(run, solid, displacement, of_vertices);

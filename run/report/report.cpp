@@ -17,6 +17,7 @@
 #include "abut/run/words/summary.hpp"
 #include "abut/run/words/verdict.hpp"
 #include "abut/run/words/warnings.hpp"
+#include "abut/solid/fragments.hpp"
 #include "abut/solid/kinematics/properties.hpp"
 #include "abut/solid/material/material_numbers.hpp"
 
@@ -274,6 +275,23 @@ Markup bonds_part(const Figures& figures, const Scene<Dim>& scene) {
     return section("Bonds", bonds);
 }
 
+/// Nothing where no bond may break.
+template <int Dim>
+Markup fragments_part(const Figures& figures, const RunResult<Dim>& result) {
+    std::vector<Markup> rows;
+    for (std::size_t i = 0; i < result.fragments.size(); ++i) {
+        const auto figure = [&](const char* key) { return figures.at(fmt::format("fragments.{}.{}", i, key)); };
+        rows.push_back(row({figure("body"), figure("bodies"), figure("cells"), figure("mass"), figure("centre"),
+                            figure("velocity"), figure("spin")}));
+    }
+    if (rows.empty()) return {};
+    return section("Fragments",
+                   table({"", ""}, {figure_row(figures, "share of bonds that is broken", "bonds.broken_share", "")}) +
+                       table({"first body", "bodies", "cells", Dim == 2 ? "mass [kg/m]" : "mass [kg]", "centre [m]",
+                              "velocity [m/s]", "spin [rad/s]"},
+                             rows));
+}
+
 Markup findings_part(const Figures& figures, const std::vector<Finding>& findings) {
     std::vector<Markup> rows;
     for (const Finding& finding : findings) rows.push_back(row({finding.text, figures.at(finding.key)}));
@@ -357,8 +375,9 @@ std::string report_html(const std::string& program, const Scene<Dim>& scene, con
                         energies_part(figures, result) + bodies_part(figures, scene, result) +
                         materials_part(scene, result) + contact_part(figures, scene, result, sources) +
                         friction_part(figures, scene, result) + plasticity_part(figures) + damping_part(figures) +
-                        bonds_part(figures, scene) + probes_part(scene, sources) + findings_part(figures, result.findings) +
-                        settings_part(figures, scene, result) + seconds_part(figures) + files_part(files);
+                        bonds_part(figures, scene) + fragments_part(figures, result) + probes_part(scene, sources) +
+                        findings_part(figures, result.findings) + settings_part(figures, scene, result) +
+                        seconds_part(figures) + files_part(files);
     return "<!DOCTYPE html>\n" + page((scene.title.empty() ? program : scene.title) + ": report of a run", body).html() +
            "\n";
 }

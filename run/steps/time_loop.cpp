@@ -33,9 +33,11 @@
 #include "abut/run/watch/step_figures.hpp"
 #include "abut/run/watch/surface_watch.hpp"
 #include "abut/run/watch/wanted.hpp"
+#include "abut/solid/bond_view.hpp"
 #include "abut/solid/cell_view.hpp"
 #include "abut/solid/change.hpp"
 #include "abut/solid/contact_view.hpp"
+#include "abut/solid/fragments.hpp"
 
 namespace abut::run {
 namespace {
@@ -95,6 +97,7 @@ public:
         const contact::ContactReport contact = solid_.contact().report();
         whole_.show(*integrator_, [&](const auto& run, auto& solid) {
             result_.end = solid::body_motions<Dim>(run, solid);
+            take_fragments(run, solid);
             whole_.evaluate(run, solid);
             watch_.end(run, solid, result_.accounts.speed, contact.active_pairs > 0, contact.active_pairs_max > 0);
             observer_.end(run, solid);
@@ -118,6 +121,11 @@ public:
     }
 
 private:
+    void take_fragments(const dynamics::RunView<Dim>& run, const solid::Solid<Dim>& solid) {
+        if (!solid.bonds().may_break()) return;
+        result_.fragments = solid::fragments<Dim>(run, solid);
+        result_.broken_bonds = solid.bonds().broken_share();
+    }
     void step() {
         std::optional<StepStart> start;
         if (time_is_due(integrator_->time() + integrator_->dt(), integrator_->steps() + 1))

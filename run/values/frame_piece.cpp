@@ -10,6 +10,7 @@
 #include "abut/solid/boundary/bond_places.hpp"
 #include "abut/solid/cell_view.hpp"
 #include "abut/solid/contact_view.hpp"
+#include "abut/solid/fragments.hpp"
 
 namespace abut::run {
 namespace {
@@ -36,12 +37,14 @@ public:
         static_cast<void>(solid_.potential(run.q));  // leaves the stresses of this state behind
         const auto displacement = solid_.cells().displacement(run.q);
         const auto velocity = cell_velocity(run, solid_);
+        const std::vector<double> fragment = fragment_of_cells(solid_);
         for (const std::int32_t position : positions_) {
             const auto c = static_cast<std::size_t>(position);
             piece_.displacement.push_back(displacement[c]);
             piece_.velocity.push_back(velocity[c]);
             piece_.stress.push_back(solid_.cells().stress(position));
             piece_.out_of_plane_stress.push_back(solid_.cells().out_of_plane_stress(position));
+            if (!fragment.empty()) piece_.fragment.push_back(fragment[c]);
             if (solid_.ccg().any_inelastic()) piece_.plastic_strain.push_back(solid_.cells().plastic_strain(position));
         }
     }
@@ -173,6 +176,15 @@ std::vector<double> left_of_bonds(const solid::Solid<Dim>& solid) {
 }
 
 template <int Dim>
+std::vector<double> fragment_of_cells(const solid::Solid<Dim>& solid) {
+    if (!solid.bonds().may_break()) return {};
+    const std::vector<std::int32_t> of_bodies = solid::fragment_of_bodies(solid);
+    std::vector<double> of_cells;
+    for (const std::int32_t body : solid.mesh().cell_body) of_cells.push_back(of_bodies[static_cast<std::size_t>(body)]);
+    return of_cells;
+}
+
+template <int Dim>
 FramePiece<Dim> frame_piece(std::int64_t frame, const mesh::Mesh<Dim>& mesh, const dynamics::RunView<Dim>& run,
                             solid::Solid<Dim>& solid) {
     FramePiece<Dim> piece;
@@ -188,6 +200,8 @@ FramePiece<Dim> frame_piece(std::int64_t frame, const mesh::Mesh<Dim>& mesh, con
 }
 
 template std::vector<double> left_of_bonds(const solid::Solid<2>&);
+template std::vector<double> fragment_of_cells(const solid::Solid<2>&);
+template std::vector<double> fragment_of_cells(const solid::Solid<3>&);
 template std::vector<double> left_of_bonds(const solid::Solid<3>&);
 template FramePiece<2> frame_piece(std::int64_t, const mesh::Mesh<2>&, const dynamics::RunView<2>&, solid::Solid<2>&);
 template FramePiece<3> frame_piece(std::int64_t, const mesh::Mesh<3>&, const dynamics::RunView<3>&, solid::Solid<3>&);

@@ -30,6 +30,7 @@ struct FramePiece {
     std::vector<Matrix<Dim>> stress;          ///< (n) [Pa]
     std::vector<double> out_of_plane_stress;  ///< Solid::out_of_plane_stress (n) [Pa]
     std::vector<double> plastic_strain;       ///< (n) [-]; empty where no material has one
+    std::vector<double> fragment;             ///< fragment_of_cells (n); empty where no bond may break
 
     std::vector<std::int32_t> vertices;            ///< of these cells, increasing (n_vertices)
     std::vector<Vector<Dim>> vertex_displacement;  ///< as mesh::VtuSeries has it for the whole mesh (n_vertices) [m]
@@ -46,6 +47,10 @@ struct FramePiece {
 /// empty without bonds.
 template <int Dim>
 [[nodiscard]] std::vector<double> left_of_bonds(const solid::Solid<Dim>& solid);
+
+/// solid::fragment_of_bodies of the body of each cell of the solid's mesh (n_cells); empty where no bond may break.
+template <int Dim>
+[[nodiscard]] std::vector<double> fragment_of_cells(const solid::Solid<Dim>& solid);
 
 /// The piece of this rank, or the whole where there is one; `solid` is that of the run. A call of all ranks.
 template <int Dim>

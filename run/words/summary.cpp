@@ -5,6 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <numeric>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -16,6 +20,7 @@
 #include "abut/run/scene.hpp"
 #include "abut/run/words/table_line.hpp"
 #include "abut/run/words/verdict.hpp"
+#include "abut/solid/fragments.hpp"
 
 namespace abut::run {
 namespace {
@@ -241,7 +246,24 @@ Json bond_json(const Scene<Dim>& scene, const RunResult<Dim>& result) {
     }
     Json bonds = {{"made", std::move(made)}};
     if (result.dissipated.in_bonds != 0.0) bonds["dissipated"] = result.dissipated.in_bonds;
+    if (!result.fragments.empty()) bonds["broken_share"] = result.broken_bonds;
     return {{"bonds", std::move(bonds)}};
+}
+
+/// Nothing where no bond may break.
+template <int Dim>
+Json fragments_json(const Scene<Dim>& scene, const RunResult<Dim>& result) {
+    if (result.fragments.empty()) return Json::object();
+    Json rows = Json::array();
+    for (const solid::Fragment<Dim>& fragment : result.fragments)
+        rows.push_back({{"body", scene.mesh.body_names[static_cast<std::size_t>(fragment.bodies.front())]},
+                        {"bodies", fragment.bodies.size()},
+                        {"cells", fragment.n_cells},
+                        {"mass", fragment.mass},
+                        {"centre", numbers<Dim>(fragment.centre)},
+                        {"velocity", numbers<Dim>(fragment.velocity)},
+                        {"spin", std::vector<double>(fragment.spin.begin(), fragment.spin.end())}});
+    return {{"fragments", std::move(rows)}};
 }
 
 /// Nothing where no bodies overlap on purpose.
@@ -334,15 +356,44 @@ std::string loss_line(const RunResult<Dim>& result) {
     return table_line(fmt::format("dissipated, / {}", result.scale.name), fmt::format("{}", fmt::join(parts, ", ")));
 }
 
+/// Nothing where no bond may break.
+template <int Dim>
+std::string fragment_line(const RunResult<Dim>& result) {
+    if (result.fragments.empty()) return "";
+    std::size_t bodies = 0;
+    double all = 0.0, largest = 0.0;
+    for (const solid::Fragment<Dim>& fragment : result.fragments) {
+        bodies += fragment.bodies.size();
+        all += fragment.mass;
+        largest = std::max(largest, fragment.mass);
+    }
+    return table_line("fragments",
+                      fmt::format("{} of {} bonded bodies, the largest {:.3g} of their mass; {:.3g} of the bonds broken",
+                                  result.fragments.size(), bodies, largest / all, result.broken_bonds));
+}
+
+/// Bodies that were never bonded come first: those of fragments are many, and have their table in the summary.
+template <int Dim>
+std::vector<std::size_t> bodies_to_show(const RunResult<Dim>& result) {
+    std::vector<char> is_in_fragment(result.end.size(), 0);
+    for (const solid::Fragment<Dim>& fragment : result.fragments)
+        for (const std::int32_t body : fragment.bodies) is_in_fragment[static_cast<std::size_t>(body)] = 1;
+    std::vector<std::size_t> order(result.end.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::ranges::stable_partition(order, [&](std::size_t body) { return is_in_fragment[body] == 0; });
+    return order;
+}
+
 template <int Dim>
 std::string body_lines(const Scene<Dim>& scene, const RunResult<Dim>& result) {
     constexpr std::size_t most = 5;
     std::string text;
-    for (std::size_t body = 0; body < std::min(result.end.size(), most); ++body)
+    const std::vector<std::size_t> bodies = bodies_to_show(result);
+    for (const std::size_t body : std::span(bodies).first(std::min(bodies.size(), most)))
         text += table_line(fmt::format("velocity of '{}'", scene.mesh.body_names[body]),
                            fmt::format("{} -> {} m/s", velocity_text<Dim>(result.start[body].velocity),
                                        velocity_text<Dim>(result.end[body].velocity)));
-    if (result.end.size() > most) text += table_line("", fmt::format("and of {} more bodies", result.end.size() - most));
+    if (bodies.size() > most) text += table_line("", fmt::format("and of {} more bodies", bodies.size() - most));
     return text;
 }
 
@@ -364,6 +415,7 @@ std::string summary_json(const std::string& program, const Scene<Dim>& scene, co
     json.update(friction_json(result));
     json.update(material_json(result));
     json.update(bond_json(scene, result));
+    json.update(fragments_json(scene, result));
     json.update(interference_json(scene, result));
     for (const Finding& finding : result.findings) json[finding.key] = to_json(finding.value);
     if (result.pilot) json["pilot"] = pilot_json(*result.pilot);
@@ -395,7 +447,7 @@ std::string closing_table(const std::string& program, const Scene<Dim>& scene, c
         text += table_line("gone on from a checkpoint", fmt::format("after step {}", result.resumed_after));
     text += energy_lines(result) + loss_line(result) + contact_lines(result);
     for (const Finding& finding : result.findings) text += table_line(finding.text, value_text(finding.value));
-    return text + body_lines(scene, result);
+    return text + fragment_line(result) + body_lines(scene, result);
 }
 
 #define ABUT_INSTANTIATE(Dim)                                                                             \

@@ -143,24 +143,30 @@ void add_bonds(Counts& counts, const Scene<Dim>& scene, const RunResult<Dim>& re
     }
 }
 
-/// Warns that the mass of cells at their centroids leaves out a part of the inertia of a body that turns.
+/// Warns that the mass of cells at their centroids leaves out a part of the inertia of bodies that turn: of the one that
+/// lacks most, and of how many more.
 template <int Dim>
 void add_inertia(Counts& counts, const Scene<Dim>& scene, const RunResult<Dim>& result) {
+    std::size_t n = 0, worst = 0;
     for (std::size_t body = 0; body < result.inertia.size(); ++body) {
-        const auto kinematics = kinematics_of(scene, result, body);
-        const double share = result.inertia[body].least();
-        const solid::KinematicsProperties& of_body = solid::properties_of(kinematics);
-        if (!of_body.turns || !(share < enough_inertia)) continue;
-        counts.warnings.push_back(
-            {WarningKind::missing_inertia, Severity::warning,
-             fmt::format(
-                 "body '{}', which is {}, has {:.3g} of its moment of inertia, {:g} is enough: the mass of a cell is at "
-                 "its centroid. It turns and precesses too fast by {:.2g} %. Take smaller cells, or rigid{} where it "
-                 "does not bend",
-                 scene.mesh.body_names[body], name_of(kinematics), share, enough_inertia, 100.0 * (1.0 / share - 1.0),
-                 of_body.finite_strains ? " or floating" : ""),
-             share, enough_inertia});
+        if (!solid::properties_of(kinematics_of(scene, result, body)).turns ||
+            !(result.inertia[body].least() < enough_inertia))
+            continue;
+        if (n++ == 0 || result.inertia[body].least() < result.inertia[worst].least()) worst = body;
     }
+    if (n == 0) return;
+    const auto kinematics = kinematics_of(scene, result, worst);
+    const double share = result.inertia[worst].least();
+    counts.warnings.push_back(
+        {WarningKind::missing_inertia, Severity::warning,
+         fmt::format(
+             "body '{}', which is {}, has {:.3g} of its moment of inertia, {:g} is enough{}: the mass of a cell is at "
+             "its centroid. It turns and precesses too fast by {:.2g} %. Take smaller cells, or rigid{} where it "
+             "does not bend",
+             scene.mesh.body_names[worst], name_of(kinematics), share, enough_inertia,
+             n > 1 ? fmt::format(", and {} more bodies lack less", n - 1) : "", 100.0 * (1.0 / share - 1.0),
+             solid::properties_of(kinematics).finite_strains ? " or floating" : ""),
+         share, enough_inertia});
 }
 
 template <int Dim>

@@ -19,7 +19,8 @@ template <int Dim>
 void Bonds<Dim>::append_change(std::size_t place, const Vector<Dim>& traction, double stiffness, const Vector<Dim>& normal,
                                std::vector<BondChange>& changes) const {
     if (share_[place] == 0.0 || traction.dot(normal) <= 0.0) return;
-    const double share = share_of_bond(bodies_.options().bonds[places_[place].bond], traction.norm(), stiffness);
+    const double energy = bodies_.options().bonds[places_[place].bond].fracture_energy;
+    const double share = share_of_bond(places_[place].strength, energy, traction.norm(), stiffness);
     if (share < share_[place]) changes.push_back({place, share_[place], share});
 }
 
@@ -72,7 +73,7 @@ void Bonds<Dim>::check_fracture_energy() const {
     const auto check = [&](std::size_t p, double stiffness) {
         const Bond& bond = bodies_.options().bonds[places_[p].bond];
         if (bond.fracture_energy == 0.0) return;
-        const double held = energy_at_strength(bond, stiffness);
+        const double held = energy_at_strength(places_[p].strength, stiffness);
         if (bond.fracture_energy > held) return;
         const auto body_at = [&](std::size_t side) {
             return "'" + bodies_.mesh().body_names[static_cast<std::size_t>(places_[p].bodies[side])] + "'";

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <string>
 
 #include "abut/base/error.hpp"
@@ -161,6 +162,11 @@ void check_bond(const mesh::Mesh<Dim>& mesh, const Bond& bond, std::size_t n_obs
                            side_in_words(mesh, bond.sides[1], n_obstacles) + " has a strength of " + number(bond.strength) +
                            " Pa; > 0 is needed. Correct SolidOptions::bonds.",
                        {.value = bond.strength, .allowed = 0.0});
+    if (!(bond.weibull_modulus > 0.0))
+        throw BadInput(mesh.name + ": the bond of " + side_in_words(mesh, bond.sides[0], n_obstacles) + " and " +
+                           side_in_words(mesh, bond.sides[1], n_obstacles) + " has a Weibull modulus of " +
+                           number(bond.weibull_modulus) + "; > 0 is needed. Correct SolidOptions::bonds.",
+                       {.value = bond.weibull_modulus, .allowed = 0.0});
     if (!(bond.fracture_energy >= 0.0 && std::isfinite(bond.fracture_energy)) ||
         (bond.fracture_energy > 0.0 && std::isinf(bond.strength)))
         throw BadInput(
@@ -169,6 +175,22 @@ void check_bond(const mesh::Mesh<Dim>& mesh, const Bond& bond, std::size_t n_obs
                 number(bond.fracture_energy) +
                 " J/m^2; it is finite and >= 0, and 0 where the strength is infinite. Correct SolidOptions::bonds.",
             {.value = bond.fracture_energy, .allowed = 0.0});
+}
+
+/// Bits that look random, and depend on those of `bits` alone (splitmix64).
+std::uint64_t mixed(std::uint64_t bits) {
+    bits += 0x9e3779b97f4a7c15u;
+    bits = (bits ^ (bits >> 30)) * 0xbf58476d1ce4e5b9u;
+    bits = (bits ^ (bits >> 27)) * 0x94d049bb133111ebu;
+    return bits ^ (bits >> 31);
+}
+
+/// The draw of two faces, whose numbers are those of all ranks.
+double drawn_strength(const Bond& bond, const std::array<std::size_t, 2>& numbers) {
+    if (std::isinf(bond.weibull_modulus)) return bond.strength;
+    const std::uint64_t bits = mixed(mixed(mixed(bond.seed) ^ numbers[0]) ^ numbers[1]);
+    const double share = (static_cast<double>(bits >> 11) + 0.5) * 0x1p-53;  // in (0, 1)
+    return bond.strength * std::pow(-std::log1p(-share), 1.0 / bond.weibull_modulus);
 }
 
 template <int Dim>
@@ -227,9 +249,11 @@ private:
                                      {face_here(face_1.number), face_here(face_2.number)},
                                      {face_1.number, face_2.number},
                                      {face_1.body, face_2.body},
+                                     {face_1.measure, face_2.measure},
                                      overlap.area,
                                      geometry::face_centroid<Dim>(corners),
-                                     overlap.normal});
+                                     overlap.normal,
+                                     drawn_strength(bond, {face_1.number, face_2.number})});
         }
         if (found_.places.size() == before)
             throw BadInput(

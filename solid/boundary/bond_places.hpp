@@ -17,9 +17,11 @@ struct BondPlace {
     /// Numbers of the faces among all boundary faces of the bodies that deform, of all ranks
     std::array<std::size_t, 2> numbers;
     std::array<std::int32_t, 2> bodies;  ///< in the mesh
+    std::array<double, 2> measures;      ///< of the faces [m^(Dim-1)]
     double area;                         ///< of the overlap [m^(Dim-1)]
     Vector<Dim> position;                ///< [m]
     Vector<Dim> normal;                  ///< from the first face into the second
+    double strength;                     ///< Bond::strength, or what was drawn from its Weibull distribution [Pa]
 };
 
 /// How much of the two sides of a bond holds on to each other at rest.

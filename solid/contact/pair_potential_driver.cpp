@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <compare>
 #include <limits>
-#include <tuple>
 #include <utility>
 
+#include "abut/base/disjoint_sets.hpp"
 #include "abut/base/error.hpp"
 #include "abut/base/parallel.hpp"
 #include "abut/base/sort_unique.hpp"
@@ -39,29 +40,78 @@ std::vector<std::array<std::int32_t, 2>> ignored_pairs(const Bodies<Dim>& bodies
     return pairs;
 }
 
-/// All pairs of faces but those of which one is bonded to the body of the other, as the bonds are when it is asked. The
-/// faces of bodies that deform come first in contact, in the order of the whole mesh.
+/// Bonds of faces, by the number of the face. The faces of bodies that deform come first in contact, in the order of the
+/// whole mesh.
+template <int Dim>
+class BondsOfFaces {
+public:
+    explicit BondsOfFaces(const Bonds<Dim>& bonds) : bonds_(bonds) {
+        for (std::size_t place = 0; place < bonds.places().size(); ++place)
+            for (std::size_t side = 0; side < 2; ++side)
+                entries_.push_back({bonds.places()[place].numbers[side], place, side});
+        std::ranges::sort(entries_);
+    }
+
+    /// Whether it is bonded all over, so that nothing comes near it.
+    [[nodiscard]] bool covers(contact::Face face) const {
+        constexpr double rounding = 1e-6;
+        double left = 1.0;
+        for (const auto& [number, place, side] : of(face)) {
+            if (bonds_.is_broken(place)) return false;
+            left -= bonds_.places()[place].area / bonds_.places()[place].measures[side];
+        }
+        return left < rounding;
+    }
+    [[nodiscard]] bool joins(contact::Face face, std::int32_t body) const {
+        return std::ranges::any_of(of(face), [&](const Entry& entry) {
+            return bonds_.places()[entry.place].bodies[1 - entry.side] == body && !bonds_.is_broken(entry.place);
+        });
+    }
+
+private:
+    struct Entry {
+        std::size_t number, place, side;
+        auto operator<=>(const Entry&) const = default;
+    };
+    [[nodiscard]] auto of(contact::Face face) const {
+        return std::ranges::equal_range(entries_, static_cast<std::size_t>(face), {}, &Entry::number);
+    }
+
+    const Bonds<Dim>& bonds_;
+    std::vector<Entry> entries_;
+};
+
+/// All pairs of faces except those of which one is bonded to the body of the other, or all over, as the bonds are when it is
+/// asked.
 template <int Dim>
 std::function<bool(contact::Face, contact::Face)> wanted_beside(const CornerSurface<Dim>& corners, const Bonds<Dim>& bonds) {
     if (!bonds.any()) return {};
-    using Bonded = std::tuple<std::size_t, std::int32_t, std::size_t>;  // a face, a body that it is bonded to, and where
-    std::vector<Bonded> bonded;
-    for (std::size_t place = 0; place < bonds.places().size(); ++place)
-        for (std::size_t side = 0; side < 2; ++side)
-            bonded.emplace_back(bonds.places()[place].numbers[side], bonds.places()[place].bodies[1 - side], place);
-    std::ranges::sort(bonded);
-    return [bonded = std::move(bonded), body_of = corners.bodies_of_faces(), &bonds](contact::Face face_1,
-                                                                                     contact::Face face_2) {
-        const auto is_bonded_to = [&](contact::Face of, contact::Face other) {
-            const auto face = static_cast<std::size_t>(of);
-            const std::int32_t body = body_of[static_cast<std::size_t>(other)];
-            for (auto at = std::ranges::lower_bound(bonded, Bonded(face, body, 0));
-                 at != bonded.end() && std::get<0>(*at) == face && std::get<1>(*at) == body; ++at)
-                if (!bonds.is_broken(std::get<2>(*at))) return true;
-            return false;
-        };
-        return !is_bonded_to(face_1, face_2) && !is_bonded_to(face_2, face_1);
+    return [of_faces = BondsOfFaces<Dim>(bonds), body_of = corners.bodies_of_faces()](contact::Face face_1,
+                                                                                      contact::Face face_2) {
+        const auto body = [&](contact::Face face) { return body_of[static_cast<std::size_t>(face)]; };
+        return !of_faces.covers(face_1) && !of_faces.covers(face_2) && !of_faces.joins(face_1, body(face_2)) &&
+               !of_faces.joins(face_2, body(face_1));
     };
+}
+
+/// Pieces of bodies that are bonded, directly or through others, in the order of the bodies and obstacles that contact has.
+template <int Dim>
+std::vector<std::int32_t> bonded_pieces(const Bodies<Dim>& bodies, const Bonds<Dim>& bonds) {
+    if (!bonds.any()) return {};
+    const std::int32_t n = bodies.mesh().n_bodies();
+    DisjointSets joined(static_cast<std::size_t>(n));
+    std::vector<char> is_bonded(static_cast<std::size_t>(n), 0);
+    for (const BondPlace<Dim>& place : bonds.places()) {
+        joined.join(place.bodies[0], place.bodies[1]);
+        for (const std::int32_t body : place.bodies) is_bonded[static_cast<std::size_t>(body)] = 1;
+    }
+    std::vector<std::int32_t> pieces;
+    for (std::int32_t body = 0; body < n; ++body) {
+        const std::int32_t in_mesh = bodies.mesh_body(body);
+        pieces.push_back(is_bonded[static_cast<std::size_t>(in_mesh)] != 0 ? joined.find(in_mesh) : -1);
+    }
+    pieces.resize(pieces.size() + bodies.deformable_options().obstacles.size(), -1);
+    return pieces;
 }
 
 template <int Dim>
@@ -79,6 +129,7 @@ contact::NodalOptions nodal_options(const Bodies<Dim>& bodies, const CornerSurfa
             .compression_limit = contact.compression_limit,
             .friction = friction_between(options, bodies.mesh().n_bodies(), corners.bodies_of_faces(), faces_of),
             .interference = interference_between(options, bodies.mesh().n_bodies(), corners.bodies_of_faces(), faces_of),
+            .pieces = bonded_pieces(bodies, bonds),
             .wanted = wanted_beside(corners, bonds)};
 }
 

@@ -43,6 +43,10 @@ struct Bond {
     /// G [J/m^2] >= 0 that it takes per area as it opens, with a traction that falls from the strength to 0; 0: it
     /// breaks at once
     double fracture_energy = 0.0;
+    /// m > 0 of a Weibull distribution, from which each overlap of two faces draws its strength: a share
+    /// 1 - exp(-(s/strength)^m) of them has one below s; infinity: all have `strength`
+    double weibull_modulus = std::numeric_limits<double>::infinity();
+    std::uint32_t seed = 0;  ///< of the draws
 };
 
 /// A moment on a body as a whole, as of a drive or a brake: a given part and one against its spin. Its work is booked.

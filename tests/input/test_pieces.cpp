@@ -150,6 +150,37 @@ steps = 3
     CHECK(scene.mesh.report.n_coincident_vertices == 0);
 }
 
+TEST_CASE("a body that may break is cut into grains, whose bonds have its strength", "[input][pieces][fracture]") {
+    const auto plate = [](const std::string& more) {
+        return "dim = 2\n[bodies.plate]\nshape = \"box\"\nlower = [0, 0]\nupper = [1, 1]\nsize = 0.1\nyoung = 1e6\n"
+               "density = 1e3\nvelocity = [1, 0]\nspin = 2\n" +
+               more + "[run]\ntime = 1\n";
+    };
+    const std::string fracture = "fracture = {grain = 0.4, strength = 3e4, fracture_energy = 90, weibull = 8, seed = 5}\n";
+    const auto scene = piece_scene<2>(plate("kinematics = \"floating\"\n" + fracture));
+    REQUIRE(scene.mesh.n_bodies() >= 4);
+    CHECK(scene.mesh.body_names.front() == "plate.1");
+    CHECK(scene.mesh.group("plate.xmin").faces.size() == 10);
+    CHECK(scene.solid.bonds.size() == scene.mesh.report.joined_bodies.size());
+    for (const solid::Bond& bond : scene.solid.bonds) {
+        CHECK(bond.strength == 3e4);
+        CHECK(bond.fracture_energy == 90.0);
+        CHECK(bond.weibull_modulus == 8.0);
+        CHECK(bond.seed == 5);
+    }
+    CHECK(scene.solid.ignored_pairs.empty());  // what comes off may touch the rest
+    Vector<2> momentum = Vector<2>::Zero();    // they fly and turn as one
+    for (std::int32_t cell = 0; cell < scene.mesh.n_cells(); ++cell)
+        momentum += scene.mesh.cell_measure[cell] * scene.velocity[static_cast<std::size_t>(scene.mesh.cell_body[cell])];
+    CHECK((momentum - Vector<2>(1.0, 0.0)).norm() < 1e-12);
+    const WrittenScene small(plate(fracture));
+    CHECK(input::text_of(input::check_scene(small.path()).faults).find("may break, and pieces that come off turn") !=
+          std::string::npos);
+    CHECK(is_piece_refused(plate("kinematics = \"floating\"\nfracture = {grain = 4, strength = 1}\n"),
+                           "leave each body whole"));
+    CHECK(is_piece_refused(plate("kinematics = \"rigid\"\n" + fracture), "fracture"));
+}
+
 TEST_CASE("parts of a piece that cannot be are refused with the reason", "[input][pieces]") {
     CHECK(is_piece_refused(wheel("", "[bodies.wheel.rest]\nvelocity = [1, 0]\n"), "velocity or spin differs"));
     CHECK(is_piece_refused(wheel("", "[bodies.wheel.rest]\nkinematics = \"rigid\"\n"), "'wheel.rest' is rigid"));

@@ -1,0 +1,55 @@
+#pragma once
+// Private to the sources of this layer.
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "abut/base/vector.hpp"
+#include "abut/dynamics/ledger.hpp"
+#include "abut/solid/body/body_frame.hpp"
+#include "abut/solid/solid.hpp"
+
+namespace abut::solid {
+
+/// Motion of some bodies together.
+template <int Dim>
+struct GroupMotion {
+    double mass = 0.0;                                 ///< [kg]
+    Vector<Dim> centre = Vector<Dim>::Zero();          ///< of mass [m]
+    Vector<Dim> velocity = Vector<Dim>::Zero();        ///< of the centre of mass [m/s]
+    AxialVector<Dim> spin = AxialVector<Dim>::Zero();  ///< as of a rigid body with its angular momentum [rad/s]
+};
+
+/// `group`: of each body (n_bodies), from 0 to n_groups - 1.
+template <int Dim>
+[[nodiscard]] std::vector<GroupMotion<Dim>> group_motions(const dynamics::RunView<Dim>& run, const Solid<Dim>& solid,
+                                                          std::span<const std::int32_t> group, std::size_t n_groups) {
+    const auto q = as_vectors<Dim>(run.q);
+    const auto at = [&](std::size_t i) -> Vector<Dim> { return solid.rest_positions()[i] + q[i]; };
+    const auto group_of = [&](std::size_t i) {
+        return static_cast<std::size_t>(group[static_cast<std::size_t>(solid.body_of_points()[i])]);
+    };
+    std::vector<GroupMotion<Dim>> motions(n_groups);
+    for (std::size_t i = 0; i < q.size(); ++i) {
+        GroupMotion<Dim>& motion = motions[group_of(i)];
+        motion.mass += solid.masses()[i];
+        motion.velocity += run.momentum(static_cast<std::ptrdiff_t>(i));
+    }
+    for (std::size_t i = 0; i < q.size(); ++i)
+        motions[group_of(i)].centre += solid.masses()[i] / motions[group_of(i)].mass * at(i);
+    std::vector<Matrix<Dim>> second_moment(n_groups, Matrix<Dim>::Zero());
+    std::vector<AxialVector<Dim>> angular(n_groups, AxialVector<Dim>::Zero());
+    for (std::size_t i = 0; i < q.size(); ++i) {
+        const Vector<Dim> arm = at(i) - motions[group_of(i)].centre;
+        second_moment[group_of(i)] += solid.masses()[i] * arm * arm.transpose();
+        angular[group_of(i)] += moment<Dim>(arm, run.momentum(static_cast<std::ptrdiff_t>(i)));
+    }
+    for (std::size_t g = 0; g < n_groups; ++g) {
+        motions[g].velocity /= motions[g].mass;
+        motions[g].spin = spin_of<Dim>(second_moment[g], angular[g]);
+    }
+    return motions;
+}
+
+}  // namespace abut::solid
