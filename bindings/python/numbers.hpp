@@ -19,7 +19,8 @@ inline double number_in(const std::string& unit, const pybind11::handle& value) 
 
 /// Numbers of a sequence, which is no text, as `number_in` takes each.
 inline std::vector<double> numbers_in(const std::string& unit, const pybind11::handle& value) {
-    if (pybind11::isinstance<pybind11::str>(value)) throw pybind11::cast_error("no list of numbers");
+    if (pybind11::isinstance<pybind11::str>(value) || !pybind11::isinstance<pybind11::sequence>(value))
+        throw pybind11::cast_error("no list of numbers");
     std::vector<double> numbers;
     for (const pybind11::handle& one : pybind11::cast<pybind11::sequence>(value)) numbers.push_back(number_in(unit, one));
     return numbers;
