@@ -57,8 +57,21 @@ void ClockedRun<Dim>::set_mean(Load& load) {
     run_.solid().set_traction(load.group, mean);
 }
 
+/// Else some ranks would wait for ever for a step that others do not take.
+template <int Dim>
+void ClockedRun<Dim>::require_same(double d) const {
+    const dynamics::Ranks& ranks = run_.solid().ranks();
+    if (ranks.is_one()) return;
+    const double most = ranks.largest(d), least = -ranks.largest(-d);
+    if (most != least)
+        throw BadInput("ClockedRun: ranks go on by times from " + exact_number(least) + " to " + exact_number(most) +
+                           " s. Give the same on all of them.",
+                       {.value = most, .allowed = least});
+}
+
 template <int Dim>
 void ClockedRun<Dim>::advance(double d) {
+    require_same(d);
     const auto node = [&] {
         for (Load& load : loads_) set_mean(load);
     };

@@ -35,6 +35,9 @@ enum class LoadImpulse {
 ///         clock.set_traction("bar.xmin", tractions(pressure));
 ///         clock.advance(d);
 ///     }
+///
+/// On several ranks, where no load comes from outside, `advance`, `q`, `state` and `restore` are calls of all of them with
+/// the same times, and q is that of the points of each.
 template <int Dim>
 class ClockedRun {
 public:
@@ -48,7 +51,7 @@ public:
     /// BadInput naming the group, a wrong number of values or one that is not finite.
     void set_traction(const std::string& group, std::span<const Vector<Dim>> traction);
     /// Goes on by d [s], of any length; steps of the solid are taken as its nodes are passed. Throws BadInput, and nothing
-    /// has changed, unless d > 0 and finite; as SteppedRun::step.
+    /// has changed, unless d > 0 and finite, and the same on all ranks; as SteppedRun::step.
     void advance(double d);
 
     /// How far the centroids of a group move in the next d [s], whatever acts (n_faces) [m]: sum of |f| t . this is the
@@ -86,6 +89,7 @@ private:
         }
     };
     [[nodiscard]] Load& load_on(const std::string& group);
+    void require_same(double d) const;
     void add_piece(double s);
     void set_mean(Load& load);
     /// How far the centroids of a group move in the whole step that goes on (n_faces) [m].
