@@ -119,7 +119,7 @@ std::string text_of(const OptionValue& value) {
 std::string default_text(const OptionFacts& option, const OptionValue& by_default) {
     const auto* value = std::get_if<double>(&by_default);
     const bool is_endless = value && !std::isfinite(*value);
-    const bool is_told = by_default == OptionValue(std::string()) || !allows(option, by_default) || is_endless;
+    const bool is_told = text_of(by_default).empty() || !allows(option, by_default) || is_endless;
     if (is_told && !option.by_default.empty()) return option.by_default;
     return is_endless ? "" : text_of(by_default);
 }

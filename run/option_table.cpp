@@ -170,6 +170,7 @@ List of_output() {
                {.help = "of frames, in place of `frames`: exactly then, on the straight path inside a step, which stays as "
                         "it is",
                 .limits = {.unit = "s", .above = 0.0, .from = true},
+                .by_default = "none",
                 .named = Named::changed,
                 .free_on_resume = true,
                 .depth = OptionDepth::everyday}),
