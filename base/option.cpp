@@ -15,6 +15,12 @@ std::string numbered(const std::vector<std::string>& words) {
     return at(0) + (words.size() == 2 ? " and " : " to ") + at(words.size() - 1);
 }
 
+/// "above 0 kg/m^3", "a finite number"
+std::string number_allowed(const Limits& limits) {
+    const std::string text = text_of(limits);
+    return text.empty() ? "a finite number" : text;
+}
+
 double as_number(const OptionValue& value) {
     if (const auto* number = std::get_if<double>(&value)) return *number;
     if (const auto* count = std::get_if<std::int64_t>(&value)) return static_cast<double>(*count);
@@ -56,6 +62,8 @@ bool allows(const OptionFacts& option, const OptionValue& value) {
     switch (option.kind) {
         case OptionKind::number:
             return option.limits.allow(std::get<double>(value));
+        case OptionKind::numbers:
+            return fault_in(option.limits, std::get<std::vector<double>>(value)).empty();
         case OptionKind::count:
             return std::get<std::int64_t>(value) >= option.least && std::get<std::int64_t>(value) <= option.most;
         case OptionKind::word:
@@ -67,12 +75,22 @@ bool allows(const OptionFacts& option, const OptionValue& value) {
     return true;
 }
 
+std::string fault_in(const Limits& limits, std::span<const double> numbers) {
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+        const std::string found = "number " + std::to_string(i + 1) + " is " + with_unit_of(limits, numbers[i]);
+        if (!limits.allow(numbers[i])) return found + "; " + number_allowed(limits) + " is needed.";
+        if (i > 0 && numbers[i] <= numbers[i - 1])
+            return found + ", after " + with_unit_of(limits, numbers[i - 1]) + ". Give them in increasing order, each once.";
+    }
+    return "";
+}
+
 std::string allowed_values(const OptionFacts& option) {
     switch (option.kind) {
-        case OptionKind::number: {
-            const std::string limits = text_of(option.limits);
-            return limits.empty() ? "a finite number" : limits;
-        }
+        case OptionKind::number:
+            return number_allowed(option.limits);
+        case OptionKind::numbers:
+            return "a list that increases, of each " + number_allowed(option.limits);
         case OptionKind::count:
             return std::to_string(option.least) +
                    (option.most >= std::numeric_limits<int>::max() ? " or more" : " to " + std::to_string(option.most));
@@ -90,13 +108,18 @@ std::string text_of(const OptionValue& value) {
     if (const auto* number_held = std::get_if<double>(&value)) return number(*number_held);
     if (const auto* count = std::get_if<std::int64_t>(&value)) return std::to_string(*count);
     if (const auto* truth = std::get_if<bool>(&value)) return *truth ? "on" : "off";
+    if (const auto* numbers = std::get_if<std::vector<double>>(&value)) {
+        std::string text;
+        for (const double one : *numbers) text += (text.empty() ? "" : ",") + number(one);
+        return text;
+    }
     return std::get<std::string>(value);
 }
 
 std::string default_text(const OptionFacts& option, const OptionValue& by_default) {
     const auto* value = std::get_if<double>(&by_default);
     const bool is_endless = value && !std::isfinite(*value);
-    const bool is_told = by_default == OptionValue(std::string()) || !allows(option, by_default) || is_endless;
+    const bool is_told = text_of(by_default).empty() || !allows(option, by_default) || is_endless;
     if (is_told && !option.by_default.empty()) return option.by_default;
     return is_endless ? "" : text_of(by_default);
 }
@@ -109,6 +132,8 @@ bool is_same(const OptionValue& a, const OptionValue& b) {
 void check_value(const std::string& whose, const OptionFacts& option, const OptionValue& value,
                  const OptionValue& by_default) {
     if (option.of_build || allows(option, value) || is_same(value, by_default)) return;
+    if (option.kind == OptionKind::numbers)
+        throw BadInput(whose + option.name + ": " + fault_in(option.limits, std::get<std::vector<double>>(value)));
     const std::string unit = *option.limits.unit == '\0' ? "" : " " + std::string(option.limits.unit);
     const std::string text = whose + option.name + " is " + text_of(value) + unit + "; " + allowed_values(option);
     if (option.kind == OptionKind::word) throw BadInput(text + " are allowed.");

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <functional>
 #include <limits>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <type_traits>
@@ -48,10 +49,17 @@ struct Limits {
 /// "2 kg/m^3"
 [[nodiscard]] std::string with_unit_of(const Limits& limits, double value);
 
-enum class OptionKind { truth, count, number, word, path };
+enum class OptionKind {
+    truth,
+    count,
+    number,
+    numbers,  ///< a list that increases
+    word,
+    path,
+};
 
-/// A value of a truth, a count, a number, and a word or a path.
-using OptionValue = std::variant<bool, std::int64_t, double, std::string>;
+/// A value of a truth, a count, a number, a word or a path, and numbers.
+using OptionValue = std::variant<bool, std::int64_t, double, std::string, std::vector<double>>;
 
 /// When a summary names an option.
 enum class Named {
@@ -78,7 +86,7 @@ struct OptionPlaces {
 /// All that is told of an option beside its name and its member.
 struct OptionTraits {
     std::string help;                                     ///< a phrase, without unit and default
-    Limits limits{};                                      ///< of a number
+    Limits limits{};                                      ///< of a number, and of each of a list
     std::int64_t least = 0;                               ///< of a count
     std::int64_t most = std::numeric_limits<int>::max();  ///< of a count
     std::string key{};                                    ///< in scene files; empty: the name
@@ -122,15 +130,18 @@ struct BoundOption {
 
 /// Whether an option may have this value, which is of its kind.
 [[nodiscard]] bool allows(const OptionFacts& option, const OptionValue& value);
+/// First fault of a list that has to increase within limits, and its remedy: "number 2 is 0.1 s, after 0.3 s. Give them in
+/// increasing order, each once."; empty: there is none.
+[[nodiscard]] std::string fault_in(const Limits& limits, std::span<const double> numbers);
 /// "above 0 s", "0 to 3", "0 or more"; of a word "0 (half) and 1 (stiffness)".
 [[nodiscard]] std::string allowed_values(const OptionFacts& option);
-/// "0.9", "memm"; of a truth "on" or "off".
+/// "0.9", "0.1,0.3", "memm"; of a truth "on" or "off".
 [[nodiscard]] std::string text_of(const OptionValue& value);
 /// As text_of; of a value that stands for "not given" what `by_default` tells, or nothing.
 [[nodiscard]] std::string default_text(const OptionFacts& option, const OptionValue& by_default);
 /// Whether they are equal; NaN, as of a number that is not given, is equal to itself.
 [[nodiscard]] bool is_same(const OptionValue& a, const OptionValue& b);
-/// Throws BadInput where `allows` is false: "<whose>area is 2; 0 (fast) and 1 (exact) are allowed."
+/// Throws BadInput where `allows` is false: "<whose>area is 2; 0 (fast) and 1 (exact) are allowed.", for a list its fault.
 void check_value(const std::string& whose, const OptionFacts& option, const OptionValue& value,
                  const OptionValue& by_default);
 
@@ -154,7 +165,7 @@ void check_options(const std::string& whose, const OptionList<Owner>& options, c
     for (const Option<Owner>& option : options) check_value(whose, option, option.get(owner), option.get(plain));
 }
 
-/// A truth, a count, a number or a path, by the type of the member.
+/// A truth, a count, a number, numbers or a path, by the type of the member.
 template <class Owner, class Value>
 [[nodiscard]] Option<Owner> option(std::string name, Value Owner::*member, OptionTraits traits) {
     Option<Owner> made{{std::move(traits), std::move(name)}, {}, {}};
@@ -162,6 +173,12 @@ template <class Owner, class Value>
         made.kind = OptionKind::path;
         made.get = [member](const Owner& owner) { return OptionValue((owner.*member).string()); };
         made.set = [member](Owner& owner, const OptionValue& value) { owner.*member = std::get<std::string>(value); };
+    } else if constexpr (std::is_same_v<Value, std::vector<double>>) {
+        made.kind = OptionKind::numbers;
+        made.get = [member](const Owner& owner) { return OptionValue(owner.*member); };
+        made.set = [member](Owner& owner, const OptionValue& value) {
+            owner.*member = std::get<std::vector<double>>(value);
+        };
     } else {
         static_assert(std::is_arithmetic_v<Value>, "an enumeration has words: see `choice`");
         using Held = std::conditional_t<std::is_same_v<Value, bool>, bool,

@@ -166,7 +166,7 @@ bool read_by_scheme_and_law(const Settings& settings, const OptionFacts& option,
     return has_scheme && has_law;
 }
 
-bool has_frames(const Settings& settings) { return settings.options.frames != 0 || !settings.times.empty(); }
+bool has_frames(const Settings& settings) { return settings.options.frames != 0 || !settings.options.times.empty(); }
 
 /// Options that depend on others, by their paths.
 bool depends_on_others(const Settings& settings, const std::string& path) {
@@ -201,7 +201,7 @@ bool depends_on_others(const Settings& settings, const std::string& path) {
         return given.read_with(settings.options.contact.search.self_contact, path, "self = true"), true;
     if (path == "output.format" || path == "output.pieces")
         return given.read_with(has_frames(settings), path, "output.frames"), true;
-    if (path == "output.frames") return given.read_unless(!settings.times.empty(), path, "output.times"), true;
+    if (path == "output.frames") return given.read_unless(!settings.options.times.empty(), path, "output.times"), true;
     return false;
 }
 
@@ -233,7 +233,6 @@ void read_output(const Settings& settings) {
     given.read("output.sample_interval");  // in memory there are always rows to take
     given.read_with(settings.contact, "output.forces", with_contact);
     given.read_with(has_frames(settings), "output.fields", "output.frames");
-    given.read("output.times");
 }
 
 }  // namespace

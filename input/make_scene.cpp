@@ -301,7 +301,6 @@ void add_outputs(run::Scene<Dim>& scene, const Settings& settings, std::vector<F
     scene.outputs.forces = settings.forces;
     scene.outputs.interval = settings.sample_interval;
     scene.outputs.fields = settings.fields;
-    scene.outputs.times = settings.times;
 }
 
 }  // namespace

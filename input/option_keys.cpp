@@ -20,6 +20,8 @@ std::optional<OptionValue> read_option(Reader& reader, const Node& node, const s
         }
         case OptionKind::number:
             return value(reader.number(node, key, option.limits));
+        case OptionKind::numbers:
+            return value(reader.increasing(node, key, option.limits));
         case OptionKind::path:
             return value(reader.text(node, key));
         case OptionKind::word:
@@ -37,6 +39,8 @@ std::string taken_by(const OptionFacts& option) {
             return "whole number";
         case OptionKind::number:
             return "number";
+        case OptionKind::numbers:
+            return "list of numbers";
         case OptionKind::path:
             return "path";
         case OptionKind::word:

@@ -37,19 +37,6 @@ Key<Settings> fields() {
     return key;
 }
 
-Key<Settings> times() {
-    const Limits limits{.unit = "s", .above = 0.0, .from = true};
-    Key<Settings> key =
-        key_of<Settings>("times", "list of numbers",
-                         "of frames, in place of `frames`: exactly then, on the straight path inside a step, which stays as "
-                         "it is",
-                         &Settings::times, [limits](Reader& reader, const Node& node, const std::string& path) {
-                             return reader.increasing(node, path, limits);
-                         });
-    key.unit = limits.unit;
-    return key;
-}
-
 Key<Settings> probes() {
     const auto take = [](Settings& settings, const Node& node, const std::string& key, Reader& reader) {
         read_named(settings.probes, node, key, reader,
@@ -70,7 +57,7 @@ const Keys<Settings>& output_keys() {
         Keys<Settings> all = keys_of_options<Settings>(
             run::run_options(), "output", [](Settings& settings) -> run::RunOptions& { return settings.options; });
         const Keys<Settings> more = {
-            times(), fields(), probes(),
+            fields(), probes(),
             Of::truth("forces", &Settings::forces, "forces.csv: mean forces of contact between bodies, and on obstacles"),
             Of::count("sample_interval", &Settings::sample_interval, 0, Of::many,
                       "steps between rows of probes.csv and forces.csv; 0: as those of the energies")};

@@ -253,7 +253,6 @@ struct Settings {
     std::vector<ProbeSettings> probes;
     bool forces = false;
     int sample_interval = 0;
-    std::vector<double> times;  ///< of frames [s]
     run::FrameFields fields;
     std::optional<run::Preset> preset;  ///< in the options already
     run::RunOptions options;

@@ -28,7 +28,7 @@ public:
     /// True if `look` has something to do at the start (0) or after this step: else it is not called. On several ranks the
     /// whole of the run is brought together for it; it knows no forces on obstacles then, and its contact lists are new.
     [[nodiscard]] virtual bool wants_look(std::int64_t /*step*/) const { return true; }
-    /// At each of Outputs::times, before `look` at the node after it: bodies are on the path of the step, and momenta
+    /// At each of RunOptions::times, before `look` at the node after it: bodies are on the path of the step, and momenta
     /// those of its velocity. Loads, obstacles and what materials and friction remember are those of the time: inside of
     /// a step the solid is another one than that of the run, which went there from the node before.
     virtual void look_at_time(const dynamics::RunView<Dim>&, solid::Solid<Dim>&) {}

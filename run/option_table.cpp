@@ -166,6 +166,14 @@ List of_output() {
                 .depth = OptionDepth::everyday}),
         option("frames", &Of::frames,
                {.help = "frames for ParaView, first and last included; 0: none", .depth = OptionDepth::everyday}),
+        option("times", &Of::times,
+               {.help = "of frames, in place of `frames`: exactly then, on the straight path inside a step, which stays as "
+                        "it is",
+                .limits = {.unit = "s", .above = 0.0, .from = true},
+                .by_default = "none",
+                .named = Named::changed,
+                .free_on_resume = true,
+                .depth = OptionDepth::everyday}),
         choice(
             "format", &Of::format, format_words,
             {.help = "of frames: vtu, a file for each, or xdmf, one .h5 file for all with .xmf beside it (not with pieces)",

@@ -57,6 +57,7 @@ solid::FeatureSet features_of(const RunOptions& options) {
     features.add(Feature::settling, options.settle);
     features.add(Feature::pieces, options.pieces);
     features.add(Feature::xdmf, options.format == FrameFormat::xdmf);
+    features.add(Feature::output_times, !options.times.empty());
     return features;
 }
 

@@ -4,6 +4,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "abut/contact/friction.hpp"
 #include "abut/contact/options.hpp"
@@ -68,6 +69,9 @@ struct RunOptions {
     std::filesystem::path out;      ///< folder of ResultFiles; a simulation alone writes nothing
     int interval = 0;               ///< steps between ledger records; 0: see records_interval
     int frames = 21;                ///< of the series of ResultFiles, the first and the last included; 0: none
+    /// Times of frames, in place of `frames`, increasing, from 0 to the end of the run [s]; empty: none. Inside a step
+    /// bodies are on the straight path of that step; the steps of the run are bitwise those without.
+    std::vector<double> times{};
     FrameFormat format = FrameFormat::vtu;
     int animation = 0;                  ///< frames of animation.html of ResultFiles, first and last included; 0: none
     bool pieces = false;                ///< each rank writes its own cells of these frames

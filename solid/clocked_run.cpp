@@ -30,38 +30,53 @@ void ClockedRun<Dim>::set_traction(const std::string& group, std::span<const Vec
     load_on(group).traction.assign(traction.begin(), traction.end());
 }
 
-/// The traction of the step that ends.
+/// Tractions act for s within a step.
+template <int Dim>
+void ClockedRun<Dim>::add_piece(double s) {
+    const double share = s / (clock_.since() + s);  // of the time since the node; 1 where it begins there
+    for (Load& load : loads_) {
+        if (!has_begun_) load.at_node = load.mean_before = load.traction;
+        if (share == 1.0) load.mean = load.traction;
+        for (std::size_t face = 0; face < load.mean.size(); ++face)
+            load.mean[face] += share * (load.traction[face] - load.mean[face]);
+    }
+    has_begun_ = true;
+}
+
+/// The traction of the step that ends. One that stays is given as it is, to the bit: it costs nothing then.
 template <int Dim>
 void ClockedRun<Dim>::set_mean(Load& load) {
-    const double tau = run_.memm().dt();
-    std::vector<Vector<Dim>> mean(load.impulse.size());
-    for (std::size_t face = 0; face < mean.size(); ++face) {
-        const Vector<Dim> given = load.impulse[face] / tau;
-        mean[face] = given;
-        if (impulse_ == LoadImpulse::trapezoid) {
-            const Vector<Dim> next = 1.5 * given - 0.5 * load.mean_before[face];
+    std::vector<Vector<Dim>> mean = load.mean;
+    if (impulse_ == LoadImpulse::trapezoid)
+        for (std::size_t face = 0; face < mean.size(); ++face) {
+            const Vector<Dim> next = load.mean[face] + 0.5 * (load.mean[face] - load.mean_before[face]);
             mean[face] = 0.5 * (load.at_node[face] + next);
             load.at_node[face] = next;
-            load.mean_before[face] = given;
+            load.mean_before[face] = load.mean[face];
         }
-        load.impulse[face].setZero();
-    }
     run_.solid().set_traction(load.group, mean);
+}
+
+/// Else some ranks would wait for ever for a step that others do not take.
+template <int Dim>
+void ClockedRun<Dim>::require_same(double d) const {
+    const dynamics::Ranks& ranks = run_.solid().ranks();
+    if (ranks.is_one()) return;
+    const double most = ranks.largest(d), least = -ranks.largest(-d);
+    if (most != least)
+        throw BadInput("ClockedRun: ranks go on by times from " + exact_number(least) + " to " + exact_number(most) +
+                           " s. Give the same on all of them.",
+                       {.value = most, .allowed = least});
 }
 
 template <int Dim>
 void ClockedRun<Dim>::advance(double d) {
-    const auto piece = [&](double s) {
-        for (Load& load : loads_) {
-            if (!has_begun_) load.at_node = load.mean_before = load.traction;
-            for (std::size_t face = 0; face < load.impulse.size(); ++face) load.impulse[face] += s * load.traction[face];
-        }
-        has_begun_ = true;
-    };
+    require_same(d);
     const auto node = [&] {
         for (Load& load : loads_) set_mean(load);
     };
-    clock_.advance(d, piece, node, [&] { run_.step(); });
+    clock_.advance(
+        d, [&](double s) { add_piece(s); }, node, [&] { run_.step(); });
 }
 
 template <int Dim>

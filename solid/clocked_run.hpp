@@ -35,6 +35,9 @@ enum class LoadImpulse {
 ///         clock.set_traction("bar.xmin", tractions(pressure));
 ///         clock.advance(d);
 ///     }
+///
+/// On several ranks, where no load comes from outside, `advance`, `q`, `state` and `restore` are calls of all of them with
+/// the same times, and q is that of the points of each.
 template <int Dim>
 class ClockedRun {
 public:
@@ -48,7 +51,7 @@ public:
     /// BadInput naming the group, a wrong number of values or one that is not finite.
     void set_traction(const std::string& group, std::span<const Vector<Dim>> traction);
     /// Goes on by d [s], of any length; steps of the solid are taken as its nodes are passed. Throws BadInput, and nothing
-    /// has changed, unless d > 0 and finite; as SteppedRun::step.
+    /// has changed, unless d > 0 and finite, and the same on all ranks; as SteppedRun::step.
     void advance(double d);
 
     /// How far the centroids of a group move in the next d [s], whatever acts (n_faces) [m]: sum of |f| t . this is the
@@ -66,7 +69,7 @@ public:
         dynamics::RestartReport restarts;
         double time = 0.0;  ///< [s]
         bool has_begun = false;
-        std::vector<std::vector<Vector<Dim>>> loads;  ///< of each group: traction, impulse, load at the node, mean before
+        std::vector<std::vector<Vector<Dim>>> loads;  ///< of each group: traction, mean, load at the node, mean before
     };
     [[nodiscard]] State state() const;
     /// Goes back to a state of this run, for a step that is rejected and taken again: what follows has the same bits. Throws
@@ -77,17 +80,17 @@ private:
     struct Load {
         std::string group;
         std::vector<Vector<Dim>> traction;     // now [Pa]
-        std::vector<Vector<Dim>> impulse;      // since the last node [Pa s]
+        std::vector<Vector<Dim>> mean;         // since the last node [Pa]; that of a load that stays is exact
         std::vector<Vector<Dim>> at_node;      // trapezoid: L_k [Pa]
-        std::vector<Vector<Dim>> mean_before;  // and I_{k-1}/tau [Pa]
-        [[nodiscard]] std::array<std::vector<Vector<Dim>>*, 4> all() {
-            return {&traction, &impulse, &at_node, &mean_before};
-        }
+        std::vector<Vector<Dim>> mean_before;  // and the mean of the step before [Pa]
+        [[nodiscard]] std::array<std::vector<Vector<Dim>>*, 4> all() { return {&traction, &mean, &at_node, &mean_before}; }
         [[nodiscard]] std::array<const std::vector<Vector<Dim>>*, 4> all() const {
-            return {&traction, &impulse, &at_node, &mean_before};
+            return {&traction, &mean, &at_node, &mean_before};
         }
     };
     [[nodiscard]] Load& load_on(const std::string& group);
+    void require_same(double d) const;
+    void add_piece(double s);
     void set_mean(Load& load);
     /// How far the centroids of a group move in the whole step that goes on (n_faces) [m].
     [[nodiscard]] std::vector<Vector<Dim>> step_motion(const std::string& group);

@@ -15,8 +15,8 @@
 
 namespace abut::solid {
 
-/// A solid under MEMM whose steps a program asks for one by one, as Python and C do. On one rank. run::simulate makes runs
-/// from their first step to the last.
+/// A solid under MEMM whose steps a program asks for one by one, as Python and C do. On several ranks its functions are
+/// calls of all of them, with the points of each. run::simulate makes runs from their first step to the last.
 template <int Dim>
 class SteppedRun {
 public:

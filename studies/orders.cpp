@@ -77,20 +77,6 @@ const std::vector<Method> landed_methods = {
 
 bool lands(const Method& method) { return std::holds_alternative<Landed>(method.scheme); }
 
-double squared_error(const Run& run, std::span<const double> q, std::span<const double> before,
-                     std::span<const double> after) {
-    double sum = 0.0;
-    for (std::size_t i = 0; i < q.size(); ++i) {
-        const double dq = q[i] - run.end_q[i], dp = 0.5 * (before[i] + after[i]) - run.end_p[i];
-        sum += dq * dq + dp * dp;
-    }
-    return sum;
-}
-template <class Integrator>
-double squared_error(const Run& run, const Integrator& integrator) {
-    return squared_error(run, integrator.q(), integrator.p_before(), integrator.p_after());
-}
-
 /// One run by each kind of method; returns the square of its error.
 template <class Law>
 class OneRun {
@@ -104,7 +90,7 @@ public:
         dynamics::with_scheme<System>(scheme, {.gauge = problem_.gauge}, [&](const auto& make) {
             auto integrator = make(problem_.system, run_.q, run_.p, dt_, {});
             for (int i = 0; i < steps_; ++i) integrator.step();
-            error = squared_error(run_, integrator);
+            error = run_.squared_error(integrator);
         });
         return error;
     }
@@ -112,7 +98,7 @@ public:
         dynamics::Pairs pairs(problem_.system, run_.q, run_.p, std::numeric_limits<double>::infinity());
         for (int i = 0; i < steps_; ++i) pairs.step(dt_);
         const auto end = pairs.synchronised();
-        return squared_error(run_, end.q, end.p_before, end.p_after);
+        return run_.squared_error(end.q, end.p_before, end.p_after);
     }
     double operator()(Composition composition) {
         auto integrator = composed(composition);
@@ -120,7 +106,7 @@ public:
             integrator.step();
             integrator.project();
         }
-        return squared_error(run_, integrator);
+        return run_.squared_error(integrator);
     }
     double operator()(Landed landed) {
         auto integrator = composed(landed.composition);
@@ -130,7 +116,7 @@ public:
             landing.step();
             integrator.project();
         }
-        return squared_error(run_, integrator);
+        return run_.squared_error(integrator);
     }
 
 private:

@@ -128,6 +128,7 @@ void drop_excluded(const CommandParser& command, run::RunOptions& options) {
         options.dt = run::not_given;
         options.allow_unstable = false;
     }
+    if (command.at("--frames").is_given()) options.times.clear();
 }
 
 /// Reads the command line once more, above the options of the scene.

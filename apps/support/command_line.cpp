@@ -98,6 +98,18 @@ std::vector<std::string_view> parts_of(std::string_view text) {
     return parts;
 }
 
+std::vector<double> parse_numbers(std::string_view text, const std::string& option, const Limits& limits) {
+    std::vector<double> values;
+    for (const std::string_view part : parts_of(text)) values.push_back(parse_number(std::string(part), option, limits));
+    return values;
+}
+
+std::vector<double> parse_increasing(std::string_view text, const std::string& option, const Limits& limits) {
+    std::vector<double> values = parse_numbers(text, option, limits);
+    if (const std::string fault = fault_in(limits, values); !fault.empty()) throw BadInput(option + ": " + fault);
+    return values;
+}
+
 /// An option of a table, without default and heading.
 Flag add_of_kind(CommandParser& parser, const BoundOption& option) {
     const OptionFacts& facts = *option.facts;
@@ -114,6 +126,11 @@ Flag add_of_kind(CommandParser& parser, const BoundOption& option) {
             return add(unit_after(facts.help, facts.limits), "X", [flag, limits = facts.limits](const std::string& text) {
                 return OptionValue(parse_number(text, flag, limits));
             });
+        case OptionKind::numbers:
+            return add(unit_after(facts.help, facts.limits), "X[,X...]",
+                       [flag, limits = facts.limits](const std::string& text) {
+                           return OptionValue(parse_increasing(text, flag, limits));
+                       });
         case OptionKind::count:
             return add(unit_after(facts.help, {}), "N",
                        [flag, least = facts.least, most = facts.most](const std::string& text) {
@@ -190,10 +207,7 @@ Flag add_word(CommandParser& parser, const std::string& option, const std::funct
 
 Flag add_numbers(CommandParser& parser, const std::string& option, std::vector<double>& values, const std::string& help,
                  const Limits& limits) {
-    const auto read = [&values, option, limits](const std::string& text) {
-        values.clear();
-        for (const std::string_view part : parts_of(text)) values.push_back(parse_number(std::string(part), option, limits));
-    };
+    const auto read = [&values, option, limits](const std::string& text) { values = parse_numbers(text, option, limits); };
     Flag added = parser.text(option, read, unit_after(help, limits)).takes("X[,X...]");
     if (!values.empty()) added.by_default(fmt::format("{}", fmt::join(values, ",")));
     return added;

@@ -87,6 +87,7 @@ void add_ranks_options(CommandParser& parser, RunOptions& options) {
 
 void add_output_options(CommandParser& parser, RunOptions& options, OptionDepth deepest) {
     add_group(parser, options, deepest, "Output");
+    parser.at("--times").excludes(parser.at("--frames"));
 }
 
 }  // namespace abut::apps

@@ -2,6 +2,7 @@
 #include <pybind11/pybind11.h>
 
 #include <string>
+#include <vector>
 
 #include "abut/base/unit.hpp"
 
@@ -14,6 +15,15 @@ inline double number_in(const std::string& unit, const pybind11::handle& value) 
     const auto parts = value_with_unit(pybind11::cast<std::string>(value));
     if (!parts || parts->is_formula) throw pybind11::cast_error("no number, nor one with a unit");
     return converted(parts->value, unit_for(parts->unit, unit), unit_of(unit));
+}
+
+/// Numbers of a sequence, which is no text, as `number_in` takes each.
+inline std::vector<double> numbers_in(const std::string& unit, const pybind11::handle& value) {
+    if (pybind11::isinstance<pybind11::str>(value) || !pybind11::isinstance<pybind11::sequence>(value))
+        throw pybind11::cast_error("no list of numbers");
+    std::vector<double> numbers;
+    for (const pybind11::handle& one : pybind11::cast<pybind11::sequence>(value)) numbers.push_back(number_in(unit, one));
+    return numbers;
 }
 
 }  // namespace abut::python

@@ -36,6 +36,8 @@ OptionValue value_of(const OptionFacts& option, const py::handle& value) {
             return py::cast<std::int64_t>(value);
         case OptionKind::number:
             return number_in(option.limits.unit, value);
+        case OptionKind::numbers:
+            return numbers_in(option.limits.unit, value);
         case OptionKind::path:
             return py::cast<std::filesystem::path>(value).string();
         case OptionKind::word:
@@ -47,6 +49,8 @@ OptionValue value_of(const OptionFacts& option, const py::handle& value) {
 void require_allowed(const OptionFacts& option, const OptionValue& value, const OptionValue& by_default) {
     if (option.name == "cfl" || allows(option, value) || is_same(value, by_default))
         return;  // the step that it gives is judged
+    if (option.kind == OptionKind::numbers)
+        throw py::value_error(fault_in(option.limits, std::get<std::vector<double>>(value)));
     throw py::value_error(abut::text_of(value) + "; " + allowed_values(option) + " is allowed");
 }
 
@@ -95,6 +99,8 @@ std::string type_of(const OptionFacts& option) {
             return "int";
         case OptionKind::number:
             return "float";
+        case OptionKind::numbers:
+            return "list of float";
         case OptionKind::path:
             return "path";
         case OptionKind::word:
@@ -118,6 +124,10 @@ void take_options(const py::dict& given, run::RunOptions& options) {
     if (given.contains("cfl") || given.contains("preset")) {
         options.dt = run::not_given;
         options.allow_unstable = false;
+    }
+    if (given.contains("frames")) {
+        if (given.contains("times")) throw py::type_error("frames are given, and times of them; give one of both");
+        options.times.clear();
     }
     if (given.contains("preset"))
         take("preset", given["preset"], [&] { apply_preset(given["preset"], options); });  // below all others

@@ -35,7 +35,7 @@ public:
         names_ = scene.mesh.body_names;
         for (std::size_t i = 0; i < scene.solid.obstacles.size(); ++i) names_.push_back(run::name_of_obstacle(scene, i));
         n_steps_ = result.steps;
-        n_frames_ = result.options.frames;
+        n_frames_ = result.options.times.empty() ? result.options.frames : 0;
     }
     [[nodiscard]] bool wants_look(std::int64_t step) const override {
         return wants_frame(step) || forces_.wants_look(step) || (has_probes_ && probes_.wants_look(step));
@@ -46,6 +46,8 @@ public:
             for (const run::ForceRow<Dim>& row : forces_.rows(view, solid)) force_rows_.push_back(row);
         if (wants_frame(view.steps)) add_frame(view, solid);
     }
+
+    void look_at_time(const dynamics::RunView<Dim>& view, solid::Solid<Dim>& solid) override { add_frame(view, solid); }
 
     /// {name: {column: array}}
     [[nodiscard]] py::dict probes() const {
@@ -137,7 +139,7 @@ private:
     run::ContactForces<Dim> forces_;
     std::vector<std::string> names_;  // of bodies, then of obstacles
     std::vector<run::ForceRow<Dim>> force_rows_;
-    std::int64_t n_steps_ = 0, n_frames_ = 0;
+    std::int64_t n_steps_ = 0, n_frames_ = 0;  // frames that are equally far apart
     std::vector<std::int64_t> frame_steps_;
     std::vector<double> frame_times_;
     py::list displacement_, velocity_, stress_, von_mises_, plastic_strain_, pressure_, point_displacement_;

@@ -196,7 +196,7 @@ void Frames<Dim>::begin(const Scene<Dim>& scene, const RunResult<Dim>& result) {
         bodies_.push_back({"body: " + scene.mesh.body_names[static_cast<std::size_t>(body)], body});
     if (!scene.solid.obstacles.empty())
         obstacles_ = std::make_unique<ObstacleFrames<Dim>>(directory_, obstacles_series(name_), scene);
-    at_times_ = !scene.outputs.times.empty();
+    at_times_ = !result.options.times.empty();
     n_spread_ = n_steps_ = result.steps;
 }
 

@@ -28,7 +28,7 @@ class XdmfSeries;
 /// obstacle), normal and force on the second body [N], normal force [N], gap [m] and area [m^(Dim-1)]; and, where there are
 /// obstacles, SERIES_obstacles with their faces where they are. `n_frames` equally
 /// far apart, first and last step included (a run that goes on beyond the end of another one writes more, as far apart), or
-/// at Outputs::times; Outputs::fields may leave fields out. `series` is what the files are called by, see mesh::VtuSeries,
+/// at RunOptions::times; Outputs::fields may leave fields out. `series` is what files are called by, see mesh::VtuSeries,
 /// which also says what they throw if they cannot be written.
 ///
 /// With FrameFormat::xdmf cells and boundary faces are in one file (SERIES.h5, beside SERIES.xmf and SERIES_surface.xmf) in
@@ -40,7 +40,7 @@ class XdmfSeries;
 template <int Dim>
 class Frames : public Observer<Dim> {
 public:
-    /// Nothing is written before the run begins; `n_frames` > 0, unless the scene has Outputs::times.
+    /// Nothing is written before the run begins; `n_frames` > 0, unless the run has RunOptions::times.
     Frames(std::filesystem::path directory, std::string series, int n_frames, FrameFormat format = FrameFormat::vtu,
            bool in_pieces = false);
     ~Frames() override;

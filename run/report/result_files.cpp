@@ -57,7 +57,7 @@ void ResultFiles<Dim>::begin(const Scene<Dim>& scene, const RunResult<Dim>& resu
     has_begun_ = true;
     if (!scene.outputs.probes.empty()) probes_.emplace(out_ / "probes.csv").begin(scene, result);
     if (scene.outputs.forces) forces_.emplace(out_ / "forces.csv").begin(scene, result);
-    if (result.options.frames == 0 && scene.outputs.times.empty()) frames_.reset();
+    if (result.options.frames == 0 && result.options.times.empty()) frames_.reset();
     if (frames_) frames_->begin(scene, result);
     if (animation_) animation_->begin(scene, result);
     snapshots_.begin(scene, result);
@@ -183,7 +183,7 @@ void ResultFiles<Dim>::resume(const Scene<Dim>& scene, const RunResult<Dim>& res
     has_begun_ = true;
     if (!scene.outputs.probes.empty()) probes_.emplace(out_ / "probes.csv").resume(scene, result, state);
     if (scene.outputs.forces) forces_.emplace(out_ / "forces.csv").resume(scene, result, state);
-    if (result.options.frames == 0 && scene.outputs.times.empty()) frames_.reset();
+    if (result.options.frames == 0 && result.options.times.empty()) frames_.reset();
     if (frames_) frames_->resume(scene, result, state);
     if (animation_) animation_->resume(scene, result, state);
     snapshots_.resume(scene, result, state);

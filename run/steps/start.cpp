@@ -109,7 +109,7 @@ Start<Dim>::Start(const Scene<Dim>& of, const RunOptions& given, std::optional<P
     result.finest_dt = result.dt = choose_step(options, result.stable.dt);
     if (options.integrator == SolidIntegrator::memm_async) set_local_steps();
     result.steps = choose_steps(options, scene.time, result.dt);
-    check_output_times(scene.outputs.times, options, static_cast<double>(result.steps) * result.dt);
+    check_output_times(options, static_cast<double>(result.steps) * result.dt);
     result.rest_energy =
         rest_energy(scene.mesh, solid->options().materials, std::min(result.finest_dt, result.stable.dt), result.steps);
     const solid::Solid<Dim>& seen = whole ? *whole : *solid;

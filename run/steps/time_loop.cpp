@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <functional>
-#include <memory>
 #include <optional>
 #include <span>
 #include <stdexcept>
@@ -20,6 +19,7 @@
 #include "abut/run/body_names.hpp"
 #include "abut/run/files/run_identity.hpp"
 #include "abut/run/steps/of_all_ranks.hpp"
+#include "abut/run/steps/output_times.hpp"
 #include "abut/run/steps/rank_balance.hpp"
 #include "abut/run/steps/start_contact.hpp"
 #include "abut/run/steps/whole_run.hpp"
@@ -49,7 +49,6 @@ const std::string observers_kind = "observers of a run";
 constexpr int observers_version = 5;
 const std::string looks_kind = "looks at surfaces";
 constexpr int looks_version = 7;
-constexpr double same_as_node = 1e-6;           // of a step: so near a node a time is at it, as sums of steps are rounded
 constexpr std::int64_t sightings_per_run = 40;  // looks for bodies past a rim and together with themselves, about
 
 /// One run, from the first step to the last.
@@ -65,6 +64,7 @@ public:
           solid_(*start.solid),
           result_(start.result),
           whole_(start),
+          times_(start, whole_, observer),
           remedies_(solid_, options_.filter, options_.restart),
           obstacle_watch_(scene_),
           self_watch_(scene_, whole_.seen()),
@@ -86,38 +86,10 @@ public:
             begin();
         while (integrator_->steps() < result_.steps) {
             step();
-            const bool records = integrator_->steps() % options_.interval == 0 || integrator_->steps() == result_.steps;
-            if (records) record();
-            const Wanted wanted = ask(records);
-            look(wanted);
-            if (wanted.checkpoint) keep();
-            if (wanted.stop) stop(records);
+            attend();
             if (balance_.is_due(integrator_->steps()) && integrator_->steps() < result_.steps) rebalance();
         }
-        const contact::ContactReport contact = solid_.contact().report();
-        whole_.show(*integrator_, [&](const auto& run, auto& solid) {
-            result_.end = solid::body_motions<Dim>(run, solid);
-            take_fragments(run, solid);
-            whole_.evaluate(run, solid);
-            watch_.end(run, solid, result_.accounts.speed, contact.active_pairs > 0, contact.active_pairs_max > 0);
-            observer_.end(run, solid);
-        });
-        result_.looks = watch_.looks();
-        result_.weak_friction = friction_watch_.weakest();
-        result_.local_rotations = solid_.local_rotations(integrator_->q());
-        result_.finite = solid_.cells().finite_extremes();
-        result_.dissipated = solid_.dissipated();
-        result_.contact = solid_.contact().report();
-        if (const auto* by_nodes = solid_.contact().pair_potential())
-            result_.overlaps.assign(by_nodes->interference().begin(), by_nodes->interference().end());
-        result_.skin = solid_.contact().skin();
-        result_.evaluations = solid_.evaluations();
-        result_.times = added(times_before_, solid_.times(), times_of_setup_);
-        if (balance_.is_on()) balance_.end(solid_.ranks(), own_seconds());
-        result_.rebalancing = balance_.report();
-        whole_.on_first([&] {
-            if (scene_.findings) result_.findings = scene_.findings(result_);
-        });
+        end();
     }
 
 private:
@@ -128,10 +100,10 @@ private:
     }
     void step() {
         std::optional<StepStart> start;
-        if (time_is_due(integrator_->time() + integrator_->dt(), integrator_->steps() + 1))
+        if (times_.is_due(integrator_->time() + integrator_->dt(), integrator_->steps() + 1))
             start = StepStart{integrator_->state(), solid_.state()};
         take_step();
-        if (start) look_at_times(*start);
+        if (start) times_.show(*start, integrator_->state());
     }
     void take_step() {
         try {
@@ -143,6 +115,16 @@ private:
             throw std::runtime_error(at_this_step(error.what()));
         }
         if (scene_.after_step) scene_.after_step(solid_, result_.dt);
+    }
+
+    /// All that is due after a step, for the ledger and for the observer.
+    void attend() {
+        const bool records = integrator_->steps() % options_.interval == 0 || integrator_->steps() == result_.steps;
+        if (records) record();
+        const Wanted wanted = ask(records);
+        look(wanted);
+        if (wanted.checkpoint) keep();
+        if (wanted.stop) stop(records);
     }
 
     /// Asks what rank 0 wants now, in one message; progress is told of with it.
@@ -168,76 +150,6 @@ private:
                 watch_.look(run, solid, result_.accounts.speed, result_.contact.active_pairs > 0);
             });
         if (wanted.look) whole_.show(*integrator_, [&](const auto& run, auto& solid) { observer_.look(run, solid); });
-    }
-
-    // Times of the scene, inside of steps
-
-    /// All of this rank and of its solid.
-    struct StepStart {
-        dynamics::IntegratorState motion;
-        std::vector<std::byte> solid;  // the same on all ranks
-    };
-
-    /// Whether there is one until this node; all are that are left at the last one, whose time is a sum of steps.
-    [[nodiscard]] bool time_is_due(double node, std::int64_t steps) const {
-        const std::vector<double>& times = scene_.outputs.times;
-        return n_times_ < times.size() && (steps >= result_.steps || is_at_or_before(times[n_times_], node));
-    }
-    [[nodiscard]] bool is_at_or_before(double time, double node) const { return time <= node + same_as_node * result_.dt; }
-
-    /// On the straight path of the step that began there.
-    void look_at_times(const StepStart& start) {
-        dynamics::IntegratorState state = integrator_->state();
-        const std::vector<double>& q_0 = start.motion.q;
-        const std::vector<double> q_1 = state.q;
-        const double from = start.motion.time, node = state.time, dt = integrator_->dt();
-        const std::span<const double> masses = solid_.masses();
-        for (std::size_t i = 0; i < q_1.size(); ++i)
-            state.p_before[i] = state.p_after[i] = masses[i / Dim] * (q_1[i] - q_0[i]) / dt;
-        for (; time_is_due(node, state.steps); ++n_times_) {
-            state.time = scene_.outputs.times[n_times_];
-            const double share = (state.time - from) / dt;
-            for (std::size_t i = 0; i < q_1.size(); ++i) state.q[i] = q_0[i] + share * (q_1[i] - q_0[i]);
-            if (!is_at_or_before(node, state.time)) {
-                show_inside(start, state);
-                continue;
-            }
-            state.q = q_1;
-            show_time(state);
-        }
-    }
-    void show_first_times() {
-        dynamics::IntegratorState state = integrator_->state();
-        const double node = state.time;
-        for (; time_is_due(node, 0); ++n_times_) {
-            state.time = scene_.outputs.times[n_times_];
-            show_time(state);
-        }
-    }
-    void show_time(const dynamics::IntegratorState& state) {
-        whole_.show_state(state, [&](const auto& run, auto& solid) { observer_.look_at_time(run, solid); });
-    }
-    /// With loads, obstacles and what materials and friction remember as they are then: another solid goes there from the
-    /// start of the step, and that of the run knows nothing of it.
-    void show_inside(const StepStart& start, const dynamics::IntegratorState& own) {
-        const dynamics::IntegratorState from = whole_.of(start.motion), state = whole_.of(own);
-        whole_.on_first([&] {
-            solid::Solid<Dim>& other = solid_of_times();
-            other.restore(start.solid, from.q);
-            std::vector<double> force(state.q.size());
-            const double dt = state.time - from.time;
-            if (features_of(options_).has(solid::Feature::end_forces))
-                other.end_force(from.q, state.q, from.time, dt, force);
-            else
-                other.mean_force(from.q, state.q, from.time, dt, force);
-            observer_.look_at_time(dynamics::RunView<Dim>(state), other);
-        });
-    }
-    /// On rank 0: of several ranks the one that shows the whole.
-    [[nodiscard]] solid::Solid<Dim>& solid_of_times() {
-        if (!solid_.ranks().is_one()) return whole_.seen();
-        if (!solid_of_times_) solid_of_times_ = std::make_unique<solid::Solid<Dim>>(solid_.mesh(), solid_.options());
-        return *solid_of_times_;
     }
 
     void make_piece(std::int64_t frame) {
@@ -284,7 +196,7 @@ private:
     void begin() {
         whole_.on_first([&] { observer_.begin(scene_, result_); });
         record();
-        show_first_times();
+        times_.show_start(integrator_->state());
         const Wanted wanted = ask(true);
         look(wanted);
         if (wanted.stop) stop(true);
@@ -295,6 +207,41 @@ private:
         result_.steps = integrator_->steps();
         result_.complete = false;
         if (!recorded) record();
+    }
+
+    void end() {
+        show_end();
+        take_figures();
+        result_.times = added(times_before_, solid_.times(), times_of_setup_);
+        if (balance_.is_on()) balance_.end(solid_.ranks(), own_seconds());
+        result_.rebalancing = balance_.report();
+        whole_.on_first([&] {
+            if (scene_.findings) result_.findings = scene_.findings(result_);
+        });
+    }
+    /// The last state, to those who look on.
+    void show_end() {
+        const contact::ContactReport contact = solid_.contact().report();
+        whole_.show(*integrator_, [&](const auto& run, auto& solid) {
+            result_.end = solid::body_motions<Dim>(run, solid);
+            take_fragments(run, solid);
+            whole_.evaluate(run, solid);
+            watch_.end(run, solid, result_.accounts.speed, contact.active_pairs > 0, contact.active_pairs_max > 0);
+            observer_.end(run, solid);
+        });
+        result_.looks = watch_.looks();
+    }
+    /// Figures of the whole run that solid and watches have.
+    void take_figures() {
+        result_.weak_friction = friction_watch_.weakest();
+        result_.local_rotations = solid_.local_rotations(integrator_->q());
+        result_.finite = solid_.cells().finite_extremes();
+        result_.dissipated = solid_.dissipated();
+        result_.contact = solid_.contact().report();
+        if (const auto* by_nodes = solid_.contact().pair_potential())
+            result_.overlaps.assign(by_nodes->interference().begin(), by_nodes->interference().end());
+        result_.skin = solid_.contact().skin();
+        result_.evaluations = solid_.evaluations();
     }
 
     [[nodiscard]] Checkpoint checkpoint() {
@@ -354,7 +301,7 @@ private:
         result_.scale = known_scale<Dim>(scene_.energy_scale, result_);
         result_.inadmissible_overlaps_max = from.inadmissible_overlaps_max;
         result_.resumed_after = integrator_->steps();
-        while (time_is_due(integrator_->time(), integrator_->steps())) ++n_times_;
+        times_.skip(integrator_->time(), integrator_->steps());
         sound_.keep(*integrator_, result_.dt);
         whole_.on_first([&] {
             StateReader state(from.observers, observers_kind, observers_version);
@@ -388,29 +335,8 @@ private:
 
     void record() {
         const double excess_before = result_.ledger.energy_excess();
-        {
-            const Stopwatch watch(result_.seconds.ledger);
-            result_.ledger.record(dynamics::measure(*integrator_, solid_, remedies_.report()));
-            const dynamics::RunView<Dim> now(*integrator_);
-            result_.accounts.record(result_.ledger.entries().back(), largest_speed(now, solid_),
-                                    momentum_from_outside(integrator_->time(), scene_.mesh.n_bodies(), solid_));
-            result_.contact = solid_.contact().report();
-            result_.sliding.record(result_.contact);
-            const dynamics::LedgerEntry<Dim>& entry = result_.ledger.entries().back();
-            friction_watch_.record(entry, solid_.contact().impulses(), result_.accounts.speed);
-            result_.compressed = most_compressed(scene_, solid_);
-            if (!result_.all_may_turn) record_turned();
-            result_.inadmissible_overlaps_max =
-                std::max(result_.inadmissible_overlaps_max, result_.contact.inadmissible_overlaps);
-        }
-        if (is_sighting_due(integrator_->steps())) {
-            const Stopwatch watch(result_.seconds.looks);
-            obstacle_watch_.look(solid_, integrator_->q(), integrator_->time(), result_.sightings.past_rims);
-            if (self_watch_.is_on()) look_for_crossings();
-            whole_.show(*integrator_, [&](const auto& run, auto& solid) {
-                result_.fine_energy_max = std::max(result_.fine_energy_max, fine_energy(run, solid));
-            });
-        }
+        measure();
+        if (is_sighting_due(integrator_->steps())) look_around();
         const auto& entries = result_.ledger.entries();
         result_.scale = known_scale<Dim>(scene_.energy_scale, result_);
         if (entries.size() == 1 && scene_.contact && !options_.settle) check_contact(entries.front());
@@ -420,6 +346,33 @@ private:
         const dynamics::LedgerEntry<Dim>& last = entries.back();
         if (entries.size() == 1 || last.energy - last.pseudo_energy <= sound_share * scale)
             sound_.keep(*integrator_, result_.dt);
+    }
+
+    /// An entry of the ledger, and what is counted with it.
+    void measure() {
+        const Stopwatch watch(result_.seconds.ledger);
+        result_.ledger.record(dynamics::measure(*integrator_, solid_, remedies_.report()));
+        const dynamics::LedgerEntry<Dim>& entry = result_.ledger.entries().back();
+        const dynamics::RunView<Dim> now(*integrator_);
+        result_.accounts.record(entry, largest_speed(now, solid_),
+                                momentum_from_outside(integrator_->time(), scene_.mesh.n_bodies(), solid_));
+        result_.contact = solid_.contact().report();
+        result_.sliding.record(result_.contact);
+        friction_watch_.record(entry, solid_.contact().impulses(), result_.accounts.speed);
+        result_.compressed = most_compressed(scene_, solid_);
+        if (!result_.all_may_turn) record_turned();
+        result_.inadmissible_overlaps_max =
+            std::max(result_.inadmissible_overlaps_max, result_.contact.inadmissible_overlaps);
+    }
+
+    /// For bodies past a rim and together with themselves, and for motion from cell to cell.
+    void look_around() {
+        const Stopwatch watch(result_.seconds.looks);
+        obstacle_watch_.look(solid_, integrator_->q(), integrator_->time(), result_.sightings.past_rims);
+        if (self_watch_.is_on()) look_for_crossings();
+        whole_.show(*integrator_, [&](const auto& run, auto& solid) {
+            result_.fine_energy_max = std::max(result_.fine_energy_max, fine_energy(run, solid));
+        });
     }
 
     void record_turned() {
@@ -483,6 +436,7 @@ private:
     solid::Solid<Dim>& solid_;  // Start::solid, which may change its part
     RunResult<Dim>& result_;
     WholeRun<Dim> whole_;
+    OutputTimes<Dim> times_;
     dynamics::Remedies<solid::Solid<Dim>> remedies_;
     ObstacleWatch<Dim> obstacle_watch_;
     SelfWatch<Dim> self_watch_;
@@ -494,10 +448,8 @@ private:
     FrictionWatch<Dim> friction_watch_;
     RankBalance balance_;
     double own_seconds_before_ = 0.0;
-    std::size_t n_times_ = 0;                            // of the scene, that are past
-    SurfaceWatch<Dim> watch_;                            // on rank 0
-    std::optional<FineMotion<Dim>> fine_motion_;         // on rank 0
-    std::unique_ptr<solid::Solid<Dim>> solid_of_times_;  // on one rank, from the first time inside of a step on
+    SurfaceWatch<Dim> watch_;                     // on rank 0
+    std::optional<FineMotion<Dim>> fine_motion_;  // on rank 0
 };
 
 }  // namespace

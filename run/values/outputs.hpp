@@ -36,9 +36,6 @@ struct Outputs {
     bool forces = false;               ///< forces.csv
     int interval = 0;                  ///< steps between rows of these files; 0: those between records of the energies
     FrameFields fields{};
-    /// Times of frames, in place of RunOptions::frames, increasing, from 0 to the end of the run [s]. Inside a step
-    /// bodies are on the straight path of that step; the steps of the run are bitwise those without.
-    std::vector<double> times{};
     std::vector<std::string> obstacles{};  ///< names; empty: obstacle_0 and so on
 };
 

@@ -48,7 +48,6 @@ enum class Feature {
     rest,                 ///< a state at rest that is sought (`solve_statics`)
     loaded_rest,          ///< the same under tractions or moments
     mesh_change,          ///< cells that leave during a run
-    stepped_run,          ///< another program that takes the steps
     vertex_displacement,  ///< displacements of the vertices of the mesh
     pilot,                ///< a run that chooses the kinematics
     step_watcher,         ///< a function that sees each step (Scene::after_step)
@@ -116,7 +115,6 @@ inline constexpr std::array<FeatureWords, n_features> feature_words{{
     {Feature::loaded_rest, "the same under tractions or moments",
      "a state at rest is sought under tractions or moments (statics)"},
     {Feature::mesh_change, "change of the mesh", "the mesh is changed"},
-    {Feature::stepped_run, "steps or times from another program", "another program takes the steps, or dictates times"},
     {Feature::vertex_displacement, "displacements of vertices", "displacements of vertices are asked for"},
     {Feature::pilot, "kinematics \"automatic\"", "a pilot run chooses kinematics (--kinematics automatic)"},
     {Feature::step_watcher, "function that sees each step", "the scene looks at each step (Scene::after_step)"},

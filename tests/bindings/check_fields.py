@@ -1,5 +1,5 @@
-"""check_fields.py SOURCE: every struct of abut.h that abut.f90 has a type for has the same fields there, in order and of the same
-kind."""
+"""check_fields.py SOURCE: every struct of abut.h and abut_solid.h has a type with the same fields in abut.f90 and abut_solid.f90, in order
+and of the same kind."""
 import pathlib
 import re
 import sys
@@ -34,17 +34,21 @@ def fields_in_fortran(body):
                 yield name.split("=")[0].strip(), kind.strip()
 
 
-def main():
-    root = pathlib.Path(sys.argv[1]) / "bindings"
-    header, module = (root / "c/abut.h").read_text(), (root / "fortran/abut.f90").read_text().replace("&\n", "")
+def differences(root, name, least):
+    header, module = (root / f"c/{name}.h").read_text(), (root / f"fortran/{name}.f90").read_text().replace("&\n", "")
     in_c = {name: list(fields_in_c(body)) for name, body in re.findall(r"typedef struct (\w+) \{(.*?)\} \1;", header, re.S)}
     in_fortran = {name: list(fields_in_fortran(body)) for name, body in
                   re.findall(r"type, bind\(c\), public :: (\w+)\n(.*?)end type", module, re.S)}
-    assert "abut_options" in in_c and len(in_c) > 5, "the structs of abut.h are not read"
+    assert len(in_c) >= least, f"the structs of {name}.h are not read"
+    return [f"{struct}: {name}.h has {in_c[struct]}, {name}.f90 has {in_fortran.get(struct)}" for struct in in_c
+            if in_c[struct] != in_fortran.get(struct)]
+
+
+def main():
+    root = pathlib.Path(sys.argv[1]) / "bindings"
     assert list(fields_in_c("double a[3]; const int32_t* b; int (*c)(void* user);")) == [
         ("a(3)", "real(c_double)"), ("b", "type(c_ptr)"), ("c", "type(c_funptr)")]
-    wrong = [f"{name}: abut.h has {in_c[name]}, abut.f90 has {in_fortran.get(name)}" for name in in_c
-             if in_c[name] != in_fortran.get(name)]
+    wrong = differences(root, "abut", 6) + differences(root, "abut_solid", 5)
     print("\n".join(wrong))
     sys.exit(1 if wrong else 0)
 

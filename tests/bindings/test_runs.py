@@ -92,6 +92,24 @@ class Scenes(unittest.TestCase):
             mass({"bodies.left.density": "2 mm"})
         self.assertEqual(abut.run(BARS, set={"run.filter": "none", "output.frames": 4}, steps=8).frames.step.tolist(), [0, 3, 6, 8])
 
+    def test_frames_are_at_the_times_that_are_given(self):
+        plain = abut.run(BARS, time=0.1)
+        end = plain.ledger["time"][-1]  # of the last step
+        result = abut.run(BARS, time=0.1, times=[0.0, 0.0123, "50 ms", end])
+        self.assertEqual(result.frames.time.tolist(), [0.0, 0.0123, 0.05, end])
+        np.testing.assert_array_equal(result.ledger, plain.ledger)
+        np.testing.assert_array_equal(result.frames.displacement[-1], plain.displacement)
+        inside = abut.run(BARS, time=0.1, set={"output.times": [0.0123]})
+        np.testing.assert_array_equal(inside.frames.displacement[0], result.frames.displacement[1])
+        self.assertEqual(len(abut.run(BARS, time=0.1, frames=3, set={"output.times": [0.0123]}).frames.time), 3)
+        for error, message, given in ((ValueError, "times: number 2 is 0.1 s, after 0.2 s", [0.2, 0.1]), (TypeError, "times cannot be", 0.1),
+                                      (TypeError, "times cannot be", "0.1"), (abut.BadInput, "unit of a length", ["1 mm"]),
+                                      (abut.BadInput, "output.times .times.: number 1 is 3 s, and the run ends at 0.1", [3.0])):
+            with self.subTest(given), self.assertRaisesRegex(error, message):
+                abut.run(BARS, time=0.1, times=given)
+        with self.assertRaisesRegex(TypeError, "give one of both"):
+            abut.run(BARS, time=0.1, times=[0.1], frames=3)
+
     def test_nothing_is_written_unless_a_folder_is_given(self):
         with tempfile.TemporaryDirectory() as name:
             scene = pathlib.Path(name) / "scene.toml"

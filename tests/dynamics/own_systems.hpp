@@ -1,75 +1,33 @@
 #pragma once
-// Systems of one's own with solutions that are known: Duffing, Kepler, Fermi, Pasta and Ulam, a ball that bounces.
+// Systems of one's own whose motion is known, and what compositions of sub-flows do to them by the formulas alone.
 #include <cmath>
-#include <cstdint>
-#include <numbers>
+#include <cstddef>
+#include <functional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "dynamics/schemes.hpp"
+#include "studies/orders/known_motions.hpp"
 
 namespace abut::test {
 
-/// A start, and the state at `time` that is known.
-template <class S>
-struct Problem {
-    S system;
-    Values q, p;
-    double time;
-    State exact;
+using studies::orders::bounce_motion;
+using studies::orders::chain_motion;
+using studies::orders::duffing_motion;
+using studies::orders::kepler_motion;
+using studies::orders::KnownMotion;
+using studies::orders::row_of;
 
-    [[nodiscard]] double energy() { return system.potential(q) + 0.5 * dynamics::mass_product(p, system.inverse_mass(), p); }
-    /// Euclidean distance in q and p = (a + b)/2.
-    [[nodiscard]] double error(std::span<const double> q_end, std::span<const double> a, std::span<const double> b) const {
-        double sum = 0.0;
-        for (std::size_t i = 0; i < q.size(); ++i) {
-            const double dq = q_end[i] - exact.q[i], dp = 0.5 * (a[i] + b[i]) - exact.p[i];
-            sum += dq * dq + dp * dp;
-        }
-        return std::sqrt(sum);
-    }
-    template <class Integrator>
-    [[nodiscard]] double error(const Integrator& integrator) const {
-        return error(integrator.q(), integrator.p_before(), integrator.p_after());
-    }
-};
-
-/// V = q^2/2 + q^4/4, from 1.5 at rest to t = 20.
-inline Problem<Chain> duffing() {
-    Chain system({1.0}, {{-1, 0, {.stiffness = 1.0, .quartic = 1.0}}});
-    return {system, {1.5}, {0.0}, 20.0, reference_state(system, {1.5}, {0.0}, 20.0, 200000)};
+template <class Law>
+double start_energy(const KnownMotion<Law>& motion) {
+    const auto& [q, p, end_q, end_p] = motion.run;
+    return motion.system.potential(q) + 0.5 * dynamics::mass_product(p, motion.system.inverse_mass(), p);
 }
-
-/// 16 masses with fixed ends, the force of a spring r + r^2/4 + r^3, from half a sine of 1.5 at rest to t = 40.
-inline Problem<Chain> fermi_pasta_ulam() {
-    constexpr std::int32_t n = 16;
-    std::vector<Bond<LineSpring>> bonds;
-    for (std::int32_t i = -1; i < n; ++i)
-        bonds.push_back({i, i == n - 1 ? -1 : i + 1, {.stiffness = 1.0, .cubic = 0.25, .quartic = 1.0}});
-    Chain system(Values(n, 1.0), bonds);
-    Values q(n), p(n, 0.0);
-    for (std::int32_t i = 0; i < n; ++i) q[i] = 1.5 * std::sin(std::numbers::pi * (i + 1) / (n + 1));
-    return {system, q, p, 40.0, reference_state(system, q, p, 40.0, 160000)};
-}
-
-/// The eccentric anomaly of Kepler's equation E - e sin E = t.
-inline double eccentric_anomaly(double t, double e) {
-    double anomaly = t;
-    for (int i = 0; i < 100; ++i) anomaly -= (anomaly - e * std::sin(anomaly) - t) / (1.0 - e * std::cos(anomaly));
-    return anomaly;
-}
-/// On the ellipse of half-axis 1 and eccentricity 0.5 about the origin, t after the pericentre.
-inline State on_ellipse(double t) {
-    constexpr double e = 0.5;
-    const double anomaly = eccentric_anomaly(t, e), c = std::cos(anomaly), s = std::sin(anomaly);
-    const double width = std::sqrt(1.0 - e * e), rate = 1.0 / (1.0 - e * c);
-    return {{c - e, width * s}, {-s * rate, width * c * rate}};
-}
-/// A planet from its pericentre to t = 20, `Law` with V = -1/|r|.
-template <class Law = dynamics::Attraction>
-Problem<dynamics::Particles<Law>> kepler(double time = 20.0) {
-    const State start = on_ellipse(0.0);
-    return {{{1.0, 1.0}, {{-1, 0, {}}}}, start.q, start.p, time, on_ellipse(time)};
+/// Euclidean distance in q and p = (a + b)/2 from the known end.
+template <class Law, class Integrator>
+double error_of(const KnownMotion<Law>& motion, const Integrator& integrator) {
+    return std::sqrt(motion.run.squared_error(integrator));
 }
 
 /// Kepler's potential with a discrete gradient along the mean position, which is no integral along the path; `is_exact` is
@@ -83,21 +41,83 @@ struct CentralGradient : dynamics::Attraction {
     }
 };
 
-/// A ball of mass 1 under gravity 1 on a wall of stiffness 400, dropped from `height` at rest.
-inline Problem<Chain> bounce(double height, double time) {
-    constexpr double omega = 20.0;
-    Chain system({1.0}, {{-1, 0, {.stiffness = omega * omega, .one_sided = true}}}, {-1.0});
-    // In contact q = -1/k + A cos(omega (t - t_m)) about the middle t_m of it, at both of whose ends q = 0 and |v| is that
-    // of the fall.
-    const double speed = std::sqrt(2.0 * height), fall = speed, sag = 1.0 / (omega * omega);
-    const double half_contact = (std::numbers::pi - std::atan(speed / omega / sag)) / omega;
-    const double amplitude = std::hypot(sag, speed / omega), period = 2.0 * (fall + half_contact);
-    const double t = std::remainder(time, period);  // about the start, a top of the path
-    const double after = std::abs(t) - fall, sign = t < 0.0 ? -1.0 : 1.0;
-    const State exact = after < 0.0 ? State{{height - 0.5 * t * t}, {-t}}
-                                    : State{{-sag - amplitude * std::cos(omega * (after - half_contact))},
-                                            {sign * amplitude * omega * std::sin(omega * (after - half_contact))}};
-    return {system, {height}, {0.0}, time, exact};
+/// The doubled system of docs/integrators.md, Higher orders, for unit masses, by its formulas alone: the mean of the force
+/// along a straight path is Simpson's, exact with one panel where the force is a cubic.
+class Doubled {
+public:
+    using Force = std::function<Values(const Values&)>;
+    Doubled(Force force, int panels, Values q, const Values& p)
+        : force_(std::move(force)), panels_(panels), q_(std::move(q)), a_(p), b_(p) {}
+
+    /// A(s), or B(s) where not `kicks_a`.
+    void flow(bool kicks_a, double s) {
+        Values& kicked = kicks_a ? a_ : b_;
+        const Values& carrying = kicks_a ? b_ : a_;
+        const Values from = q_;
+        for (int node = 0; node <= 2 * panels_; ++node) {
+            const double share = 0.5 * node / panels_;
+            const double weight = node == 0 || node == 2 * panels_ ? 1.0 : node % 2 == 1 ? 4.0 : 2.0;
+            for (std::size_t i = 0; i < q_.size(); ++i) q_[i] = from[i] + share * s * carrying[i];
+            const Values force = force_(q_);
+            for (std::size_t i = 0; i < q_.size(); ++i) kicked[i] += 2.0 * s * weight / (6.0 * panels_) * force[i];
+        }
+    }
+    /// A(d/4) B(d/2) A(d/4)
+    void step(double d) {
+        flow(true, 0.25 * d);
+        flow(false, 0.5 * d);
+        flow(true, 0.25 * d);
+    }
+    /// Largest difference between this state and another.
+    [[nodiscard]] double distance(std::span<const double> q, std::span<const double> a, std::span<const double> b) const {
+        return std::max({test::distance(q_, q), test::distance(a_, a), test::distance(b_, b)});
+    }
+
+private:
+    Force force_;
+    int panels_;
+    Values q_, a_, b_;
+};
+
+inline Values force_of_duffing(const Values& q) { return {-q[0] - q[0] * q[0] * q[0]}; }
+inline Values force_of_kepler(const Values& q) {
+    const double cube = std::pow(q[0] * q[0] + q[1] * q[1], 1.5);
+    return {-q[0] / cube, -q[1] / cube};
 }
+inline Values force_of_chain(const Values& q) {
+    Values force(q.size(), 0.0);
+    for (std::size_t i = 0; i <= q.size(); ++i) {
+        const double r = (i < q.size() ? q[i] : 0.0) - (i > 0 ? q[i - 1] : 0.0), tension = r + 0.25 * r * r + r * r * r;
+        if (i > 0) force[i - 1] += tension;
+        if (i < q.size()) force[i] -= tension;
+    }
+    return force;
+}
+
+/// The doubled system of an oscillator of frequency 1 is an ordinary splitting of (x, y): q = x y, a = -x^2, b = y^2, where
+/// A(s) adds s y to x, and B(s) takes s x from y. This is its matrix, rows of x and y.
+class Splitting {
+public:
+    void flow(bool kicks_a, double s) {
+        for (std::size_t column = 0; column < 2; ++column)
+            if (kicks_a)
+                x_[column] += s * y_[column];
+            else
+                y_[column] -= s * x_[column];
+    }
+    void step(double d) {
+        flow(true, 0.25 * d);
+        flow(false, 0.5 * d);
+        flow(true, 0.25 * d);
+    }
+    [[nodiscard]] double trace() const { return x_[0] + y_[1]; }
+    [[nodiscard]] double norm() const { return std::hypot(x_[0], x_[1], std::hypot(y_[0], y_[1])); }
+    void divide_by(double size) {
+        for (double* entry : {&x_[0], &x_[1], &y_[0], &y_[1]}) *entry /= size;
+    }
+
+private:
+    std::array<double, 2> x_{1.0, 0.0}, y_{0.0, 1.0};
+};
 
 }  // namespace abut::test

@@ -17,6 +17,7 @@
 #include "abut/dynamics/memm.hpp"
 #include "abut/dynamics/memm_async.hpp"
 #include "abut/dynamics/particles.hpp"
+#include "studies/orders/known_motions.hpp"
 #include "support/worst.hpp"
 
 namespace abut::test {
@@ -134,40 +135,10 @@ inline ElasticString string_of(int n) {
     return ElasticString(Values(static_cast<std::size_t>(2 * (n - 1)), 1.0), bonds);
 }
 
-struct State {
-    Values q, p;
-};
-
-/// q and p at `time` by many small steps of the fourth-order Runge-Kutta scheme.
-template <class S>
-State reference_state(S& system, const Values& q_0, const Values& p_0, double time, int steps) {
-    const std::size_t n = q_0.size();
-    const double h = time / steps;
-    Values q = q_0, p = p_0, f(n);
-    const std::span<const double> m = system.inverse_mass();
-    for (int i = 0; i < steps; ++i) {
-        Values dq(n, 0.0), dp(n, 0.0), q_k = q, p_k = p;
-        const double weights[] = {1.0, 2.0, 2.0, 1.0}, next[] = {0.5, 0.5, 1.0, 0.0};
-        for (int k = 0; k < 4; ++k) {
-            system.force(q_k, f);
-            for (std::size_t j = 0; j < n; ++j) {
-                const double v = m[j] * p_k[j];
-                dq[j] += h / 6.0 * weights[k] * v;
-                dp[j] += h / 6.0 * weights[k] * f[j];
-                q_k[j] = q[j] + next[k] * h * v;
-                p_k[j] = p[j] + next[k] * h * f[j];
-            }
-        }
-        for (std::size_t j = 0; j < n; ++j) {
-            q[j] += dq[j];
-            p[j] += dp[j];
-        }
-    }
-    return {q, p};
-}
+/// q at `time` by many small steps of the fourth-order Runge-Kutta scheme.
 template <class S>
 Values reference(S& system, const Values& q_0, const Values& p_0, double time, int steps) {
-    return reference_state(system, q_0, p_0, time, steps).q;
+    return studies::orders::run_by_small_steps(system, q_0, p_0, time, steps).end_q;
 }
 
 inline double distance(std::span<const double> a, std::span<const double> b) {

@@ -27,9 +27,9 @@ struct Bounced {
 };
 
 Bounced bounced(double height, Composition composition, double dt, bool lands) {
-    auto problem = bounce(height, end);
-    Composed integrator(problem.system, problem.q, problem.p, dt, composition);
-    Landing landing(integrator, Events({height_of}, problem.q));
+    auto motion = bounce_motion(height, end);
+    Composed integrator(motion.system, motion.run.q, motion.run.p, dt, composition);
+    Landing landing(integrator, Events({height_of}, motion.run.q));
     std::size_t events = 0;
     while (integrator.time() < end - 1e-12) {
         integrator.set_step(std::min(dt, end - integrator.time()), StepChange::keep);
@@ -39,7 +39,7 @@ Bounced bounced(double height, Composition composition, double dt, bool lands) {
             integrator.step();
         integrator.project();
     }
-    return {problem.error(integrator), events};
+    return {error_of(motion, integrator), events};
 }
 
 /// Root mean square over heights of 1 + 0.013 j.
@@ -62,17 +62,21 @@ TEST_CASE("a ball that bounces is followed with order 4 where steps land at its 
     constexpr Composition composition = Composition::blanes_moan_4;
     const double coarsest = 0.02 * 6.0;
     double last = error(composition, coarsest, true);
-    CHECK(last == Approx(7.2e-5).epsilon(0.1));  // known, found by another program
+    const double plain = error(composition, coarsest, false);
+    CHECK(last < 0.2 * plain);
     for (int k = 1; k <= 4; ++k) {
         const double next = error(composition, coarsest / std::pow(2.0, k), true);
         CHECK(std::log2(last / next) >= 3.8);
         CHECK(std::log2(last / next) <= 4.1);
         last = next;
     }
-    const double plain = error(composition, coarsest, false);
-    CHECK(plain == Approx(7.1e-4).epsilon(0.1));
     CHECK(std::log2(plain / error(composition, coarsest / 32.0, false)) / 5.0 < 3.8);
-    CHECK(error(Composition::blanes_moan_6, 0.02 * 10.0 / 8.0, true) < 2e-10);
+}
+
+TEST_CASE("a composition of order 6 keeps that order through contacts on which its steps land", "[dynamics][landing]") {
+    const double coarse = error(Composition::blanes_moan_6, 0.05, true),
+                 fine = error(Composition::blanes_moan_6, 0.025, true);
+    CHECK(std::log2(coarse / fine) == Approx(6.0).margin(0.3));
 }
 
 TEST_CASE("each contact is found once when it closes and once when it opens, since the side is kept",

@@ -174,6 +174,15 @@ TEST_CASE("check says what a run refuses before its first step, and what it warn
     CHECK(checked.estimate->cell_of_step.find("of body '") != std::string::npos);
 }
 
+TEST_CASE("check refuses times of frames after the end of the run, by number and remedy", "[input][check]") {
+    const WrittenScene late(two_blocks("[output]\ntimes = [0.05, 7]"));
+    const auto checked = input::check_scene(late.path());
+    REQUIRE(checked.faults.size() == 1);
+    CHECK_THAT(input::text_of(checked.faults),
+               Catch::Contains("output.times (--times): number 2 is 7 s, and the run ends at") &&
+                   Catch::Contains("give a later end"));
+}
+
 TEST_CASE("the cell that sets the step is the smallest one, over the median", "[input][check]") {
     // Squares of 1/2, 1/3 and 1/10, of which those of 1/3 are in the middle.
     const WrittenScene file(

@@ -40,7 +40,7 @@ Read read(const std::string& lines) {
 
 TEST_CASE("every option of a table is a key with its kind, unit, default and help", "[input][options]") {
     const auto keys = ground_keys();
-    REQUIRE(keys.size() == 6);
+    REQUIRE(keys.size() == 7);
     const auto check = [](const input::Key<Ground>& key, const char* name, const char* value, const char* unit,
                           const char* by_default) {
         CHECK(key.name == name);
@@ -55,10 +55,12 @@ TEST_CASE("every option of a table is a key with its kind, unit, default and hel
     check(keys[3], "drains", "true, false", "", "true");
     check(keys[4], "grain", "fine, coarse", "", "coarse");
     check(keys[5], "map", "path", "", "nowhere");
+    check(keys[6], "depths", "list of numbers", "m", "");
 }
 
 TEST_CASE("keys of options reach their members", "[input][options]") {
-    const auto [ground, faults] = read("soil_stiffness=1.5\nlayers=9\nis_wet=true\ndrains=false\ngrain='fine'\nmap='here'");
+    const auto [ground, faults] =
+        read("soil_stiffness=1.5\nlayers=9\nis_wet=true\ndrains=false\ngrain='fine'\nmap='here'\ndepths=[0.5, 2]");
     CHECK(faults.empty());
     CHECK(ground.soil.stiffness == 1.5);
     CHECK(ground.soil.layers == 9);
@@ -66,11 +68,13 @@ TEST_CASE("keys of options reach their members", "[input][options]") {
     CHECK_FALSE(ground.soil.drains);
     CHECK(ground.soil.grain == test::Grain::fine);
     CHECK(ground.soil.map == "here");
+    CHECK(ground.soil.depths == std::vector{0.5, 2.0});
 }
 
 TEST_CASE("a key of an option refuses what the table does not allow", "[input][options]") {
     const auto fault = [](const std::string& line) { return read(line).faults.at(0).text; };
     CHECK(fault("soil_stiffness=0") == "soil.soil_stiffness is 0 Pa, above 0 Pa is needed.");
+    CHECK(fault("depths=[2, 1]") == "soil.depths, number 2 is 1 m, after 2 m. Give them in increasing order, each once.");
     CHECK(fault("layers=10") == "soil.layers is 10, 1 to 9 is needed.");
     CHECK(fault("grain='fien'").find("'fine'") != std::string::npos);
     CHECK(fault("drains='off'").find("true or false") != std::string::npos);

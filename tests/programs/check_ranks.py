@@ -14,12 +14,14 @@ import time
 
 OPTIONS = ["--set", "bodies.left.size=0.2", "--set", "bodies.right.size=0.2", "--quiet"]
 MPIRUN = ["mpirun", "--oversubscribe", "--bind-to", "none"] + (["--allow-run-as-root"] if os.geteuid() == 0 else [])
+LISTS = ("rebuilds", "candidates")  # new where cells are shared out again
 AGAIN = ["--rebalance", "20", "--rebalance-above", "1"]  # at each look
 LONG = {"steps": 15000, "frames": 0, "interval": 20}
 
 
-def command(program, scene, folder, *more, steps=150, frames=3, interval=1, threads=1):
-    return [program, "run", scene, *OPTIONS, "--threads", str(threads), "--steps", str(steps), "--frames", str(frames), "--interval", str(interval),
+def command(program, scene, folder, *more, steps=150, frames=3, interval=1, threads=1, times=()):
+    shown = ["--times", ",".join(map(repr, times))] if times else ["--frames", str(frames)]
+    return [program, "run", scene, *OPTIONS, "--threads", str(threads), "--steps", str(steps), *shown, "--interval", str(interval),
             "--animation", str(frames), "--out", str(folder), *more]
 
 
@@ -76,14 +78,13 @@ def end_in_its_midst(words, folder, how=end, code=None):
     assert list(pathlib.Path(folder).glob("checkpoints/*.h5")), "the run had ended before it was stopped: give it more steps"
 
 
-def check_rebalancing(program, scene, folder, lists):
-    """Lists of candidates are new where cells are shared out again."""
+def check_rebalancing(program, scene, folder):
     again = folder / "again"
     subprocess.run(command(program, scene, again, "--ranks", "3", *AGAIN), check=True)
     report = json.loads((again / "summary.json").read_text())["rebalancing"]
     assert report["looks"] == 8 and [one["step"] for one in report["done"]] == [20, 40, 60, 80, 100, 120, 140], report
     assert all(one["imbalance_before"] >= 1 and one["seconds"] > 0 for one in report["done"]), report
-    require_same(files_of(folder / "alone", lists), files_of(again, (*lists, "rebalancing")), "cells shared out again")
+    require_same(files_of(folder / "alone", LISTS), files_of(again, (*LISTS, "rebalancing")), "cells shared out again")
 
 
 def check_pieces(program, scene, folder, expected):
@@ -106,6 +107,23 @@ def check_one_file(program, scene, folder):
     files = files_of(folder / "one")
     assert "bodies.h5" in files and "bodies.xmf" in files, sorted(files)
     require_same(files, files_of(folder / "one_on_2"), "frames in one file")
+
+
+def check_times(program, scene, folder):
+    """Frames at given times, inside of steps while the bodies touch, at the start, at a node and at the end; with friction, and as
+    cells are shared out again. The energies are those of the run without."""
+    summary = json.loads((folder / "alone" / "summary.json").read_text())
+    dt, end = summary["dt"], summary["time"]
+    times = (0.0, 0.3 * dt, 7 * dt, 0.4321 * end, 0.4322 * end, 0.8 * end, end)
+    for choice in ((), ("--law", "pair_potential", "--set", "contact.friction=0.3")):
+        alone, shared = folder / f"times_{len(choice)}", folder / f"times_{len(choice)}_on_3"
+        subprocess.run(command(program, scene, alone, *choice, times=times), check=True)
+        subprocess.run(command(program, scene, shared, *choice, "--ranks", "3", *AGAIN, times=times), check=True)
+        expected, found = files_of(alone, LISTS), files_of(shared, (*LISTS, "rebalancing"))
+        assert sum(name.endswith(".vtu") for name in expected) == len(times), sorted(expected)
+        require_same(expected, found, ("frames at given times", choice))
+        if not choice:
+            assert expected["energy.csv"] == (folder / "alone" / "energy.csv").read_bytes(), "times change the energies"
 
 
 def check_choices(program, scene, folder):
@@ -175,7 +193,8 @@ def main():
         require_same(expected, files_of(folder / "threads"), "2 ranks of 2 threads")
         subprocess.run([*MPIRUN, "-n", "1", *command(program, scene, folder / "mpirun")], check=True)
         require_same(expected, files_of(folder / "mpirun"), "mpirun -n 1")
-        check_rebalancing(program, scene, folder, ("rebuilds", "candidates"))
+        check_rebalancing(program, scene, folder)
+        check_times(program, scene, folder)
         check_pieces(program, scene, folder, expected)
         check_one_file(program, scene, folder)
         check_choices(program, scene, folder)

@@ -45,21 +45,25 @@ TEST_CASE("every option of a table is a flag that help explains with unit, words
     check("--drains", "on|off", "water leaves (default on)");
     check("--grain", "fine|coarse", "size of the grains (default coarse)");
     check("--map", "DIR", "where it lies (default nowhere)");
+    check("--depths", "X[,X...]", "of its layers [m]");
 }
 
 TEST_CASE("flags of options reach their members", "[programs][options]") {
-    const test::Soil soil = parsed("--soil-stiffness 1.5 --soil-layers 9 --is-wet --drains off --grain fine --map here");
+    const test::Soil soil =
+        parsed("--soil-stiffness 1.5 --soil-layers 9 --is-wet --drains off --grain fine --map here --depths 0.5,2");
     CHECK(soil.stiffness == 1.5);
     CHECK(soil.layers == 9);
     CHECK(soil.is_wet);
     CHECK_FALSE(soil.drains);
     CHECK(soil.grain == test::Grain::fine);
     CHECK(soil.map == "here");
+    CHECK(soil.depths == std::vector{0.5, 2.0});
 }
 
 TEST_CASE("a flag takes the units of its dimension, and names them where another one is given", "[programs][options]") {
     CHECK(parsed("--soil-stiffness 3kPa").stiffness == 3000.0);
     CHECK(parsed("--soil-stiffness 2.5N/mm^2").stiffness == 2.5e6);
+    CHECK(parsed("--depths 500mm,2").depths == std::vector{0.5, 2.0});
     CHECK_THROWS_WITH(parsed("--soil-stiffness 3mm"),
                       Contains("--soil-stiffness is '3mm'") && Contains("unit of a length") && Contains("kPa, MPa, GPa"));
     CHECK_THROWS_WITH(parsed("--soil-stiffness 3kpa"), Contains("Did you mean 'kPa'?"));
@@ -70,5 +74,8 @@ TEST_CASE("a flag refuses what the table does not allow", "[programs][options]")
     CHECK_THROWS_WITH(parsed("--soil-stiffness 0"), Contains("0 Pa is not allowed") && Contains("above 0 Pa"));
     CHECK_THROWS_WITH(parsed("--soil-layers 10"), Contains("from 1 to 9"));
     CHECK_THROWS_WITH(parsed("--grain fien"), Contains("fine, coarse"));
+    CHECK_THROWS_WITH(parsed("--depths 1,3,2"), Contains("--depths: number 3 is 2 m, after 3 m"));
+    CHECK_THROWS_WITH(parsed("--depths 0,1"), Contains("0 m is not allowed"));
+    CHECK_THROWS_WITH(parsed("--depths 1,"), Contains("'' is no number"));
     CHECK_THROWS_WITH(parsed("--drains maybe"), Contains("on, off"));
 }

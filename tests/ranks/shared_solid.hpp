@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -16,9 +17,11 @@
 #include "abut/mesh/part.hpp"
 #include "abut/ranks/partition.hpp"
 #include "abut/solid/body_motion.hpp"
+#include "abut/solid/clocked_run.hpp"
 #include "abut/solid/contact_view.hpp"
 #include "abut/solid/part/share_out.hpp"
 #include "abut/solid/solid.hpp"
+#include "abut/solid/stepped_run.hpp"
 #include "ranks/world.hpp"
 
 namespace abut::test {
@@ -32,6 +35,15 @@ ranks::SharedPoints shared_points(const ranks::Communicator& all, const mesh::Me
                                   std::span<const solid::Kinematics> kinematics) {
     const solid::PartPoints points = solid::points_of<Dim>(part, kinematics);
     return ranks::shared_points(all, Dim, points.n_points, points.number, points.owner);
+}
+
+/// Values of points with these numbers among those by point of the whole (n_points, Dim).
+template <int Dim>
+std::vector<double> own_values(std::span<const std::int32_t> numbers, std::span<const double> of_all) {
+    std::vector<double> values;
+    for (const std::int32_t number : numbers)
+        for (int k = 0; k < Dim; ++k) values.push_back(of_all[static_cast<std::size_t>(number * Dim + k)]);
+    return values;
 }
 
 /// The part of a rank, with all that its solid needs.
@@ -52,10 +64,37 @@ struct SharedSolid {
 
     /// What this rank has of values by point of the whole (n_points, Dim).
     [[nodiscard]] std::vector<double> own(std::span<const double> of_all) const {
-        std::vector<double> values;
-        for (const std::int32_t number : points.numbers())
-            for (int k = 0; k < Dim; ++k) values.push_back(of_all[static_cast<std::size_t>(number * Dim + k)]);
-        return values;
+        return own_values<Dim>(points.numbers(), of_all);
+    }
+};
+
+/// A solid under its own clock, all of it or the part of a rank; two bodies move towards each other.
+template <int Dim>
+struct ClockedPart {
+    std::optional<mesh::MeshPart<Dim>> part;
+    std::optional<ranks::PointRanks> points;
+    solid::SteppedRun<Dim> run;
+    solid::ClockedRun<Dim> clock{run};
+
+    ClockedPart(const mesh::Mesh<Dim>& whole, const solid::SolidOptions<Dim>& options)
+        : run(made(std::make_unique<solid::Solid<Dim>>(whole, options))) {}
+    ClockedPart(const ranks::Communicator& all, const mesh::Mesh<Dim>& whole, const solid::SolidOptions<Dim>& options,
+                std::span<const int> owner)
+        : part(solid::part_of<Dim>(whole, owner, all.rank(), options.kinematics)),
+          points(std::in_place, all, shared_points<Dim>(all, *part, options.kinematics)),
+          run(made(std::make_unique<solid::Solid<Dim>>(part->mesh, options, *points))) {}
+
+    /// Those of this rank among values by point of the whole.
+    [[nodiscard]] std::vector<double> own(std::span<const double> of_all) const {
+        return own_values<Dim>(points->numbers(), of_all);
+    }
+
+private:
+    static solid::SteppedRun<Dim> made(std::unique_ptr<solid::Solid<Dim>> solid) {
+        const std::vector<Vector<Dim>> velocity{0.04 * Vector<Dim>::Unit(0), -0.04 * Vector<Dim>::Unit(0)};
+        const std::vector<double> p = solid::uniform_momentum<Dim>(*solid, velocity), q(p.size(), 0.0);
+        const double stable = dynamics::stable_step(*solid).dt;
+        return {std::move(solid), q, p, std::isinf(stable) ? 0.01 : 0.9 * stable, {.filter = true, .restart = 7}};
     }
 };
 

@@ -313,6 +313,42 @@ TEST_CASE("a temperature that strains too much in a cell of one rank is refused 
                       Catch::Contains("K warmer") && Catch::Contains("a thermal strain of 0.2"));
 }
 
+TEMPLATE_TEST_CASE_SIG("a solid at dictated times has the bits of one rank, also where a step is taken again",
+                       "[ranks][solid][contact][clock]", ((int Dim), Dim), 2, 3) {
+    const ranks::Communicator all = test::world();
+    const auto mesh = two_round_bodies<Dim>();
+    solid::SolidOptions<Dim> options;
+    options.materials = {steel, {.young = 1.0, .poisson = 0.2, .density = 1.0}};
+    options.kinematics.assign(2, GENERATE(solid::Kinematics::small, solid::Kinematics::floating, solid::Kinematics::finite,
+                                          solid::Kinematics::rigid));
+    options.contact = contact::ContactOptions{};
+    options.friction.coefficient = 0.2;
+    test::ClockedPart<Dim> alone(mesh, options), shared(all, mesh, options, parts(all, mesh));
+    const auto check = [&] {
+        REQUIRE(shared.clock.time() == alone.clock.time());
+        REQUIRE(shared.clock.time_to_node() == alone.clock.time_to_node());
+        REQUIRE(everywhere(all, test::same_bits(shared.own(alone.clock.q()), shared.clock.q())));
+    };
+    const double dt = alone.run.memm().dt();
+    for (int i = 0; i < 100; ++i) {
+        const double d = (0.1 + 0.37 * (i % 7)) * dt;
+        for (test::ClockedPart<Dim>* one : {&alone, &shared}) {
+            if (i % 10 == 5) {
+                const auto before = one->clock.state();
+                one->clock.advance(1.9 * dt);
+                one->clock.restore(before);
+            }
+            one->clock.advance(d);
+        }
+        check();
+    }
+    CHECK(alone.run.solid().contact().report().active_pairs_max > 0);
+    CHECK(alone.run.solid().state() == shared.run.solid().state());
+    if (all.size() == 1) return;
+    CHECK_THROWS_WITH(shared.clock.advance((1.0 + all.rank()) * dt), Catch::Contains("Give the same on all of them"));
+    check();
+}
+
 TEST_CASE("what is not made for ranks yet is refused by name", "[ranks][solid]") {
     const ranks::Communicator all = test::world();
     const auto mesh = bar<2>(mesh::CellShape::triangle);

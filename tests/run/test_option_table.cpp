@@ -31,6 +31,8 @@ OptionValue another(const OptionFacts& option, const OptionValue& by_default) {
             return std::isfinite(above) && std::isfinite(below) ? 0.75 * above + 0.25 * below
                                                                 : (std::isfinite(above) ? above : 0.0) + 7.25;
         }
+        case OptionKind::numbers:
+            return std::vector{option.limits.above + 1.5, option.limits.above + 2.0};
         case OptionKind::word:
             return text_of(by_default) == option.words.front() ? option.words.back() : option.words.front();
         case OptionKind::path:
@@ -117,6 +119,14 @@ TEST_CASE("a value that a table does not allow is refused with its name, the val
     CHECK_THROWS_WITH(refused(), "soil: soil_layers is 10; 1 to 9 is needed, 3 is the default.");
     soil = {.grain = static_cast<test::Grain>(5)};
     CHECK_THROWS_WITH(refused(), "soil: grain is 5; 0 (fine) and 1 (coarse) are allowed.");
+    soil = {.depths = {0.5, 2.0, 1.0}};
+    CHECK_THROWS_WITH(refused(), "soil: depths: number 3 is 1 m, after 2 m. Give them in increasing order, each once.");
+    soil = {.depths = {1.0, 1.0}};
+    CHECK_THROWS_WITH(refused(), "soil: depths: number 2 is 1 m, after 1 m. Give them in increasing order, each once.");
+    soil = {.depths = {-1.0, 1.0}};
+    CHECK_THROWS_WITH(refused(), "soil: depths: number 1 is -1 m; above 0 m is needed.");
+    soil = {.depths = {1.0, std::numeric_limits<double>::infinity()}};
+    CHECK_THROWS_WITH(refused(), "soil: depths: number 2 is inf m; above 0 m is needed.");
 }
 
 TEST_CASE("limits of numbers are open or closed as they say, and infinity is allowed where they say so", "[run][options]") {
@@ -142,6 +152,9 @@ TEST_CASE("a summary names options always, where they are changed, or with their
     CHECK(names("memm") == std::vector<std::string>{"soil_stiffness", "soil_layers", "drains", "grain"});
     soil.is_wet = true;
     CHECK(names("leapfrog") == std::vector<std::string>{"soil_stiffness", "is_wet", "drains", "grain"});
+    soil.depths = {0.5, 2.0};
+    CHECK(run::named_values(test::soil_options(), soil, "leapfrog").back().value == run::Value(std::vector{0.5, 2.0}));
+    soil.depths.clear();
     const run::NamedValues values = run::named_values(test::soil_options(), soil, "memm");
     CHECK(values[0].value == run::Value(2.5));
     CHECK(values[1].value == run::Value(std::int64_t{3}));

@@ -55,8 +55,8 @@ struct Seen : run::Observer<2> {
     std::vector<std::vector<double>> q_of_nodes, q, p;
 };
 
-Seen seen(run::Scene<2> scene, std::vector<double> times, run::RunOptions options = {}) {
-    scene.outputs.times = std::move(times);
+Seen seen(const run::Scene<2>& scene, std::vector<double> times, run::RunOptions options = {}) {
+    options.times = std::move(times);
     Seen seen;
     static_cast<void>(run::simulate<2>(scene, options, seen));
     return seen;
@@ -121,11 +121,11 @@ TEST_CASE("at a press that moves at constant speed gap and pressure are those of
     scene.solid.obstacles = {contact::plane_obstacle<2>({1.01, 0.25}, -Vector<2>::UnitX(), 2.0, path)};
     scene.velocity = {Vector<2>::Zero()};
     scene.time = 1.5;
-    for (int k = 1; k < 97; ++k) scene.outputs.times.push_back(0.0155 * k);
+    run::RunOptions options{.integrator = GENERATE(run::SolidIntegrator::memm, run::SolidIntegrator::leapfrog)};
+    for (int k = 1; k < 97; ++k) options.times.push_back(0.0155 * k);
     Press press;
-    static_cast<void>(run::simulate<2>(
-        scene, {.integrator = GENERATE(run::SolidIntegrator::memm, run::SolidIntegrator::leapfrog)}, press));
-    REQUIRE(press.times == scene.outputs.times);
+    static_cast<void>(run::simulate<2>(scene, options, press));
+    REQUIRE(press.times == options.times);
     double stiffness = 0.0;
     for (std::size_t k = 0; k < press.times.size(); ++k) {
         CAPTURE(press.times[k]);
@@ -155,11 +155,11 @@ TEST_CASE("a last time at the end of a run is shown, though the sum of many step
     struct AtTimes : Seen {
         [[nodiscard]] bool wants_look(std::int64_t step) const override { return step == 100000; }
     } found;
-    scene.outputs.times = {0.5, 1.0};
-    static_cast<void>(run::simulate<2>(scene, {.dt = 1e-5}, found));
+    const run::RunOptions options{.dt = 1e-5, .times = {0.5, 1.0}};
+    static_cast<void>(run::simulate<2>(scene, options, found));
     REQUIRE(found.nodes.size() == 1);
     CHECK(found.nodes[0] < 1.0 - 1e-12);
-    CHECK(found.times == scene.outputs.times);
+    CHECK(found.times == options.times);
     CHECK(found.q.back() == found.q_of_nodes[0]);
 }
 
@@ -169,11 +169,11 @@ TEST_CASE("a run that goes on from a checkpoint shows the times after it, as the
         void keep(const run::Checkpoint& checkpoint) override { kept = checkpoint; }
         run::Checkpoint kept;
     } whole;
-    run::Scene<2> scene = two_blocks(solid::Kinematics::small, false);
-    scene.outputs.times = some_times;
-    static_cast<void>(run::simulate<2>(scene, {}, whole));
+    const run::Scene<2> scene = two_blocks(solid::Kinematics::small, false);
+    const run::RunOptions options{.times = some_times};
+    static_cast<void>(run::simulate<2>(scene, options, whole));
     Seen rest;
-    static_cast<void>(run::simulate<2>(scene, {}, rest, &whole.kept));
+    static_cast<void>(run::simulate<2>(scene, options, rest, &whole.kept));
     const auto n = static_cast<std::ptrdiff_t>(rest.times.size());
     REQUIRE(n > 0);
     REQUIRE(rest.times.front() > whole.kept.motion.time);
@@ -183,11 +183,11 @@ TEST_CASE("a run that goes on from a checkpoint shows the times after it, as the
 }
 
 TEST_CASE("a frame is written for each time, in place of those that are equally far apart", "[run][output_times]") {
-    run::Scene<2> scene = two_blocks(solid::Kinematics::small, false);
-    scene.outputs.times = {0.0, 0.123, 1.0};
+    const run::Scene<2> scene = two_blocks(solid::Kinematics::small, false);
     const auto format = GENERATE(run::FrameFormat::vtu, run::FrameFormat::xdmf);
     const test::Folder folder;
-    const run::RunOptions options{.out = folder.path(), .frames = GENERATE(0, 21), .format = format};
+    const run::RunOptions options{
+        .out = folder.path(), .frames = GENERATE(0, 21), .times = {0.0, 0.123, 1.0}, .format = format};
     run::ResultFiles<2> files(options, "mine", "bodies");
     run::RunResult<2> result = run::simulate<2>(scene, options, files);
     files.finish(scene, result);

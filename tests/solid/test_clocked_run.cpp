@@ -106,6 +106,27 @@ TEMPLATE_TEST_CASE_SIG("without loads the nodes have the same bits, whatever tim
     CHECK(dictated.run->solid().contact().report().active_pairs_max > 0);
 }
 
+TEST_CASE("tractions that stay act as they are, to the bit, whatever times are dictated", "[solid][clock]") {
+    const Kinematics kinematics = GENERATE(Kinematics::small, Kinematics::floating, Kinematics::finite, Kinematics::rigid);
+    const LoadImpulse impulse = GENERATE(LoadImpulse::as_given, LoadImpulse::trapezoid);
+    CAPTURE(static_cast<int>(kinematics), static_cast<int>(impulse));
+    Blocks<2> stepped(kinematics), dictated(kinematics);
+    solid::ClockedRun<2> clock(*dictated.run, impulse);
+    const auto amount = random_between(-0.01, 0.01, 8);
+    std::vector<Vector<2>> traction(stepped.n_faces());
+    for (Vector<2>& t : traction) t = Vector<2>(amount(), amount());
+    stepped.run->solid().set_traction(loaded, traction);
+    clock.set_traction(loaded, traction);
+    const auto factor = random_between(0.01, 2.5, 9);
+    for (int i = 0; i < 100; ++i) {
+        clock.advance(factor() * dictated.run->memm().dt());
+        while (stepped.run->memm().steps() < dictated.run->memm().steps()) stepped.run->step();
+        REQUIRE(std::ranges::equal(stepped.run->memm().q(), dictated.run->memm().q()));
+        REQUIRE(std::ranges::equal(stepped.run->memm().p_after(), dictated.run->memm().p_after()));
+    }
+    CHECK(stepped.run->memm().steps() > 50);
+}
+
 TEMPLATE_TEST_CASE_SIG("the work of loads that change at dictated times is their traction times the motion of faces",
                        "[solid][clock]", ((int Dim), Dim), 2, 3) {
     const Kinematics kinematics = GENERATE(Kinematics::small, Kinematics::floating, Kinematics::finite, Kinematics::rigid);

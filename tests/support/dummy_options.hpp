@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <filesystem>
+#include <vector>
 
 #include "abut/base/option.hpp"
 
@@ -17,6 +18,7 @@ struct Soil {
     bool drains = true;
     Grain grain = Grain::coarse;
     std::filesystem::path map;
+    std::vector<double> depths;  ///< [m]
 };
 
 inline const OptionList<Soil>& soil_options() {
@@ -34,7 +36,9 @@ inline const OptionList<Soil>& soil_options() {
             option("is_wet", &Soil::is_wet, {.help = "it has rained", .named = Named::changed}),
             option("drains", &Soil::drains, {.help = "water leaves", .is_switch = true}),
             choice("grain", &Soil::grain, grain_words, {.help = "size of the grains"}),
-            option("map", &Soil::map, {.help = "where it lies", .by_default = "nowhere", .named = Named::never})};
+            option("map", &Soil::map, {.help = "where it lies", .by_default = "nowhere", .named = Named::never}),
+            option("depths", &Soil::depths,
+                   {.help = "of its layers", .limits = {.unit = "m", .above = 0.0}, .named = Named::changed})};
         for (Option<Soil>& one : made) one.table = "soil", one.group = "Soil";
         return made;
     }();
