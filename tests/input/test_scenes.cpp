@@ -47,7 +47,7 @@ TEST_CASE("every scene of the project has no fault, starts, and keeps its pseudo
         file.dimension() == 2 ? run_some_steps<2>(file) : run_some_steps<3>(file);
         ++n;
     }
-    CHECK(n == 49);
+    CHECK(n == 50);
 }
 
 TEST_CASE(
