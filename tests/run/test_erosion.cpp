@@ -1,12 +1,14 @@
 // Cells that leave a run of a scene.
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <filesystem>
 #include <numbers>
 #include <optional>
 #include <string>
 
 #include "abut/base/error.hpp"
 #include "abut/mesh/shapes/shapes.hpp"
+#include "abut/run/files/probes.hpp"
 #include "abut/run/report/result_files.hpp"
 #include "abut/run/steps/simulation.hpp"
 #include "abut/run/words/summary.hpp"
@@ -122,6 +124,49 @@ private:
     std::int64_t step_;
 };
 
+/// Asks to stop after some step.
+class StopAfter : public run::Observer<2> {
+public:
+    explicit StopAfter(std::int64_t step) : step_(step) {}
+    void look(const dynamics::RunView<2>& view, solid::Solid<2>&) override { now_ = view.steps + 1; }
+    [[nodiscard]] bool asks_to_stop() const override { return now_ == step_; }
+
+private:
+    std::int64_t step_;
+    std::int64_t now_ = 0;
+};
+
+/// The first and the last values of the probes of a scene.
+class Probing : public run::Observer<2> {
+public:
+    void begin(const run::Scene<2>& scene, const run::RunResult<2>& result) override {
+        probes_ = run::Probes<2>(scene, result);
+    }
+    void cells_left(const solid::Solid<2>&, std::span<const std::int32_t> first_cells) override {
+        probes_.take_cells(first_cells);
+    }
+    void look(const dynamics::RunView<2>& run, solid::Solid<2>& solid) override {
+        last = probes_.values(run, solid);
+        if (run.steps == 0) first = last;
+        time = run.time;
+    }
+
+    std::vector<std::vector<double>> first, last;
+    double time = 0.0;  // of the last ones [s]
+
+private:
+    run::Probes<2> probes_;
+};
+
+/// With probes at the plate and of all of it.
+run::Scene<2> watched_block_and_plate() {
+    run::Scene<2> scene = block_and_plate<2>(Kinematics::small);
+    scene.outputs.probes = {{.name = "middle", .body = 1, .position = Vector<2>(0.5 * h, 0.5 * h)},
+                            {.name = "plate", .body = 1}};
+    scene.outputs.forces = true;
+    return scene;
+}
+
 template <int Dim>
 std::string said(const run::Scene<Dim>& scene, const run::RunOptions& options) {
     try {
@@ -204,6 +249,9 @@ TEMPLATE_TEST_CASE_SIG("a block goes through a plate, and energy and momentum ar
     const run::Scene<Dim> scene = block_and_plate<Dim>(kinematics);
     const run::RunResult<Dim> result = run::simulate<Dim>(scene);
     check_balance(result);
+    if (kinematics == Kinematics::finite)  // nothing has directions of its own in space
+        CHECK(result.ledger.pseudo_angular_momentum_drift() <=
+              1e-13 * result.moment_scale * std::sqrt(result.accounts.energy_in_play));
     CHECK(result.erosion.cells.size() > 4);
     CHECK(result.end[0].velocity[0] > 0.0);
     CHECK(result.end[0].velocity[0] < 0.3);
@@ -232,6 +280,70 @@ TEMPLATE_TEST_CASE_SIG("a run that goes on after cells have left is bitwise that
     }
     REQUIRE(rest.ledger.entries().size() == whole.ledger.entries().size());
     CHECK(dynamics::ledger_values(rest.ledger.entries().back()) == dynamics::ledger_values(whole.ledger.entries().back()));
+}
+
+TEST_CASE("files of a run that was stopped after cells had left are those of the run that was not", "[run][erosion]") {
+    const test::Folder folder;
+    const run::Scene<2> scene = watched_block_and_plate();
+    run::RunOptions options{.interval = 10, .frames = 6, .animation = 5};
+    options.format = GENERATE(run::FrameFormat::vtu, run::FrameFormat::xdmf);
+    const auto go = [&](const std::string& name, std::int64_t stop_after) {
+        options.out = folder.path() / name;
+        run::ResultFiles<2> files(options, "erosion", "bodies");
+        StopAfter stop(stop_after);
+        run::Observers<2> observers{files, stop};
+        std::optional<run::Checkpoint> from;
+        if (options.resume) from = files.last_checkpoint().checkpoint;
+        run::RunResult<2> result = run::simulate<2>(scene, options, observers, from ? &*from : nullptr);
+        files.finish(scene, result);
+        return result;
+    };
+    const run::RunResult<2> whole = go("whole", -1);
+    const std::int64_t first = whole.erosion.cells.front().step, last = whole.erosion.cells.back().step;
+    REQUIRE(first < last);
+    CHECK_FALSE(go("in_parts", (first + last) / 2).complete);
+    options.resume = true;
+    CHECK_FALSE(go("in_parts", last + 5).complete);
+    CHECK(go("in_parts", -1).complete);
+    int n_compared = 0;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder.path() / "whole")) {
+        const std::string extension = entry.path().extension().string();
+        if (extension != ".csv" && extension != ".vtu" && extension != ".xmf" && extension != ".html") continue;
+        if (entry.path().filename() == "report.html") continue;  // with times
+        CAPTURE(entry.path());
+        const auto other = folder.path() / "in_parts" / std::filesystem::relative(entry.path(), folder.path() / "whole");
+        CHECK((test::read_text(entry.path()) == test::read_text(other)));
+        ++n_compared;
+    }
+    CHECK(n_compared >= 5);
+}
+
+TEST_CASE("a probe of a body is the mean over what is left, and one at a place is none once its cell has left",
+          "[run][erosion]") {
+    const test::Folder folder;
+    run::Scene<2> scene = bar<2>(12, Kinematics::small);
+    scene.velocity = {Vector<2>(0.1, 0.0)};
+    scene.time = 0.5;
+    const Vector<2> place(6.5 * h, 1.5 * h), other(3.5 * h, 1.5 * h);
+    scene.outputs.probes = {{.name = "place", .body = 0, .position = place},
+                            {.name = "other", .body = 0, .position = other},
+                            {.name = "bar", .body = 0}};
+    scene.leaving = [&](const dynamics::RunView<2>& run, solid::Solid<2>& solid) {
+        std::vector<std::int32_t> cells;
+        for (std::int32_t c = 0; run.steps == 3 && c < solid.mesh().n_cells(); ++c)
+            if ((solid.mesh().cell_centroid[static_cast<std::size_t>(c)] - place).norm() < 0.1 * h) cells.push_back(c);
+        return cells;
+    };
+    Probing probing;
+    const run::RunResult<2> result = run::simulate<2>(scene, {}, probing);
+    REQUIRE(result.erosion.cells.size() == 1);
+    REQUIRE(probing.last.size() == 3);
+    CHECK(std::isnan(probing.last[0][0]));
+    CHECK(probing.first[0][2] == Approx(0.1).epsilon(1e-13));  // its velocity along x
+    for (const std::size_t probe : {1, 2}) {
+        CHECK(probing.last[probe][0] == Approx(0.1 * probing.time).epsilon(1e-12));
+        CHECK(probing.last[probe][2] == Approx(0.1).epsilon(1e-12));
+    }
 }
 
 TEST_CASE("cells leave that a function names, and with them those that are too thin to be left", "[run][erosion]") {
