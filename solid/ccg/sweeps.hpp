@@ -210,7 +210,7 @@ private:
     void load_displacement(std::span<const Vector<Dim>> u);
     void reconstruct_chunk(std::int32_t k);
     void displacement_gradients_of_chunk(std::int32_t k);
-    void bound_strains_of_chunk(std::int32_t k);
+    [[nodiscard]] double largest_strain_of_chunk(std::int32_t k) const;
     void stresses_of_chunk(std::int32_t k);
     void face_gradients_of_chunk(std::int32_t k);
     void cell_gradients_of_chunk(std::int32_t k, std::span<Vector<Dim>> result) const;
