@@ -125,9 +125,9 @@ private:
 };
 
 /// Asks to stop after some step.
-class StopAfter : public run::Observer<2> {
+class StopAtStep : public run::Observer<2> {
 public:
-    explicit StopAfter(std::int64_t step) : step_(step) {}
+    explicit StopAtStep(std::int64_t step) : step_(step) {}
     void look(const dynamics::RunView<2>& view, solid::Solid<2>&) override { now_ = view.steps + 1; }
     [[nodiscard]] bool asks_to_stop() const override { return now_ == step_; }
 
@@ -168,7 +168,7 @@ run::Scene<2> watched_block_and_plate() {
 }
 
 template <int Dim>
-std::string said(const run::Scene<Dim>& scene, const run::RunOptions& options) {
+std::string message_of(const run::Scene<Dim>& scene, const run::RunOptions& options) {
     try {
         static_cast<void>(run::simulate<Dim>(scene, options));
     } catch (const Error& error) {
@@ -290,7 +290,7 @@ TEST_CASE("files of a run that was stopped after cells had left are those of the
     const auto go = [&](const std::string& name, std::int64_t stop_after) {
         options.out = folder.path() / name;
         run::ResultFiles<2> files(options, "erosion", "bodies");
-        StopAfter stop(stop_after);
+        StopAtStep stop(stop_after);
         run::Observers<2> observers{files, stop};
         std::optional<run::Checkpoint> from;
         if (options.resume) from = files.last_checkpoint().checkpoint;
@@ -368,13 +368,14 @@ TEST_CASE("cells leave that a function names, and with them those that are too t
     CHECK(result.end[0].velocity[0] == Approx(0.1).epsilon(1e-13));
 
     scene.leaving = [](const dynamics::RunView<2>&, solid::Solid<2>&) { return std::vector<std::int32_t>{36}; };
-    CHECK_THAT(said(scene, {}), Catch::Contains("lets cell 36 leave, counted from 0, of 36 cells"));
+    CHECK_THAT(message_of(scene, {}), Catch::Contains("lets cell 36 leave, counted from 0, of 36 cells"));
     scene.leaving = [](const dynamics::RunView<2>& run, solid::Solid<2>& solid) {
         std::vector<std::int32_t> all;
         for (std::int32_t c = 0; run.steps == 2 && c < solid.mesh().n_cells(); ++c) all.push_back(c);
         return all;
     };
-    CHECK_THAT(said(scene, {}), Catch::Contains("step 2,") && Catch::Contains("all that is left of body 'bar' leaves"));
+    CHECK_THAT(message_of(scene, {}),
+               Catch::Contains("step 2,") && Catch::Contains("all that is left of body 'bar' leaves"));
 }
 
 TEST_CASE("a run says how much has left, and warns above a hundredth", "[run][erosion]") {

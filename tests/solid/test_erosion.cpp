@@ -15,14 +15,14 @@ using solid::ErosionLimits;
 using solid::LeavingReason;
 
 template <int Dim>
-mesh::Mesh<Dim> block(const std::array<int, Dim>& n, CellShape shape) {
+mesh::Mesh<Dim> box_of(const std::array<int, Dim>& n, CellShape shape) {
     Vector<Dim> upper;
     for (int i = 0; i < Dim; ++i) upper[i] = n[static_cast<std::size_t>(i)];
     return mesh::structured_box<Dim>(Vector<Dim>::Zero(), upper, n, shape, "block");
 }
 
 template <int Dim>
-SolidOptions<Dim> elastic(Kinematics kinematics) {
+SolidOptions<Dim> plain_elastic(Kinematics kinematics) {
     SolidOptions<Dim> options;
     options.materials = {{.young = 2.0, .poisson = 0.25, .density = 1.0}};
     options.kinematics = {kinematics};
@@ -43,8 +43,8 @@ std::vector<LeavingReason> reasons_inside(const Matrix<Dim>& g, Kinematics kinem
     constexpr int n = 6;
     std::array<int, Dim> counts;
     counts.fill(n);
-    const mesh::Mesh<Dim> mesh = block<Dim>(counts, shape);
-    SolidOptions<Dim> options = elastic<Dim>(kinematics);
+    const mesh::Mesh<Dim> mesh = box_of<Dim>(counts, shape);
+    SolidOptions<Dim> options = plain_elastic<Dim>(kinematics);
     options.erosion = {limits};
     Solid<Dim> solid(mesh, options);
     std::vector<Vector<Dim>> u;
@@ -57,7 +57,7 @@ std::vector<LeavingReason> reasons_inside(const Matrix<Dim>& g, Kinematics kinem
 }
 
 template <int Dim>
-Matrix<Dim> some_gradient() {
+Matrix<Dim> tested_gradient() {
     Matrix<Dim> g = Matrix<Dim>::Zero();
     g(0, 0) = 0.01;
     g(0, 1) = 0.006;
@@ -75,7 +75,7 @@ TEMPLATE_TEST_CASE_SIG("cells leave where their largest principal strain or stre
     const auto shape = GENERATE_COPY(Dim == 2 ? CellShape::quadrangle : CellShape::hexahedron,
                                      Dim == 2 ? CellShape::triangle : CellShape::tetrahedron);
     CAPTURE(static_cast<int>(kinematics), static_cast<int>(shape));
-    Matrix<Dim> g = some_gradient<Dim>();
+    Matrix<Dim> g = tested_gradient<Dim>();
     if (kinematics == Kinematics::floating) g = 0.5 * (g + g.transpose());  // without a turn of its frame
     const Matrix<Dim> f = Matrix<Dim>::Identity() + g, green = 0.5 * (f.transpose() * f - Matrix<Dim>::Identity()),
                       linear = 0.5 * (g + g.transpose());
@@ -131,9 +131,9 @@ TEMPLATE_TEST_CASE_SIG("across a gap that cells have left nothing is reconstruct
     std::array<int, Dim> counts;
     counts.fill(3);
     counts[0] = n;
-    const mesh::Mesh<Dim> mesh = block<Dim>(counts, shape);
+    const mesh::Mesh<Dim> mesh = box_of<Dim>(counts, shape);
     const auto is_left = [](const Vector<Dim>& x) { return x[0] < 0.5 * n; };
-    ChangingRun<Dim> run(mesh, elastic<Dim>(kinematics),
+    ChangingRun<Dim> run(mesh, plain_elastic<Dim>(kinematics),
                          {moving<Dim>(0.01 * Vector<Dim>::Unit(0), AxialVector<Dim>::Constant(0.002))});
     run.run(20);
     std::vector<std::int32_t> gap;
@@ -168,8 +168,8 @@ TEMPLATE_TEST_CASE_SIG("across a gap that cells have left nothing is reconstruct
 TEST_CASE("what is too thin to be reconstructed is a remnant: cells that are alone, and rows of bricks",
           "[solid][erosion]") {
     const auto remnants = [](CellShape shape, const auto& leaves) {
-        const mesh::Mesh<2> mesh = block<2>({8, 6}, shape);
-        const Solid<2> solid(mesh, elastic<2>(Kinematics::small));
+        const mesh::Mesh<2> mesh = box_of<2>({8, 6}, shape);
+        const Solid<2> solid(mesh, plain_elastic<2>(Kinematics::small));
         std::vector<std::int32_t> leaving;
         std::vector<double> places;
         for (std::int32_t c = 0; c < mesh.n_cells(); ++c)
@@ -190,7 +190,7 @@ TEST_CASE("what is too thin to be reconstructed is a remnant: cells that are alo
 TEST_CASE("limits of erosion are refused by name where they are none, and of bodies that do not deform",
           "[solid][erosion][errors]") {
     const auto said = [](const SolidOptions<2>& options) {
-        const mesh::Mesh<2> mesh = block<2>({3, 3}, CellShape::quadrangle);
+        const mesh::Mesh<2> mesh = box_of<2>({3, 3}, CellShape::quadrangle);
         try {
             const Solid<2> solid(mesh, options);
         } catch (const BadInput& error) {
@@ -198,7 +198,7 @@ TEST_CASE("limits of erosion are refused by name where they are none, and of bod
         }
         return std::string();
     };
-    SolidOptions<2> options = elastic<2>(Kinematics::small);
+    SolidOptions<2> options = plain_elastic<2>(Kinematics::small);
     options.erosion = {{.strain = 0.1}};
     CHECK(said(options).empty());
     options.erosion = {{.strain = 0.1}, {}};
