@@ -36,6 +36,11 @@ void for_each_value(Entry& entry, const Visit& visit) {
     visit_vector(entry.pseudo_angular_momentum);
     visit_all(entry.dissipated, entry.friction_energy, entry.sticking_faces, entry.sliding_faces);
     for (const Loss& loss : all_losses) visit(entry.losses.*loss.of);
+    auto& eroded = entry.eroded;
+    visit_all(eroded.cells, eroded.mass, eroded.kinetic, eroded.potential);
+    visit_vector(eroded.momentum);
+    visit_vector(eroded.rest_angular_momentum);
+    visit_vector(eroded.pseudo_angular_momentum);
 }
 
 /// Sum of term(i) over all points of a run.
@@ -58,6 +63,10 @@ std::vector<std::string> ledger_columns() {
     append_names<Dim>(names, "pseudo_angular_momentum", n_rotations<Dim>);
     names.insert(names.end(), {"dissipated", "friction_energy", "sticking_faces", "sliding_faces"});
     for (const Loss& loss : all_losses) names.emplace_back(loss.name);
+    names.insert(names.end(), {"eroded_cells", "eroded_mass", "eroded_kinetic", "eroded_potential"});
+    append_names<Dim>(names, "eroded_momentum", Dim);
+    append_names<Dim>(names, "eroded_rest_angular_momentum", n_rotations<Dim>);
+    append_names<Dim>(names, "eroded_pseudo_angular_momentum", n_rotations<Dim>);
     return names;
 }
 
@@ -118,15 +127,18 @@ void Ledger<Dim>::record(const LedgerEntry<Dim>& entry) {
     const LedgerEntry<Dim>& first = entries_.front();
     const auto raise = [](double& so_far, double value) { so_far = larger(so_far, value); };
     const auto kept = [](const LedgerEntry<Dim>& e) { return e.pseudo_energy - e.received(); };
-    const auto true_energy = [](const LedgerEntry<Dim>& e) { return e.energy - e.work + e.dissipated; };
+    const auto true_energy = [](const LedgerEntry<Dim>& e) { return e.energy - e.work + e.dissipated + e.eroded.energy(); };
+    const Left<Dim>& eroded = entry.eroded;
+    const AngularMomentum<Dim> pseudo = eroded.pseudo_angular_momentum;
     raise(pseudo_energy_drift_, std::abs(kept(entry) - kept(first)));
     raise(energy_drift_, std::abs(true_energy(entry) - true_energy(first)));
     raise(energy_excess_, entry.energy - entry.pseudo_energy);
     raise(parasitic_, entry.parasitic);
-    raise(momentum_drift_, (entry.linear_momentum - first.linear_momentum).norm());
-    raise(angular_momentum_drift_, (entry.angular_momentum - first.angular_momentum).norm());
-    raise(rest_angular_momentum_drift_, (entry.rest_angular_momentum - first.rest_angular_momentum).norm());
-    raise(pseudo_angular_momentum_drift_, (entry.pseudo_angular_momentum - first.pseudo_angular_momentum).norm());
+    raise(momentum_drift_, (entry.linear_momentum + eroded.momentum - first.linear_momentum).norm());
+    raise(angular_momentum_drift_, (entry.angular_momentum + pseudo - first.angular_momentum).norm());
+    raise(rest_angular_momentum_drift_,
+          (entry.rest_angular_momentum + eroded.rest_angular_momentum - first.rest_angular_momentum).norm());
+    raise(pseudo_angular_momentum_drift_, (entry.pseudo_angular_momentum + pseudo - first.pseudo_angular_momentum).norm());
     raise(rotation_, entry.rotation);
     for (const double energy : {entry.energy, entry.kinetic, entry.potential}) raise(largest_energy_, std::abs(energy));
 }

@@ -6,6 +6,7 @@
 
 #include "abut/base/vector.hpp"
 #include "abut/dynamics/integrator.hpp"
+#include "abut/dynamics/left.hpp"
 #include "abut/dynamics/losses.hpp"
 #include "abut/dynamics/point_system.hpp"
 
@@ -57,10 +58,11 @@ struct LedgerEntry {
     std::int64_t sticking_faces;  ///< in the last step
     std::int64_t sliding_faces;   ///< the same
     Losses losses;                ///< `dissipated` by kind
+    Left<Dim> eroded;             ///< that cells have taken along which have left so far
 
     /// Energy that H~ has received since the start: work and jumps of restarts, less dissipation by friction and
-    /// materials [J].
-    [[nodiscard]] double received() const { return work + restart_jumps - dissipated; }
+    /// materials, and less what cells that left took along [J].
+    [[nodiscard]] double received() const { return work + restart_jumps - dissipated - eroded.energy(); }
 };
 
 /// Names of the columns of an entry, in its order; vectors by component (linear_momentum_x, ...).
@@ -125,12 +127,13 @@ void add_motion(LedgerEntry<Dim>& entry, const RunView<Dim>& run, std::span<cons
 }  // namespace detail
 
 /// Measures the present state; costs about two force evaluations. `system` is that of the integrator; `restarts` are those
-/// of the run, if it has any.
+/// of the run, if it has any, and `eroded` what has left it.
 template <class Scheme, PointSystem S>
 [[nodiscard]] LedgerEntry<S::dimension> measure(Integrator<Scheme, S>& integrator, S& system,
-                                                const RestartReport& restarts = {}) {
+                                                const RestartReport& restarts = {}, const Left<S::dimension>& eroded = {}) {
     constexpr int Dim = S::dimension;
     LedgerEntry<Dim> entry{};
+    entry.eroded = eroded;
     entry.potential = system.potential(integrator.q());
     entry.kinetic = integrator.kinetic_energy();
     entry.energy = entry.kinetic + entry.potential;
@@ -170,15 +173,16 @@ public:
     [[nodiscard]] const std::vector<LedgerEntry<Dim>>& entries() const { return entries_; }
     /// max |H~ - H~0 - LedgerEntry::received|, H~ being the pseudo-energy of the scheme [J]
     [[nodiscard]] double pseudo_energy_drift() const { return pseudo_energy_drift_; }
-    /// max |H - H0 - work + dissipated| [J]: the true error
+    /// max |H - H0 - work + dissipated + eroded| [J]: the true error
     [[nodiscard]] double energy_drift() const { return energy_drift_; }
     /// max (H - H~), H~ being the pseudo-energy of the scheme [J]
     [[nodiscard]] double energy_excess() const { return energy_excess_; }
     /// Largest |e_i| / m_i [m/s]
     [[nodiscard]] double parasitic() const { return parasitic_; }
-    /// max |P - P0| [kg m/s]; forces from outside are not taken out.
+    /// max |P + eroded - P0| [kg m/s]; forces from outside are not taken out.
     [[nodiscard]] double momentum_drift() const { return momentum_drift_; }
-    /// max |L - L0| about the origin [kg m^2/s]; moments from outside are not taken out.
+    /// max |L + eroded - L0| about the origin [kg m^2/s], what cells took along that left being that of J~; moments from
+    /// outside are not taken out.
     [[nodiscard]] double angular_momentum_drift() const { return angular_momentum_drift_; }
     /// As `angular_momentum_drift`, with positions at rest [kg m^2/s].
     [[nodiscard]] double rest_angular_momentum_drift() const { return rest_angular_momentum_drift_; }

@@ -73,6 +73,19 @@ Key<Body> fracture() {
                        &Body::fracture, fracture_keys());
 }
 
+Key<Body> erosion() {
+    const auto read = [](Reader& reader, const Node& node, const std::string& key) -> std::optional<solid::ErosionLimits> {
+        if (!reader.is_table(node, key)) return std::nullopt;
+        solid::ErosionLimits limits;
+        read_table(limits, node, key, erosion_keys(), reader);
+        if (node.items.empty())
+            reader.fault(node,
+                         key + " has no limit. Give strain, plastic_strain or stress, or leave it out: all cells stay.");
+        return limits;
+    };
+    return key_of<Body>("erosion", "table", "limits beyond which a cell leaves the run: keys below", &Body::erosion, read);
+}
+
 Key<Body> counts() {
     const auto read = [](Reader& reader, const Node& node, const std::string& key) { return reader.counts(node, key); };
     return required(key_of<Body>("counts", "whole numbers", "bricks along each direction", &Body::counts, read));
@@ -184,6 +197,17 @@ const Keys<FractureSettings>& fracture_keys() {
     return keys;
 }
 
+const Keys<solid::ErosionLimits>& erosion_keys() {
+    using Limits = solid::ErosionLimits;
+    using From = Make<Limits>;
+    static const Keys<Limits> keys = {
+        From::number("strain", &Limits::strain, {.above = 0.0},
+                     "largest principal strain of a cell; of finite bodies its largest stretch less 1"),
+        From::number("plastic_strain", &Limits::plastic_strain, {.above = 0.0}, "equivalent one, of j2"),
+        From::number("stress", &Limits::stress, {.unit = "Pa", .above = 0.0}, "largest principal stress, tension above 0")};
+    return keys;
+}
+
 const Keys<Body>& body_keys() {
     static const Keys<Body> keys = [] {
         Keys<Body> all = {
@@ -202,6 +226,7 @@ const Keys<Body>& body_keys() {
             Of::formula("temperature_rise", &Body::temperature_rise, "", Variables::time_and_space,
                         "kelvins above where it has no thermal strain, of a body that deforms and whose material has a "
                         "thermal_expansion; x, y, z at rest in the scene"),
+            erosion(),
             Of::vector("velocity", &Body::velocity, "m/s", "0", "velocity at the start"),
             Of::axial("spin", &Body::spin, "rad/s", "angular velocity about its centroid at the start"),
             fracture()};

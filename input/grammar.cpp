@@ -49,7 +49,7 @@ std::string varied(const std::string& title, const std::vector<Variety<Section, 
 std::string grammar() {
     return table("In no table", top_keys()) + numbers_table() + table("[materials.NAME]", material_keys()) +
            varied("[bodies.NAME]", body_varieties(), body_keys()) + table("[bodies.NAME.refinement]", refinement_keys()) +
-           table("[bodies.NAME.fracture]", fracture_keys()) +
+           table("[bodies.NAME.fracture]", fracture_keys()) + table("[bodies.NAME.erosion]", erosion_keys()) +
            table("[bodies.NAME.BODY], BODY being one of the bodies of `mesh` or a region", part_keys()) +
            table("[[patterns]]", pattern_keys()) + table("[[symmetry]]", symmetry_keys()) +
            table("[[contact.pairs]]", pair_keys()) + table("[[bonds]]", bond_keys()) +

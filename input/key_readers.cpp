@@ -93,6 +93,7 @@ void read_keys(const BodySettings& body, const Settings& settings) {
     read_material(body, mover);
     body.given.read_with(mover.has(solid::Feature::temperature), "temperature_rise", with_deformation);
     body.given.read_with(mover.deforms(), "fracture", with_deformation);
+    body.given.read_with(mover.has(solid::Feature::erosion_limit), "erosion", with_deformation);
     if (settings.contact)
         body.given.read_with(mover.deforms(), "self", with_deformation);
     else

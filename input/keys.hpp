@@ -40,6 +40,7 @@ struct Variety {
 [[nodiscard]] const Keys<MomentSettings>& moment_keys();
 [[nodiscard]] const Keys<RefinementSettings>& refinement_keys();
 [[nodiscard]] const Keys<FractureSettings>& fracture_keys();
+[[nodiscard]] const Keys<solid::ErosionLimits>& erosion_keys();
 
 /// Puts in front of them `none`, the first choice, with all their keys.
 template <class Section, class Kind>

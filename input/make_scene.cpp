@@ -44,6 +44,16 @@ solid::TemperatureRise<Dim> temperature_of(const BodySettings& body) {
         .varies = body.temperature_rise->varies()};
 }
 
+bool erodes(const BodySettings& body) { return body.erosion.any() || std::ranges::any_of(body.parts, erodes); }
+
+/// Limits of what the material has.
+void check_erosion(const BodySettings& body, const std::string& name, std::vector<Fault>& faults) {
+    if (body.erosion.plastic_strain < solid::ErosionLimits::none && body.material.law != solid::MaterialLaw::j2)
+        faults.push_back({body.where, fmt::format("body '{0}': erosion.plastic_strain limits the flow of metal, and its law "
+                                                  "is not \"j2\". Give strain or stress, or law = \"j2\" in [bodies.{0}].",
+                                                  name)});
+}
+
 bool spins(const BodySettings& body) { return !body.spin.isZero(0.0) || std::ranges::any_of(body.parts, spins); }
 
 /// Appends what belongs to the bodies of one table, of which a file may hold several, some with tables of their own.
@@ -51,7 +61,8 @@ template <int Dim>
 void append_bodies(run::Scene<Dim>& scene, const BodySettings& body, const std::vector<std::string>& names,
                    const Settings& settings, std::vector<Fault>& faults) {
     const bool any_spins = std::ranges::any_of(settings.bodies, spins),
-               any_warm = std::ranges::any_of(settings.bodies, is_warm);
+               any_warm = std::ranges::any_of(settings.bodies, is_warm),
+               any_erodes = std::ranges::any_of(settings.bodies, erodes);
     for (const std::string& name : names) {
         const BodySettings& own = settings_of(body, name);
         if (!own.has_material)
@@ -65,6 +76,8 @@ void append_bodies(run::Scene<Dim>& scene, const BodySettings& body, const std::
         append_body(scene, own, settings.gravity);
         if (any_spins) scene.spin.push_back(axial<Dim>(own.spin));
         if (any_warm) scene.solid.temperature_rise.push_back(temperature_of<Dim>(own));
+        if (any_erodes) scene.solid.erosion.push_back(own.erosion);
+        check_erosion(own, name, faults);
     }
 }
 

@@ -20,6 +20,7 @@
 #include "abut/solid/boundary/boundary_conditions.hpp"
 #include "abut/solid/kinematics/kinematics.hpp"
 #include "abut/solid/material/material.hpp"
+#include "abut/solid/options/erosion_limits.hpp"
 
 /// Settings of a scene file, key by key and for both dimensions: of vectors in the plane z is 0, and turns are about z.
 namespace abut::input {
@@ -97,6 +98,7 @@ struct BodySettings : Named {
     Vector<3> velocity = Vector<3>::Zero();   ///< [m/s]
     Vector<3> spin = Vector<3>::Zero();       ///< [rad/s]
     std::optional<Formula> temperature_rise;  ///< of t, x, y, z [K]
+    solid::ErosionLimits erosion;             ///< beyond which its cells leave
     bool has_material = false;                ///< Young's modulus and density are given
     std::optional<bool> self;                 ///< whether it touches itself; not given: as Settings::self says
     std::vector<BodySettings> parts;          ///< bodies of `mesh` or regions with a table of their own, by their names

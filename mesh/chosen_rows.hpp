@@ -58,6 +58,7 @@ void set_cells(const Mesh<Dim>& mesh, const std::vector<std::int32_t>& cells, co
                const std::vector<std::int32_t>& new_face, const std::vector<std::int32_t>& new_vertex, Mesh<Dim>& part) {
     part.name = mesh.name;
     part.report = mesh.report;
+    part.has_lost_cells = mesh.has_lost_cells;
     part.vertices = chosen_values(mesh.vertices, vertices);
     part.vertex_label = chosen_values(mesh.vertex_label, vertices);
     part.cell_shape = chosen_values(mesh.cell_shape, cells);

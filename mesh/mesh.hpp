@@ -92,6 +92,7 @@ struct Mesh {
     std::vector<std::int64_t> cell_label;    ///< number of a cell in the input; what error messages call it
     std::vector<std::int64_t> vertex_label;  ///< the same for a vertex
     BuildReport report;
+    bool has_lost_cells = false;  ///< cells have been taken out (`without_cells`): what they joined hangs together no more
 
     [[nodiscard]] std::int32_t n_cells() const { return static_cast<std::int32_t>(cell_measure.size()); }
     [[nodiscard]] std::int32_t n_faces() const { return static_cast<std::int32_t>(face_measure.size()); }

@@ -20,4 +20,13 @@ struct MeshLeft {
 template <int Dim>
 [[nodiscard]] MeshLeft<Dim> without_cells(const Mesh<Dim>& mesh, std::span<const std::int32_t> cells);
 
+/// Numbers that the vertices of such a mesh had in the one before it (n_vertices of `left`), and those of its faces
+/// (n_faces). `old_cells`: of each of its cells the number there, as MeshLeft has it.
+template <int Dim>
+[[nodiscard]] std::vector<std::int32_t> old_vertices(const Mesh<Dim>& before, const Mesh<Dim>& left,
+                                                     std::span<const std::int32_t> old_cells);
+template <int Dim>
+[[nodiscard]] std::vector<std::int32_t> old_faces(const Mesh<Dim>& before, const Mesh<Dim>& left,
+                                                  std::span<const std::int32_t> old_cells);
+
 }  // namespace abut::mesh

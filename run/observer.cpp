@@ -41,6 +41,11 @@ bool Observers<Dim>::wants_look(std::int64_t step) const {
 }
 
 template <int Dim>
+void Observers<Dim>::cells_left(const solid::Solid<Dim>& solid, std::span<const std::int32_t> first_cells) {
+    for (Observer<Dim>& observer : observers_) observer.cells_left(solid, first_cells);
+}
+
+template <int Dim>
 void Observers<Dim>::end(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) {
     for (Observer<Dim>& observer : observers_) observer.end(run, solid);
 }

@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <functional>
 #include <initializer_list>
+#include <span>
 #include <vector>
 
 #include "abut/base/state_bytes.hpp"
@@ -32,6 +33,10 @@ public:
     /// those of its velocity. Loads, obstacles and what materials and friction remember are those of the time: inside of
     /// a step the solid is another one than that of the run, which went there from the node before.
     virtual void look_at_time(const dynamics::RunView<Dim>&, solid::Solid<Dim>&) {}
+    /// Cells have left after this step, before its record: from now on the solid is another one, whose cell i is cell
+    /// first_cells[i] of the scene's mesh, increasing, whose cells have their vertices and faces in the same order
+    /// (mesh::old_vertices, mesh::old_faces). After `resume` where some had left before.
+    virtual void cells_left(const solid::Solid<Dim>&, std::span<const std::int32_t> /*first_cells*/) {}
     /// All steps are taken, or it was asked to stop: the last state, evaluated, after `look`, if that was called.
     virtual void end(const dynamics::RunView<Dim>&, solid::Solid<Dim>&) {}
     virtual void progress(std::int64_t /*step*/, double /*time*/) {}  ///< at the start and after each step, before `look`
@@ -76,6 +81,7 @@ public:
     void look(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) override;
     [[nodiscard]] bool wants_look(std::int64_t step) const override;
     void look_at_time(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) override;
+    void cells_left(const solid::Solid<Dim>& solid, std::span<const std::int32_t> first_cells) override;
     void end(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) override;
     void progress(std::int64_t step, double time) override;
     [[nodiscard]] bool asks_to_stop() const override;

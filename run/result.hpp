@@ -14,6 +14,7 @@
 #include "abut/run/values/accounts.hpp"
 #include "abut/run/values/body_sliding.hpp"
 #include "abut/run/values/energy_scale.hpp"
+#include "abut/run/values/erosion_report.hpp"
 #include "abut/run/values/pilot_report.hpp"
 #include "abut/run/values/rebalancing.hpp"
 #include "abut/run/values/settling_report.hpp"
@@ -91,6 +92,7 @@ struct RunResult {
     double broken_bonds = 0.0;                    ///< BondView::broken_share at the end [-]
     solid::FiniteExtremes finite;                 ///< of all steps: Solid::finite_extremes
     dynamics::Losses dissipated;                  ///< by materials in all steps: Solid::dissipated
+    ErosionReport<Dim> erosion;                   ///< cells that have left
     std::vector<double> local_rotations;          ///< at the end: Solid::local_rotations [rad]
     Sightings<Dim> sightings;                     ///< at records; on rank 0 all of them
     solid::SolidTimes times;                      ///< of the steps

@@ -101,6 +101,11 @@ bool has_friction(const Scene<Dim>& scene, const RunOptions& options) {
 }
 
 template <int Dim>
+bool may_lose_cells(const Scene<Dim>& scene) {
+    return solid::any_erosion(scene.solid.erosion) || scene.leaving;
+}
+
+template <int Dim>
 solid::FeatureSet features_of(const Scene<Dim>& scene, const RunOptions& options, const solid::SolidOptions<Dim>& solid,
                               const dynamics::Ranks& ranks) {
     using solid::Feature;
@@ -108,6 +113,7 @@ solid::FeatureSet features_of(const Scene<Dim>& scene, const RunOptions& options
     const bool any_rigid = !solid::all_bodies(solid.kinematics, &solid::KinematicsProperties::deforms);
     solid::FeatureSet features = features_of(options) | solid::features_of(ranks);
     features.add(Feature::step_watcher, bool(scene.after_step));
+    features.add(Feature::erosion, bool(scene.leaving));
     features.add(Feature::displaced_start, bool(scene.displacement));
     features.add(Feature::spin_of_rigid, any_rigid && (scene.added_velocity || std::ranges::any_of(scene.spin, spins)));
     return features;
@@ -178,6 +184,7 @@ std::vector<double> momentum_at_start(const Scene<Dim>& scene, const solid::Soli
 
 #define ABUT_INSTANTIATE(Dim)                                                                                          \
     template solid::SolidOptions<Dim> solid_options<Dim>(const Scene<Dim>&, const RunOptions&);                        \
+    template bool may_lose_cells<Dim>(const Scene<Dim>&);                                                              \
     template bool has_friction<Dim>(const Scene<Dim>&, const RunOptions&);                                             \
     template solid::FeatureSet features_of<Dim>(const Scene<Dim>&, const RunOptions&, const solid::SolidOptions<Dim>&, \
                                                 const dynamics::Ranks&);                                               \

@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
@@ -6,6 +7,7 @@
 #include "abut/mesh/mesh.hpp"
 #include "abut/run/options.hpp"
 #include "abut/run/values/energy_scale.hpp"
+#include "abut/run/values/forward.hpp"
 #include "abut/run/values/outputs.hpp"
 #include "abut/run/values/value.hpp"
 #include "abut/solid/solid.hpp"
@@ -34,6 +36,8 @@ struct Scene {
     std::string remedy_if_overlapping{};  ///< ends the message if bodies overlap at the start
     NamedValues options{};                ///< the scene's own, as they were used; for the summary
     std::function<void(const solid::Solid<Dim>&, double dt)> after_step{};  ///< looks on; may be empty
+    /// Cells of the solid that leave after a step, beside those beyond SolidOptions::erosion; may be empty
+    std::function<std::vector<std::int32_t>(const dynamics::RunView<Dim>&, solid::Solid<Dim>&)> leaving{};
     std::function<std::vector<Finding>(const RunResult<Dim>&)> findings{};  ///< at the end; may be empty
 };
 
@@ -43,6 +47,9 @@ template <int Dim>
 /// Whether some bodies or obstacles of a run rub.
 template <int Dim>
 [[nodiscard]] bool has_friction(const Scene<Dim>& scene, const RunOptions& options);
+/// Whether limits or a function may let cells leave.
+template <int Dim>
+[[nodiscard]] bool may_lose_cells(const Scene<Dim>& scene);
 /// Features of a run beside those of its solid, whose options these are.
 template <int Dim>
 [[nodiscard]] solid::FeatureSet features_of(const Scene<Dim>& scene, const RunOptions& options,

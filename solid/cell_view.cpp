@@ -49,6 +49,11 @@ OwnCells CellView<Dim>::own() const {
 }
 
 template <int Dim>
+std::int32_t CellView<Dim>::of_mesh(std::int32_t of_operators) const {
+    return solid_.bodies_->mesh_cell(of_operators);
+}
+
+template <int Dim>
 Matrix<Dim> CellView<Dim>::stress(std::int32_t cell) const {
     const auto [deformable, body] = solid_.bodies_->deformable_cell(cell);
     if (deformable < 0) return Matrix<Dim>::Zero();

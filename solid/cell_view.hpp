@@ -29,6 +29,8 @@ public:
     /// Cells whose points this rank owns, on one rank all. Needs no other rank.
     [[nodiscard]] OwnCells own() const;
 
+    /// Number in the mesh of a cell of Solid::ccg, which has those of bodies that deform alone.
+    [[nodiscard]] std::int32_t of_mesh(std::int32_t of_operators) const;
     /// sigma of a cell in space, with what contact and bonds push its free faces with [Pa]; 0 in rigid bodies.
     [[nodiscard]] Matrix<Dim> stress(std::int32_t cell) const;
     /// In 2D: sigma_zz of a cell, which `stress` does not have [Pa]; of an elastic body that of small strains, nu

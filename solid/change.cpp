@@ -4,6 +4,7 @@
 
 #include "abut/base/error.hpp"
 #include "abut/contact/report.hpp"
+#include "abut/dynamics/ledger.hpp"
 #include "abut/dynamics/mass.hpp"
 #include "abut/solid/contact_view.hpp"
 #include "abut/solid/options/made_features.hpp"
@@ -32,6 +33,21 @@ double kinetic_of(const Solid<Dim>& solid, const dynamics::IntegratorState& moti
     return 0.5 * dynamics::mass_product(motion.p_before, solid.inverse_mass(), motion.p_after);
 }
 
+template <int Dim>
+AxialVector<Dim> rest_moment_of(const Solid<Dim>& solid, const dynamics::IntegratorState& motion) {
+    const dynamics::RunView<Dim> run(motion);
+    AxialVector<Dim> sum = AxialVector<Dim>::Zero();
+    for (std::size_t i = 0; i < solid.rest_positions().size(); ++i)
+        sum += moment<Dim>(solid.rest_positions()[i], run.momentum(static_cast<std::ptrdiff_t>(i)));
+    return sum;
+}
+
+template <int Dim>
+AxialVector<Dim> pseudo_moment_of(const Solid<Dim>& solid, const dynamics::IntegratorState& motion) {
+    return dynamics::pseudo_angular_momentum<Dim>(dynamics::RunView<Dim>(motion), motion.dt, solid.rest_positions(),
+                                                  solid.masses());
+}
+
 /// Dissipated so far, with what faces that have left stored as they stuck [J].
 template <int Dim>
 double friction_of(const Solid<Dim>& solid) {
@@ -53,6 +69,8 @@ Change<Dim> change(Solid<Dim>& before, const dynamics::IntegratorState& motion, 
         .cells = before.mesh().n_cells() - after.mesh().n_cells(),
         .mass = mass_of(before) - mass_of(after),
         .momentum = momentum_of<Dim>(motion) - momentum_of<Dim>(now),
+        .rest_angular_momentum = rest_moment_of(before, motion) - rest_moment_of(after, now),
+        .pseudo_angular_momentum = pseudo_moment_of(before, motion) - pseudo_moment_of(after, now),
         .kinetic = kinetic_of(before, motion) - kinetic_of(after, now),
         .potential = before.potential(motion.q) - after.potential(now.q) - (friction_of(after) - friction_of(before))};
     return changed;

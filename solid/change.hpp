@@ -7,6 +7,7 @@
 #include "abut/base/vector.hpp"
 #include "abut/dynamics/gathered_state.hpp"
 #include "abut/dynamics/integrator.hpp"
+#include "abut/dynamics/left.hpp"
 #include "abut/dynamics/ranks.hpp"
 
 namespace abut::solid {
@@ -35,18 +36,8 @@ void go_on_from(const RunState& state, Solid<Dim>& solid, Integrator& run) {
     solid.restore(state.solid, run.q());
 }
 
-/// Losses of a run with cells that leave it: as it was before, less as it is after.
 template <int Dim>
-struct Left {
-    std::int32_t cells = 0;
-    double mass = 0.0;                           ///< [kg]
-    Vector<Dim> momentum = Vector<Dim>::Zero();  ///< of p = (p^- + p^+)/2 [kg m/s]
-    double kinetic = 0.0;                        ///< 1/2 p^- . M^-1 p^+ [J]
-    /// V, which has no sign: faces behind become free, and may touch. What faces stored that stuck is not in it:
-    /// friction books it as dissipated [J]
-    double potential = 0.0;
-    [[nodiscard]] double energy() const { return kinetic + potential; }  ///< of H~ + D - W [J]
-};
+using Left = dynamics::Left<Dim>;
 
 template <int Dim>
 struct Change {

@@ -7,6 +7,7 @@
 #include "abut/base/error.hpp"
 #include "abut/base/messages.hpp"
 #include "abut/base/throw_again.hpp"
+#include "abut/solid/options/made_features.hpp"
 
 namespace abut::solid {
 
@@ -14,6 +15,7 @@ template <int Dim>
 SteppedRun<Dim>::SteppedRun(std::unique_ptr<Solid<Dim>> solid, std::vector<double> q, std::span<const double> p, double dt,
                             const RunRemedies& remedies)
     : given_(remedies), solid_(std::move(solid)) {
+    require_together(solid_->mesh(), solid_->options(), {Feature::stepped_run});
     memm_.emplace(*solid_, std::move(q), p, dt);
     remedies_.emplace(*solid_, given_.filter, given_.restart);
     remedies_->prepare(*memm_);

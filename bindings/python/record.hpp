@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <limits>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "abut/mesh/without_cells.hpp"
 #include "abut/run/body_names.hpp"
 #include "abut/run/files/contact_forces.hpp"
 #include "abut/run/files/probes.hpp"
@@ -24,6 +27,7 @@ template <int Dim>
 class Record : public run::Observer<Dim> {
 public:
     void begin(const run::Scene<Dim>& scene, const run::RunResult<Dim>& result) override {
+        first_mesh_ = &scene.mesh;
         has_probes_ = !scene.outputs.probes.empty();
         probes_ = run::Probes<Dim>(scene, result);
         for (const run::Probe<Dim>& probe : scene.outputs.probes) {
@@ -36,6 +40,19 @@ public:
         for (std::size_t i = 0; i < scene.solid.obstacles.size(); ++i) names_.push_back(run::name_of_obstacle(scene, i));
         n_steps_ = result.steps;
         n_frames_ = result.options.times.empty() ? result.options.frames : 0;
+    }
+    void cells_left(const solid::Solid<Dim>& solid, std::span<const std::int32_t> first_cells) override {
+        if (has_probes_) probes_.take_cells(first_cells);
+        const mesh::Mesh<Dim>&first = *first_mesh_, &left = solid.mesh();
+        const auto faces = mesh::old_faces(first, left, first_cells);
+        cells_.assign(first_cells.begin(), first_cells.end());
+        points_ = mesh::old_vertices(first, left, first_cells);
+        faces_.clear();
+        for (const std::int32_t face : left.boundary_faces) {
+            const auto at = std::ranges::lower_bound(first.boundary_faces, faces[static_cast<std::size_t>(face)]);
+            const bool was_there = at != first.boundary_faces.end() && *at == faces[static_cast<std::size_t>(face)];
+            faces_.push_back(was_there ? static_cast<std::int32_t>(at - first.boundary_faces.begin()) : -1);
+        }
     }
     [[nodiscard]] bool wants_look(std::int64_t step) const override {
         return wants_frame(step) || forces_.wants_look(step) || (has_probes_ && probes_.wants_look(step));
@@ -120,13 +137,29 @@ private:
         const py::gil_scoped_acquire lock;
         frame_steps_.push_back(view.steps);
         frame_times_.push_back(view.time);
-        displacement_.append(state.displacement());
-        velocity_.append(state.velocity());
-        stress_.append(state.stress());
-        von_mises_.append(state.von_mises());
-        plastic_strain_.append(state.plastic_strain());
-        pressure_.append(state.contact_pressure());
-        point_displacement_.append(state.point_displacement());
+        const auto n_cells = static_cast<std::size_t>(first_mesh_->n_cells());
+        displacement_.append(in_scene(state.displacement(), cells_, n_cells));
+        velocity_.append(in_scene(state.velocity(), cells_, n_cells));
+        stress_.append(in_scene(state.stress(), cells_, n_cells));
+        von_mises_.append(in_scene(state.von_mises(), cells_, n_cells));
+        plastic_strain_.append(in_scene(state.plastic_strain(), cells_, n_cells));
+        pressure_.append(in_scene(state.contact_pressure(), faces_, first_mesh_->boundary_faces.size()));
+        point_displacement_.append(in_scene(state.point_displacement(), points_, first_mesh_->vertices.size()));
+    }
+    /// Rows by the numbers that they have in the scene, NaN where nothing is left; as they are where nothing has left.
+    [[nodiscard]] static py::array_t<double> in_scene(const py::array_t<double>& rows,
+                                                      const std::vector<std::int32_t>& numbers, std::size_t n) {
+        if (numbers.empty()) return rows;
+        std::vector<py::ssize_t> shape(rows.shape(), rows.shape() + rows.ndim());
+        const py::ssize_t width = rows.size() / std::max<py::ssize_t>(1, shape[0]);
+        shape[0] = static_cast<py::ssize_t>(n);
+        py::array_t<double> all(shape);
+        std::fill_n(all.mutable_data(), all.size(), std::numeric_limits<double>::quiet_NaN());
+        for (std::size_t i = 0; i < numbers.size(); ++i)
+            if (numbers[i] >= 0)
+                std::copy_n(rows.data() + static_cast<py::ssize_t>(i) * width, width,
+                            all.mutable_data() + numbers[i] * width);
+        return all;
     }
 
     bool has_probes_ = false;
@@ -139,7 +172,9 @@ private:
     run::ContactForces<Dim> forces_;
     std::vector<std::string> names_;  // of bodies, then of obstacles
     std::vector<run::ForceRow<Dim>> force_rows_;
-    std::int64_t n_steps_ = 0, n_frames_ = 0;  // frames that are equally far apart
+    std::int64_t n_steps_ = 0, n_frames_ = 0;           // frames that are equally far apart
+    const mesh::Mesh<Dim>* first_mesh_ = nullptr;       // of the scene, whose run this keeps
+    std::vector<std::int32_t> cells_, points_, faces_;  // numbers in it; -1: a new face. Empty: nothing has left
     std::vector<std::int64_t> frame_steps_;
     std::vector<double> frame_times_;
     py::list displacement_, velocity_, stress_, von_mises_, plastic_strain_, pressure_, point_displacement_;

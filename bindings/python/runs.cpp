@@ -52,6 +52,36 @@ run::RunResult<Dim> simulate_into(run::ResultFiles<Dim>& files, const run::Scene
     }
 }
 
+/// {column: array}, a row per cell that has left.
+template <int Dim>
+py::dict eroded_of(const run::ErosionReport<Dim>& erosion) {
+    std::vector<std::int32_t> cell;
+    std::vector<std::int64_t> step;
+    std::vector<double> time;
+    for (const run::ErodedCell& one : erosion.cells) {
+        cell.push_back(one.cell);
+        step.push_back(one.step);
+        time.push_back(one.time);
+    }
+    return py::dict("cell"_a = copy_of(cell), "step"_a = copy_of(step), "time"_a = copy_of(time));
+}
+
+/// A function of Python that names cells that leave, called after each step; none for None.
+template <int Dim>
+auto leaving_of(const py::object& function) -> decltype(run::Scene<Dim>::leaving) {
+    if (function.is_none()) return {};
+    return [held = kept(function)](const dynamics::RunView<Dim>& view, solid::Solid<Dim>& solid) {
+        const py::gil_scoped_acquire lock;
+        const py::object cells = shown_to<Dim>(*held, view, solid);
+        try {
+            return cells.is_none() ? std::vector<std::int32_t>() : py::cast<std::vector<std::int32_t>>(cells);
+        } catch (const py::cast_error&) {
+            throw py::type_error("leaving(state) gave " + std::string(py::str(py::repr(cells))) +
+                                 "; numbers of cells are needed, or None");
+        }
+    };
+}
+
 /// Data of which abut.Result is made. `name`: what files and summary call the run.
 template <int Dim>
 py::object run_scene(const run::Scene<Dim>& scene, const run::RunOptions& options, const std::string& name,
@@ -77,7 +107,7 @@ py::object run_scene(const run::Scene<Dim>& scene, const run::RunOptions& option
     const py::dict figures(
         "name"_a = text_of(name), "title"_a = text_of(scene.title), "comment"_a = text_of(scene.comment),
         "mesh"_a = py::cast(scene.mesh), "ledger"_a = table_of(result->ledger), "probes"_a = record.probes(),
-        "forces"_a = record.forces(), "frames"_a = record.frames(),
+        "forces"_a = record.forces(), "frames"_a = record.frames(), "eroded"_a = eroded_of(result->erosion),
         "displacement"_a = copy_of_vectors<Dim>(python.final_displacement), "start"_a = motions_of(result->start),
         "end"_a = motions_of(result->end), "steps"_a = result->steps, "resumed_after"_a = result->resumed_after,
         "dt"_a = result->dt, "stable_dt"_a = result->stable.dt, "complete"_a = result->complete,
@@ -118,18 +148,19 @@ input::SceneFile scene_file(const SceneSource& source, const py::dict& given, in
 }
 
 template <int Dim>
-py::object run_file(const input::SceneFile& file, const py::object& look) {
+py::object run_file(const input::SceneFile& file, const py::object& look, const py::object& leaving) {
     run::Scene<Dim> scene;
     {
         const py::gil_scoped_release release;
         scene = file.scene<Dim>();
     }
+    scene.leaving = leaving_of<Dim>(leaving);
     return run_scene<Dim>(scene, file.options(), file.name(), look);
 }
 
-py::object run_source(const SceneSource& source, const py::object& look, const py::dict& given) {
+py::object run_source(const SceneSource& source, const py::object& look, const py::object& leaving, const py::dict& given) {
     const input::SceneFile file = scene_file(source, given, 0);
-    return file.dimension() == 2 ? run_file<2>(file, look) : run_file<3>(file, look);
+    return file.dimension() == 2 ? run_file<2>(file, look, leaving) : run_file<3>(file, look, leaving);
 }
 
 constexpr const char* run_in_use = "this run takes steps in another thread. Use one thread at a time.";
@@ -445,10 +476,10 @@ void add_runs(py::module_& module) {
     module.def(
         "run_toml",
         [](const std::filesystem::path& file, const std::optional<std::string>& toml, const py::dict& meshes,
-           const std::vector<std::string>& set, const py::object& look, const py::dict& options) {
-            return run_source({file, toml, meshes, set}, look, options);
+           const std::vector<std::string>& set, const py::object& look, const py::object& leaving, const py::dict& options) {
+            return run_source({file, toml, meshes, set}, look, leaving, options);
         },
-        "file"_a, "toml"_a, "meshes"_a, "set"_a, "look"_a, "options"_a, "For abut.run.");
+        "file"_a, "toml"_a, "meshes"_a, "set"_a, "look"_a, "leaving"_a, "options"_a, "For abut.run.");
     module.def(
         "memm_toml",
         [](const std::filesystem::path& file, const std::optional<std::string>& toml, const py::dict& meshes,

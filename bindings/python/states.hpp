@@ -112,6 +112,18 @@ struct Glance {
     }
 };
 
+/// Shows a state to a function of Python while it is called, and returns its answer. Needs the interpreter's lock.
+template <int Dim>
+py::object shown_to(const py::object& function, const dynamics::RunView<Dim>& view, solid::Solid<Dim>& solid) {
+    auto glance = std::make_shared<Glance<Dim>>();
+    glance->state.emplace(view, solid);
+    struct Close {
+        Glance<Dim>& glance;
+        ~Close() { glance.state.reset(); }
+    } close{*glance};
+    return function(glance);
+}
+
 /// Hands each state to Python, and ends a run that Python or Ctrl-C wants ended.
 template <int Dim>
 class Look : public run::Observer<Dim> {
@@ -123,13 +135,7 @@ public:
         if (view.steps == result_->steps) final_displacement = solid.cells().displacement(view.q);
         if (!has_look_) return;
         const py::gil_scoped_acquire lock;
-        auto glance = std::make_shared<Glance<Dim>>();
-        glance->state.emplace(view, solid);
-        struct Close {
-            Glance<Dim>& glance;
-            ~Close() { glance.state.reset(); }
-        } close{*glance};
-        const py::object answer = look_(glance);
+        const py::object answer = shown_to<Dim>(look_, view, solid);
         const int stops = PyObject_IsTrue(answer.ptr());
         if (stops < 0) throw py::error_already_set();
         stops_ = stops != 0;

@@ -25,10 +25,10 @@ struct VtuSeries<Dim>::Files {
     Path directory;
     std::string basename;
     std::vector<double> times{};
-    OutputGrid cells;
-    Rows cell_vertices;
-    std::vector<std::int32_t> surface_vertices;
-    OutputGrid surface;
+    OutputGrid cells{};
+    Rows cell_vertices{};
+    std::vector<std::int32_t> surface_vertices{};
+    OutputGrid surface{};
 
     /// Arrays of one frame.
     struct FrameData {
@@ -75,12 +75,19 @@ void VtuSeries<Dim>::Files::add_vertex_displacement(std::span<const Vector<Dim>>
 }
 
 template <int Dim>
-VtuSeries<Dim>::VtuSeries(const Path& directory, const std::string& basename, const Mesh<Dim>& mesh) {
+VtuSeries<Dim>::VtuSeries(const Path& directory, const std::string& basename, const Mesh<Dim>& mesh)
+    : files_(new Files{.directory = directory, .basename = basename}) {
     make_folders(directory);
+    take_mesh(mesh);
+}
+
+template <int Dim>
+void VtuSeries<Dim>::take_mesh(const Mesh<Dim>& mesh) {
     const std::vector<std::int32_t> boundary = all_of(mesh.boundary_faces.size());
-    auto vertices = surface_vertices(mesh, boundary);
-    auto surface = grid_of_surface(mesh, boundary, vertices);
-    files_.reset(new Files{directory, basename, {}, grid_of_all(mesh), mesh.cell_vertices, std::move(vertices), surface});
+    files_->cells = grid_of_all(mesh);
+    files_->cell_vertices = mesh.cell_vertices;
+    files_->surface_vertices = surface_vertices(mesh, boundary);
+    files_->surface = grid_of_surface(mesh, boundary, files_->surface_vertices);
 }
 
 template <int Dim>

@@ -65,6 +65,8 @@ public:
     /// Throws BadInput naming the field whose size is wrong, MeshError if a file cannot be written: the
     /// lists are then as before the call, and the next call writes the same frame again.
     void write(const Frame<Dim>& frame);
+    /// Frames that follow are of this mesh, with the same bodies: one whose cells have left in part.
+    void take_mesh(const Mesh<Dim>& mesh);
     [[nodiscard]] int n_frames() const;
     [[nodiscard]] const std::vector<double>& times() const;  ///< of the frames [s]
     /// Goes on with a series that another object has begun, after its frames of these times: later ones are written over.

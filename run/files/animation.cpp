@@ -210,6 +210,11 @@ void Animation<Dim>::look(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& 
 }
 
 template <int Dim>
+void Animation<Dim>::cells_left(const solid::Solid<Dim>& solid, std::span<const std::int32_t> first_cells) {
+    maker_->take_cells(solid.mesh(), first_cells);
+}
+
+template <int Dim>
 void Animation<Dim>::save(StateWriter& state) {
     state.put(static_cast<std::uint64_t>(file_.size()));
     state.put(n_kept_);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -196,8 +197,21 @@ void Frames<Dim>::begin(const Scene<Dim>& scene, const RunResult<Dim>& result) {
         bodies_.push_back({"body: " + scene.mesh.body_names[static_cast<std::size_t>(body)], body});
     if (!scene.solid.obstacles.empty())
         obstacles_ = std::make_unique<ObstacleFrames<Dim>>(directory_, obstacles_series(name_), scene);
+    if (may_lose_cells(scene)) {
+        first_cells_.resize(scene.mesh.cell_measure.size());
+        std::iota(first_cells_.begin(), first_cells_.end(), 0.0);
+    }
     at_times_ = !result.options.times.empty();
     n_spread_ = n_steps_ = result.steps;
+}
+
+template <int Dim>
+void Frames<Dim>::cells_left(const solid::Solid<Dim>& solid, std::span<const std::int32_t> first_cells) {
+    first_cells_.assign(first_cells.begin(), first_cells.end());
+    if (xdmf_)
+        xdmf_->take_mesh(solid.mesh());
+    else
+        series_->take_mesh(solid.mesh());
 }
 
 template <int Dim>
@@ -279,6 +293,7 @@ void Frames<Dim>::write(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& so
         mesh::Frame<Dim> frame{.time = run.time, .displacement = displacement, .vertex_displacement = of_vertices};
         const std::vector<double> fragment = fragment_of_cells(solid);
         frame.cell_fields = cell_fields<Dim>(fields_, velocity, stresses, fragment);
+        if (!first_cells_.empty()) frame.cell_fields.push_back({"cell of the scene", std::span<const double>(first_cells_)});
         const std::vector<double> bonds = left_of_bonds(solid);
         frame.boundary_fields = boundary_fields<Dim>(fields_, gap, contact, bonds);
         if (pairs_) write_pairs(run, solid, displacement, of_vertices);

@@ -31,6 +31,9 @@ class XdmfSeries;
 /// at RunOptions::times; Outputs::fields may leave fields out. `series` is what files are called by, see mesh::VtuSeries,
 /// which also says what they throw if they cannot be written.
 ///
+/// Of a run that cells may leave, those that have left are missing, and "cell of the scene" is the number that a cell has in
+/// the scene's mesh.
+///
 /// With FrameFormat::xdmf cells and boundary faces are in one file (SERIES.h5, beside SERIES.xmf and SERIES_surface.xmf) in
 /// place of the .vtu and .vtp files.
 ///
@@ -51,6 +54,7 @@ public:
     /// Writes a frame if one is due at this step.
     void look(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) override;
     void look_at_time(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) override;
+    void cells_left(const solid::Solid<Dim>& solid, std::span<const std::int32_t> first_cells) override;
     [[nodiscard]] bool wants_look(std::int64_t step) const override;
     [[nodiscard]] std::int64_t wants_piece(std::int64_t step) const override;
     void piece(const FramePiece<Dim>& piece) override;
@@ -81,6 +85,7 @@ private:
     std::int64_t n_steps_ = 0;
     std::int64_t n_spread_ = 0;  // steps that the frames are spread over: those of the run, or of the one it goes on from
     FrameFields fields_;
+    std::vector<double> first_cells_;             // numbers of the cells in the scene; empty: none may leave
     std::optional<mesh::VtuSeries<Dim>> series_;  // of the whole, or
     std::unique_ptr<XdmfSeries<Dim>> xdmf_;       // in one file, or
     std::optional<mesh::PieceSeries> pieces_;     // in pieces

@@ -41,6 +41,11 @@ void ProbeFile<Dim>::look(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& 
 }
 
 template <int Dim>
+void ProbeFile<Dim>::cells_left(const solid::Solid<Dim>&, std::span<const std::int32_t> first_cells) {
+    probes_.take_cells(first_cells);
+}
+
+template <int Dim>
 void ProbeFile<Dim>::save(StateWriter& state) {
     state.put(static_cast<std::uint64_t>(file_.size()));
     probes_.save(state);

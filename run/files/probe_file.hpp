@@ -22,6 +22,7 @@ public:
     void begin(const Scene<Dim>& scene, const RunResult<Dim>& result) override;
     /// Throws BadInput if a row cannot be written.
     void look(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) override;
+    void cells_left(const solid::Solid<Dim>& solid, std::span<const std::int32_t> first_cells) override;
     [[nodiscard]] bool wants_look(std::int64_t step) const override;
     void save(StateWriter& state) override;
     /// Throws BadInput if rows that were written are gone.

@@ -19,6 +19,8 @@
 namespace abut::run {
 namespace {
 
+constexpr double gone = std::numeric_limits<double>::quiet_NaN();  // of a place whose cell has left
+
 constexpr double allowed_distance = 0.5;  // of a place from its cell, over the size of that
 constexpr double at_border = 1e-9;        // likewise: it is in the cell
 
@@ -121,6 +123,26 @@ Probes<Dim>::Probes(const Scene<Dim>& scene, const RunResult<Dim>& result)
             throw BadInput(fmt::format("probe '{}': {}", probe.name, error.what()));
         }
     }
+    at_start_ = probes_;
+}
+
+template <int Dim>
+void Probes<Dim>::take_cells(std::span<const std::int32_t> first_cells) {
+    for (std::size_t p = 0; p < probes_.size(); ++p) {
+        const Watched& all = at_start_[p];
+        Watched& left = probes_[p];
+        left = {.contact_of = all.contact_of};
+        double sum = 0.0;
+        for (std::size_t i = 0; i < all.cells.size(); ++i) {
+            const auto now = std::ranges::lower_bound(first_cells, all.cells[i]);
+            if (now == first_cells.end() || *now != all.cells[i]) continue;
+            left.cells.push_back(static_cast<std::int32_t>(now - first_cells.begin()));
+            left.weights.push_back(all.weights[i]);
+            left.arms.push_back(all.arms[i]);
+            sum += all.weights[i];
+        }
+        for (double& weight : left.weights) weight /= sum;
+    }
 }
 
 template <int Dim>
@@ -154,6 +176,11 @@ std::vector<std::vector<double>> Probes<Dim>::values(const dynamics::RunView<Dim
         Vector<Dim> u = Vector<Dim>::Zero(), v = Vector<Dim>::Zero();
         Matrix<Dim> stress = Matrix<Dim>::Zero();
         double out_of_plane = 0.0;
+        if (probe.cells.empty()) {
+            u = v = Vector<Dim>::Constant(gone);
+            stress = Matrix<Dim>::Constant(gone);
+            out_of_plane = gone;
+        }
         for (std::size_t i = 0; i < probe.cells.size(); ++i) {
             const std::int32_t cell = probe.cells[i];
             const double weight = probe.weights[i];

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,9 @@ public:
     /// The columns of each probe; evaluates the solid. Called at each look, the start included: forces of contact are
     /// those since the last one.
     [[nodiscard]] std::vector<std::vector<double>> values(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid);
+    /// Numbers that the cells have in the scene's mesh, of a run that some have left: means are those of cells that are
+    /// there, and a place whose cell has left is at rest no more: all that is seen there is NaN.
+    void take_cells(std::span<const std::int32_t> first_cells);
     void save(StateWriter& state) const { forces_.save(state); }
     void restore(StateReader& state) { forces_.restore(state); }
 
@@ -43,6 +47,7 @@ private:
     };
     [[nodiscard]] static Watched watched(const mesh::Mesh<Dim>& mesh, const Probe<Dim>& probe);
 
+    std::vector<Watched> at_start_;  // of the scene's mesh
     std::vector<Watched> probes_;
     ContactForces<Dim> forces_;  // since the last look
     std::int64_t interval_ = 1;

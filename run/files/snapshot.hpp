@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -31,13 +32,14 @@ enum class Edge : std::int8_t {
     loaded,  ///< of a face under a traction
 };
 
-/// Polygons drawn of the bodies of a run: in 2D their cells, in 3D their boundary faces.
+/// Polygons drawn of the bodies of a run: in 2D their cells, in 3D their boundary faces, and of bodies that cells may leave
+/// all faces. Where one is not there it has no positions (NaN) and no value.
 struct BodyPolygons {
     bool in_space = false;   ///< 3D
     std::string value_name;  ///< "von Mises stress"
     std::string value_unit;
     double least_end = 0.0;               ///< of the scale of colours: values far below it are rounding
-    std::vector<std::int32_t> vertex;     ///< of the mesh, of each position of a snapshot
+    std::vector<std::int32_t> vertex;     ///< of the scene's mesh, of each position of a snapshot
     std::vector<std::size_t> offsets{0};  ///< of the corners of polygon i: offsets[i] to offsets[i + 1]
     std::vector<std::int32_t> corners;    ///< numbers of positions
     std::vector<Edge> edges;              ///< from a corner to the next one of its polygon; as many as `corners`
@@ -51,17 +53,27 @@ struct BodyPolygons {
 template <int Dim>
 class SnapshotMaker {
 public:
+    /// The scene must outlive it.
     SnapshotMaker(const Scene<Dim>& scene, const RunResult<Dim>& result);
 
     [[nodiscard]] const BodyPolygons& polygons() const { return polygons_; }
+    /// Goes on with the rest of the scene's mesh, once cells have left; `first_cells`: the numbers of its cells there.
+    void take_cells(const mesh::Mesh<Dim>& left, std::span<const std::int32_t> first_cells);
     /// Snapshot of a state that the solid has evaluated. Its cost is proportional to the cells in 2D, to the boundary in 3D.
     [[nodiscard]] Snapshot taken(std::string what, const dynamics::RunView<Dim>& run, const solid::Solid<Dim>& solid) const;
 
 private:
     [[nodiscard]] std::vector<double> values(const dynamics::RunView<Dim>& run, const solid::Solid<Dim>& solid) const;
+    /// Present number of the cell that a polygon shows; -1: it is not to be seen.
+    [[nodiscard]] std::int32_t shown_cell(std::size_t polygon) const;
 
+    const Scene<Dim>& scene_;
     BodyPolygons polygons_;
-    std::vector<char> is_rigid_;  // by body
+    std::vector<std::int32_t> face_;        // of the scene's mesh, by polygon; in 2D none
+    std::vector<std::int32_t> owner_;       // by position: the polygon that it is of alone; -1: several share it
+    std::vector<std::int32_t> cell_now_;    // by cell of the scene's mesh: its number now; -1: it has left
+    std::vector<std::int32_t> vertex_now_;  // the same of vertices
+    std::vector<char> is_rigid_;            // by body
     bool all_rigid_ = false;
 };
 

@@ -97,6 +97,11 @@ void Snapshots<Dim>::look(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& 
 }
 
 template <int Dim>
+void Snapshots<Dim>::cells_left(const solid::Solid<Dim>& solid, std::span<const std::int32_t> first_cells) {
+    maker_->take_cells(solid.mesh(), first_cells);
+}
+
+template <int Dim>
 void Snapshots<Dim>::end(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) {
     end_ = maker_->taken("At the end", run, solid);
 }

@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "abut/base/state_bytes.hpp"
@@ -26,6 +27,7 @@ public:
     void record(const dynamics::LedgerEntry<Dim>& entry);
     [[nodiscard]] bool wants_look(std::int64_t step) const;
     void look(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid);
+    void cells_left(const solid::Solid<Dim>& solid, std::span<const std::int32_t> first_cells);
     /// The last state, evaluated.
     void end(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid);
     /// The last sound state of a run that has failed, which this evaluates, stands for the end.

@@ -152,6 +152,16 @@ H5::StrType text_type() {
     return type;
 }
 
+void put_text(const H5::H5Object& of, const char* name, const std::string& text) {
+    of.createAttribute(name, text_type(), H5::DataSpace()).write(text_type(), text);
+}
+
+std::string get_text(const H5::H5Object& of, const char* name) {
+    std::string text;
+    of.openAttribute(name).read(text_type(), text);
+    return text;
+}
+
 void add_names(const H5::DataSet& set, const std::vector<std::string>& names) {
     std::vector<const char*> texts;
     for (const std::string& name : names) texts.push_back(name.c_str());
@@ -159,33 +169,28 @@ void add_names(const H5::DataSet& set, const std::vector<std::string>& names) {
     set.createAttribute("names", text_type(), H5::DataSpace(1, &n)).write(text_type(), texts.data());
 }
 
-/// The name of a field, which may have slashes.
-constexpr const char* name_attribute = "name";
+constexpr const char* name_attribute = "name";  // of a field, which may have slashes
+constexpr const char* mesh_attribute = "mesh";  // of a frame: path of its mesh, where that is not the first one
+constexpr std::array mesh_lists{"xdmf_cells", "xdmf_faces"};  // of such a mesh: its elements in the lists
 
-std::string name_of(const H5::DataSet& set) {
-    std::string name;
-    set.openAttribute(name_attribute).read(text_type(), name);
-    return name;
-}
-
+/// `to`: path of its arrays, empty or with a slash at its end.
 template <int Dim>
-void write_mesh(H5::H5File& file, const Mesh<Dim>& mesh) {
-    put_array(file, "points", mesh::field_tuples<Dim>(std::span<const Vector<Dim>>(mesh.vertices)).values, 3);
+void write_mesh(H5::H5File& file, const Mesh<Dim>& mesh, const std::string& to) {
+    put_array(file, to + "points", mesh::field_tuples<Dim>(std::span<const Vector<Dim>>(mesh.vertices)).values, 3);
     const XdmfCells cells = cells_of(mesh), faces = faces_of(mesh);
-    put_array(file, "cells", cells.numbers, cells.corners_each);
-    put_array(file, "faces", faces.numbers, faces.corners_each);
-    add_names(put_array(file, "body", mesh.cell_body), mesh.body_names);
+    put_array(file, to + "cells", cells.numbers, cells.corners_each);
+    put_array(file, to + "faces", faces.numbers, faces.corners_each);
+    add_names(put_array(file, to + "body", mesh.cell_body), mesh.body_names);
     std::vector<std::int32_t> of_faces;
     for (const std::int32_t face : mesh.boundary_faces) of_faces.push_back(mesh.cell_body[at(mesh.face_cells[at(face)][0])]);
-    put_array(file, "face_body", of_faces);
-    file.createGroup("groups");
+    put_array(file, to + "face_body", of_faces);
+    file.createGroup(to + "groups");
     for (const mesh::BoundaryGroup& group : mesh.groups) {
         std::vector<std::int32_t> is_in;
         for (const std::int32_t face : mesh.boundary_faces)
             is_in.push_back(std::ranges::binary_search(group.faces, face) ? 1 : 0);
-        put_array(file, "groups/" + in_hdf5(group.name), is_in);
+        put_array(file, to + "groups/" + in_hdf5(group.name), is_in);
     }
-    file.createGroup("frames");
 }
 
 std::string frame_path(std::size_t frame) { return fmt::format("frames/{:06}", frame); }
@@ -218,14 +223,14 @@ Arrays arrays_of(const mesh::Frame<Dim>& frame, const Mesh<Dim>& mesh, const std
 }
 
 void write_frame(H5::H5File& file, const std::string& path, double time, const Arrays& arrays) {
-    H5::Group group = file.createGroup(path);
+    const H5::Group group = file.openGroup(path);
     for (const char* part : {"points", "cells", "faces"}) group.createGroup(part);
     const H5::DataSpace one;
     group.createAttribute("time", H5::PredType::NATIVE_DOUBLE, one).write(H5::PredType::NATIVE_DOUBLE, &time);
     for (const auto& [to, array] : arrays) {
         const auto& [name, tuples] = array;
         const H5::DataSet set = put_array(file, to, tuples.values, tuples.n_components == 1 ? 0 : tuples.n_components);
-        set.createAttribute(name_attribute, text_type(), H5::DataSpace()).write(text_type(), name);
+        put_text(set, name_attribute, name);
     }
     file.flush(H5F_SCOPE_GLOBAL);
 }
@@ -298,12 +303,13 @@ Markup attribute(const std::string& name, const char* type, const char* center, 
 }
 
 template <int Dim>
-Markup grid_of(const Mesh<Dim>& mesh, const XdmfCells& cells, const std::string& file, const std::string& path) {
+Markup grid_of(const Mesh<Dim>& mesh, const XdmfCells& cells, const std::string& file, const std::string& of_mesh,
+               const char* path) {
     Attributes of_topology = {{"TopologyType", cells.topology}, {"NumberOfElements", std::to_string(cells.n)}};
     if (cells.topology == std::string(segment.name)) of_topology.push_back({"NodesPerElement", "2"});
     return element("Geometry", {{"GeometryType", "XYZ"}},
-                   data_item(file, "points", "Float", "8", fmt::format("{} 3", mesh.vertices.size()))) +
-           "\n" + element("Topology", of_topology, data_item(file, path, "Int", "4", cells.size())) + "\n";
+                   data_item(file, of_mesh + "points", "Float", "8", fmt::format("{} 3", mesh.vertices.size()))) +
+           "\n" + element("Topology", of_topology, data_item(file, of_mesh + path, "Int", "4", cells.size())) + "\n";
 }
 
 Markup numbers(const std::string& name, const std::string& file, const std::string& path, std::size_t n) {
@@ -321,7 +327,7 @@ Markup listed(const H5::H5File& h5, const std::string& file, const std::string& 
         const bool is_list = set.getSpace().getSimpleExtentDims(size.data()) == 1;
         const char* type = is_list ? "Scalar" : (size[1] == 3 ? "Vector" : "Matrix");
         const std::string dimensions = is_list ? std::to_string(size[0]) : fmt::format("{} {}", size[0], size[1]);
-        text += attribute(name_of(set), type, center, data_item(file, array, "Float", "8", dimensions));
+        text += attribute(get_text(set, name_attribute), type, center, data_item(file, array, "Float", "8", dimensions));
     }
     return text;
 }
@@ -347,12 +353,23 @@ XdmfSeries<Dim>::XdmfSeries(std::filesystem::path directory, std::string basenam
     std::error_code error;
     std::filesystem::create_directories(directory_, error);
     if (error) refuse_directory(directory_, error.message());
+    meshes_.push_back({"", mesh_.n_cells(), lists_of_mesh("")});
+}
+
+template <int Dim>
+auto XdmfSeries<Dim>::lists_of_mesh(const std::string& path) const -> Lists {
     const std::string h5 = file().filename().string();
     const XdmfCells cells = cells_of(mesh_), faces = faces_of(mesh_);
-    Markup surface = grid_of(mesh_, faces, h5, "faces") + numbers("body", h5, "face_body", faces.n);
+    Markup surface = grid_of(mesh_, faces, h5, path, "faces") + numbers("body", h5, path + "face_body", faces.n);
     for (const mesh::BoundaryGroup& group : mesh_.groups)
-        surface += numbers("group: " + group.name, h5, "groups/" + in_hdf5(group.name), faces.n);
-    of_mesh_ = {(grid_of(mesh_, cells, h5, "cells") + numbers("body", h5, "body", cells.n)).html(), surface.html()};
+        surface += numbers("group: " + group.name, h5, path + "groups/" + in_hdf5(group.name), faces.n);
+    return {(grid_of(mesh_, cells, h5, path, "cells") + numbers("body", h5, path + "body", cells.n)).html(), surface.html()};
+}
+
+template <int Dim>
+void XdmfSeries<Dim>::take_mesh(const Mesh<Dim>& mesh) {
+    mesh_ = mesh;
+    is_stored_ = meshes_.back().n_cells == mesh.n_cells();
 }
 
 template <int Dim>
@@ -367,16 +384,51 @@ void XdmfSeries<Dim>::write(const mesh::Frame<Dim>& frame) {
     if (!is_begun_) remove_files(directory_, {file().filename().string(), journal_of(file()).filename().string()});
     guarded(file(), [&] {
         H5::H5File h5 = is_begun_ ? opened(file()) : begun(file());
-        take_space(file(), space_of(arrays) + (is_begun_ ? 0 : space_of(mesh_)));
-        if (!is_begun_) write_mesh(h5, mesh_);
+        take_space(file(), space_of(arrays) + (is_begun_ && is_stored_ ? 0 : space_of(mesh_)));
+        if (!is_begun_) begin(h5);
         if (h5.nameExists(path)) h5.unlink(path);  // which could not be listed
+        h5.createGroup(path);
+        if (!is_stored_) store_mesh(h5, path + "/mesh/");
+        if (!meshes_.back().path.empty()) put_text(h5.openGroup(path), mesh_attribute, meshes_.back().path);
         write_frame(h5, path, frame.time, arrays);
-        frames_.push_back(listed_frame(h5, file().filename().string(), times_.size(), frame.time, of_mesh_));
+        frames_.push_back(listed_frame(h5, file().filename().string(), times_.size(), frame.time, meshes_.back().lists));
         close_journaled(h5);
     });
     is_begun_ = true;
     times_.push_back(frame.time);
     write_lists();
+}
+
+/// With the mesh of the first frame, whose elements are written as they are in a new file.
+template <int Dim>
+void XdmfSeries<Dim>::begin(H5::H5File& h5) {
+    write_mesh(h5, mesh_, "");
+    h5.createGroup("frames");
+    meshes_ = {{"", mesh_.n_cells(), lists_of_mesh("")}};
+    is_stored_ = true;
+}
+
+template <int Dim>
+void XdmfSeries<Dim>::store_mesh(H5::H5File& h5, const std::string& path) {
+    const H5::Group group = h5.createGroup(path);
+    write_mesh(h5, mesh_, path);
+    meshes_.push_back({path, mesh_.n_cells(), lists_of_mesh(path)});
+    for (std::size_t i = 0; i < mesh_lists.size(); ++i) put_text(group, mesh_lists[i], meshes_.back().lists[i]);
+    is_stored_ = true;
+}
+
+/// The mesh of a frame that is there, which becomes the last one that is known.
+template <int Dim>
+auto XdmfSeries<Dim>::mesh_of(const H5::H5File& h5, const std::string& frame) -> const StoredMesh& {
+    const H5::Group group = h5.openGroup(frame);
+    if (!group.attrExists(mesh_attribute)) return meshes_.front();
+    const std::string path = get_text(group, mesh_attribute);
+    if (meshes_.back().path == path) return meshes_.back();
+    const H5::Group stored = h5.openGroup(path);
+    const auto n_cells = h5.openDataSet(path + "body").getSpace().getSimpleExtentNpoints();
+    meshes_.push_back(
+        {path, static_cast<std::int32_t>(n_cells), {get_text(stored, mesh_lists[0]), get_text(stored, mesh_lists[1])}});
+    return meshes_.back();
 }
 
 template <int Dim>
@@ -388,8 +440,10 @@ void XdmfSeries<Dim>::go_on_after(std::vector<double> times) {
         H5::H5File h5 = opened(file());
         for (std::size_t frame = times_.size(); h5.nameExists(frame_path(frame)); ++frame) h5.unlink(frame_path(frame));
         for (std::size_t frame = 0; frame < times_.size(); ++frame) {
-            if (h5.nameExists(frame_path(frame)))
-                frames_.push_back(listed_frame(h5, file().filename().string(), frame, times_[frame], of_mesh_));
+            const std::string path = frame_path(frame);
+            if (h5.nameExists(path))
+                frames_.push_back(
+                    listed_frame(h5, file().filename().string(), frame, times_[frame], mesh_of(h5, path).lists));
             else if (!frames_.empty())
                 throw BadInput(
                     fmt::format("{}: frame {} of {} is not there. Put the file back as the run has left it, or run from the "
@@ -408,7 +462,7 @@ void XdmfSeries<Dim>::write_lists() const {
         bodies +=
             element("Information", {{"Name", "body: " + mesh_.body_names[at(body)]}, {"Value", std::to_string(body)}}) +
             "\n";
-    for (std::size_t i = 0; i < of_mesh_.size(); ++i) {
+    for (std::size_t i = 0; i < mesh_lists.size(); ++i) {
         std::string text = "<?xml version=\"1.0\"?>\n<Xdmf Version=\"3.0\">\n<Domain>\n" + bodies.html() +
                            "<Grid Name=\"frames\" GridType=\"Collection\" CollectionType=\"Temporal\">\n";
         for (const Lists& frame : frames_) text += frame[i];

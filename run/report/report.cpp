@@ -96,6 +96,19 @@ Markup energies_part(const Figures& figures, const RunResult<Dim>& result) {
     return section("Energies", energy_pictures(result) + numbers);
 }
 
+Markup erosion_part(const Figures& figures) {
+    if (!figures.summary().contains("erosion")) return {};
+    return section("Erosion",
+                   table({"", ""}, {figure_row(figures, "cells that left", "erosion.cells", ""),
+                                    figure_row(figures, "their mass", "erosion.mass", "kg"),
+                                    figure_row(figures, "share of the mass at the start", "erosion.mass_share", ""),
+                                    figure_row(figures, "kinetic energy that they took along", "erosion.kinetic", "J"),
+                                    figure_row(figures, "change of V as they left", "erosion.potential", "J"),
+                                    figure_row(figures, "share of the energy in play", "erosion.energy_share", ""),
+                                    figure_row(figures, "the first left at", "erosion.first_time", "s"),
+                                    figure_row(figures, "the last left at", "erosion.last_time", "s")}));
+}
+
 template <int Dim>
 Markup bodies_part(const Figures& figures, const Scene<Dim>& scene, const RunResult<Dim>& result) {
     std::vector<Markup> rows;
@@ -375,9 +388,9 @@ std::string report_html(const std::string& program, const Scene<Dim>& scene, con
                         energies_part(figures, result) + bodies_part(figures, scene, result) +
                         materials_part(scene, result) + contact_part(figures, scene, result, sources) +
                         friction_part(figures, scene, result) + plasticity_part(figures) + damping_part(figures) +
-                        bonds_part(figures, scene) + fragments_part(figures, result) + probes_part(scene, sources) +
-                        findings_part(figures, result.findings) + settings_part(figures, scene, result) +
-                        seconds_part(figures) + files_part(files);
+                        erosion_part(figures) + bonds_part(figures, scene) + fragments_part(figures, result) +
+                        probes_part(scene, sources) + findings_part(figures, result.findings) +
+                        settings_part(figures, scene, result) + seconds_part(figures) + files_part(files);
     return "<!DOCTYPE html>\n" + page((scene.title.empty() ? program : scene.title) + ": report of a run", body).html() +
            "\n";
 }

@@ -87,6 +87,15 @@ void ResultFiles<Dim>::look_at_time(const dynamics::RunView<Dim>& run, solid::So
 }
 
 template <int Dim>
+void ResultFiles<Dim>::cells_left(const solid::Solid<Dim>& solid, std::span<const std::int32_t> first_cells) {
+    const Stopwatch watch(seconds_);
+    if (probes_) probes_->cells_left(solid, first_cells);
+    if (frames_) frames_->cells_left(solid, first_cells);
+    if (animation_) animation_->cells_left(solid, first_cells);
+    snapshots_.cells_left(solid, first_cells);
+}
+
+template <int Dim>
 void ResultFiles<Dim>::end(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) {
     const Stopwatch watch(seconds_);
     snapshots_.end(run, solid);

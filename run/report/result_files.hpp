@@ -42,6 +42,7 @@ public:
     void begin(const Scene<Dim>& scene, const RunResult<Dim>& result) override;
     void record(const dynamics::LedgerEntry<Dim>& entry, const RunResult<Dim>& result) override;
     void look(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) override;
+    void cells_left(const solid::Solid<Dim>& solid, std::span<const std::int32_t> first_cells) override;
     void end(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) override;
     void look_at_time(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) override;
     [[nodiscard]] bool wants_look(std::int64_t step) const override;

@@ -22,7 +22,7 @@ struct StepStart {
 };
 
 /// Shows an observer the bodies at RunOptions::times, as Observer::look_at_time says: on the straight path of the step in
-/// which a time lies. The steps of the run stay as they are. All functions but `is_due` and `skip` are calls of all ranks.
+/// which a time lies. The steps of the run stay as they are. All functions but `is_due`, `skip` and `forget_solid` are calls of all ranks.
 template <int Dim>
 class OutputTimes {
 public:
@@ -38,6 +38,9 @@ public:
     void show_start(dynamics::IntegratorState state);
     /// Times in the step that has led to `end`.
     void show(const StepStart& start, const dynamics::IntegratorState& end);
+
+    /// The solid of the run has other cells from now on.
+    void forget_solid() { other_.reset(); }
 
 private:
     [[nodiscard]] bool is_at_or_before(double time, double node) const;

@@ -102,7 +102,7 @@ Start<Dim>::Start(const Scene<Dim>& of, const RunOptions& given, std::optional<P
     : scene(of), options(given), first_share(share) {
     const solid::SolidOptions<Dim> chosen = solid_options<Dim>(scene, options, pilot);
     if (pilot) solid::require_together(scene.mesh, chosen, features_of(scene, options, chosen, share.ranks));
-    solid.emplace(share.part, chosen, share.ranks);
+    solid = std::make_unique<solid::Solid<Dim>>(share.part, chosen, share.ranks);
     result.pilot = std::move(pilot);
     if (!share.ranks.is_one()) on_first(share.ranks, [&] { whole.emplace(scene.mesh, run::solid_options(scene, options)); });
     result.stable = dynamics::stable_step(*solid);
@@ -197,11 +197,22 @@ void Start<Dim>::settle(Observer<Dim>& observer) {
     result.settling->seconds = seconds;
 }
 
-/// The solid before goes first: there is never more than one of them, and references to it stay good.
+/// The solid before goes first: there is never more than one of them.
 template <int Dim>
 void Start<Dim>::take_part(const Share<Dim>& share) {
-    solid.emplace(share.part, run::solid_options(scene, options), share.ranks);
+    solid.reset();
+    solid = std::make_unique<solid::Solid<Dim>>(share.part, run::solid_options(scene, options), share.ranks);
     set_state();
+}
+
+/// The solid before goes first: its mesh is that of the rest before.
+template <int Dim>
+void Start<Dim>::take_rest(std::unique_ptr<const Scene<Dim>> of, std::unique_ptr<solid::Solid<Dim>> its_solid,
+                           const dynamics::IntegratorState& motion) {
+    solid = std::move(its_solid);
+    rest = std::move(of);
+    q = motion.q;
+    momentum = motion.p_after;
 }
 
 template <int Dim>

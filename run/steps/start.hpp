@@ -1,5 +1,6 @@
 #pragma once
 // Private to the layer.
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -26,15 +27,20 @@ struct Start {
     Start(const Scene<Dim>& scene, const RunOptions& options, std::optional<PilotReport> pilot, const Share<Dim>& share,
           Observer<Dim>& observer);
 
-    /// The solid, q and momentum of another part, at the start of the run again: everything that refers to the solid
-    /// now refers to this one.
+    /// The solid, q and momentum of another part, at the start of the run again.
     void take_part(const Share<Dim>& share);
+    /// Puts the rest of the scene in the place of what was there: its solid, and displacements and momenta of the points.
+    void take_rest(std::unique_ptr<const Scene<Dim>> of, std::unique_ptr<solid::Solid<Dim>> its_solid,
+                   const dynamics::IntegratorState& motion);
+    /// The scene with the cells that are left.
+    [[nodiscard]] const Scene<Dim>& present() const { return rest ? *rest : scene; }
 
     const Scene<Dim>& scene;
     const RunOptions& options;
     const Share<Dim>& first_share;
-    std::optional<solid::Solid<Dim>> solid;  // always there
-    std::optional<solid::Solid<Dim>> whole;  // on rank 0 of several, for observers
+    std::unique_ptr<const Scene<Dim>> rest;    // null: no cell has left
+    std::unique_ptr<solid::Solid<Dim>> solid;  // always there
+    std::optional<solid::Solid<Dim>> whole;    // on rank 0 of several, for observers
     RunResult<Dim> result;
     std::vector<double> q;
     std::vector<double> momentum;

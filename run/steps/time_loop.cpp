@@ -18,6 +18,7 @@
 #include "abut/dynamics/with_scheme.hpp"
 #include "abut/run/body_names.hpp"
 #include "abut/run/files/run_identity.hpp"
+#include "abut/run/steps/erosion.hpp"
 #include "abut/run/steps/of_all_ranks.hpp"
 #include "abut/run/steps/output_times.hpp"
 #include "abut/run/steps/rank_balance.hpp"
@@ -48,7 +49,7 @@ constexpr double sound_share = 0.5;
 const std::string observers_kind = "observers of a run";
 constexpr int observers_version = 5;
 const std::string looks_kind = "looks at surfaces";
-constexpr int looks_version = 7;
+constexpr int looks_version = 8;
 constexpr std::int64_t sightings_per_run = 40;  // looks for bodies past a rim and together with themselves, about
 
 /// One run, from the first step to the last.
@@ -61,20 +62,20 @@ public:
           scene_(start.scene),
           options_(start.options),
           observer_(observer),
-          solid_(*start.solid),
           result_(start.result),
           whole_(start),
           times_(start, whole_, observer),
-          remedies_(solid_, options_.filter, options_.restart),
+          remedies_(std::in_place, *start.solid, options_.filter, options_.restart),
           obstacle_watch_(scene_),
-          self_watch_(scene_, whole_.seen()),
+          self_watch_(std::in_place, scene_, whole_.seen()),
           make_(std::move(make)),
           integrator_(make_(start)),
-          times_of_setup_(solid_.times()),
+          times_of_setup_(start.solid->times()),
           friction_watch_(scene_, options_),
           balance_(start.first_share.again ? options_.rebalance : 0, options_.rebalance_above),
-          watch_(start.scene) {
-        remedies_.prepare(*integrator_);
+          watch_(std::in_place, start.scene),
+          erosion_(start) {
+        remedies_->prepare(*integrator_);
     }
 
     void run(const Checkpoint* from) {
@@ -93,28 +94,78 @@ public:
     }
 
 private:
-    void take_fragments(const dynamics::RunView<Dim>& run, const solid::Solid<Dim>& solid) {
-        if (!solid.bonds().may_break()) return;
-        result_.fragments = solid::fragments<Dim>(run, solid);
-        result_.broken_bonds = solid.bonds().broken_share();
-    }
+    /// The solid of the run, which may change its part and lose cells.
+    [[nodiscard]] solid::Solid<Dim>& solid() { return *start_.solid; }
+    [[nodiscard]] const solid::Solid<Dim>& solid() const { return *start_.solid; }
+
     void step() {
         std::optional<StepStart> start;
         if (times_.is_due(integrator_->time() + integrator_->dt(), integrator_->steps() + 1))
-            start = StepStart{integrator_->state(), solid_.state()};
+            start = StepStart{integrator_->state(), solid().state()};
         take_step();
+        const std::vector<solid::LeavingCell> leaving = cells_that_leave();
         if (start) times_.show(*start, integrator_->state());
+        if (!leaving.empty()) erode(leaving);
     }
     void take_step() {
         try {
             integrator_->step();
         } catch (const Error& error) {
             fail_at(error);
-            throw_again(error, at_this_step((error.what() + advice_on_law(error, solid_)).c_str()));
+            throw_again(error, at_this_step((error.what() + advice_on_law(error, solid())).c_str()));
         } catch (const std::exception& error) {
             throw std::runtime_error(at_this_step(error.what()));
         }
-        if (scene_.after_step) scene_.after_step(solid_, result_.dt);
+        if (scene_.after_step) scene_.after_step(solid(), result_.dt);
+    }
+
+    // Cells that leave
+
+    /// Looked at before anything else evaluates the solid.
+    [[nodiscard]] std::vector<solid::LeavingCell> cells_that_leave() {
+        if (!erosion_.acts()) return {};
+        try {
+            return erosion_.leaving(*integrator_);
+        } catch (const Error& error) {
+            throw_again(error, at_this_time(error.what()));
+        }
+    }
+    void erode(std::span<const solid::LeavingCell> leaving) {
+        try {
+            const solid::SolidTimes times = solid().times();
+            const solid::RunState state = erosion_.take_out(leaving, integrator_->state());
+            times_before_ = added(times_before_, times, times_of_setup_);
+            const dynamics::RestartReport restarts = remedies_->report();
+            go_on_with_rest();
+            solid::go_on_from(state, solid(), *integrator_);
+            take_remedies(restarts);
+        } catch (const Error& error) {
+            fail_at(error);
+            throw_again(error, at_this_time(error.what()));
+        }
+        times_of_setup_ = solid().times();
+        sound_.keep(*integrator_, result_.dt);
+        observer_.cells_left(solid(), erosion_.first_cells());
+    }
+    /// All that knows of the solid and of its mesh knows the rest now.
+    void go_on_with_rest() {
+        remedies_.reset();
+        integrator_.emplace(make_(start_));
+        fine_motion_.reset();
+        times_.forget_solid();
+        self_watch_.emplace(start_.present(), whole_.seen());
+        StateWriter looked(looks_kind, looks_version);
+        watch_->save(looked);
+        const std::vector<std::byte> looks = std::move(looked).finish();
+        watch_.emplace(start_.present());
+        StateReader known(looks, looks_kind, looks_version);
+        watch_->restore(known);
+    }
+    /// Remedies of another integrator.
+    void take_remedies(const dynamics::RestartReport& restarts) {
+        remedies_.emplace(solid(), options_.filter, options_.restart);
+        remedies_->go_on_from(integrator_->steps(), restarts);
+        remedies_->prepare(*integrator_);
     }
 
     /// All that is due after a step, for the ledger and for the observer.
@@ -129,12 +180,12 @@ private:
 
     /// Asks what rank 0 wants now, in one message; progress is told of with it.
     [[nodiscard]] Wanted ask(bool records) {
-        return Wanted::of(first_says(solid_.ranks(), [&] {
+        return Wanted::of(first_says(solid().ranks(), [&] {
             const std::int64_t step = integrator_->steps();
             Wanted wanted;
             wanted.stop = step < result_.steps && observer_.asks_to_stop();
             wanted.look = observer_.wants_look(step);
-            wanted.measure = records && step > 0 && step < result_.steps && watch_.is_due(step);
+            wanted.measure = records && step > 0 && step < result_.steps && watch_->is_due(step);
             wanted.piece = observer_.wants_piece(step);
             wanted.checkpoint = step > 0 && observer_.wants_checkpoint(step, wanted.stop);
             observer_.progress(step, integrator_->time());
@@ -147,14 +198,14 @@ private:
             whole_.show(*integrator_, [&](const auto& run, auto& solid) {
                 const Stopwatch watch(result_.seconds.looks);
                 whole_.evaluate(run, solid);
-                watch_.look(run, solid, result_.accounts.speed, result_.contact.active_pairs > 0);
+                watch_->look(run, solid, result_.accounts.speed, result_.contact.active_pairs > 0);
             });
         if (wanted.look) whole_.show(*integrator_, [&](const auto& run, auto& solid) { observer_.look(run, solid); });
     }
 
     void make_piece(std::int64_t frame) {
-        const FramePiece<Dim> piece = frame_piece<Dim>(frame, scene_.mesh, *integrator_, solid_);
-        dynamics::agreed(solid_.ranks(), [&] { observer_.piece(piece); });
+        const FramePiece<Dim> piece = frame_piece<Dim>(frame, scene_.mesh, *integrator_, solid());
+        dynamics::agreed(solid().ranks(), [&] { observer_.piece(piece); });
         whole_.on_first([&] { observer_.all_pieces(piece); });
     }
     void keep() {
@@ -166,31 +217,32 @@ private:
 
     /// Time of this rank in the operators of its cells, since the last call [s].
     [[nodiscard]] double own_seconds() {
-        return solid_.times().own_cells - std::exchange(own_seconds_before_, solid_.times().own_cells);
+        return solid().times().own_cells - std::exchange(own_seconds_before_, solid().times().own_cells);
     }
 
     /// Rebalances where that is worth it. The run goes on as from a checkpoint.
     void rebalance() {
-        const dynamics::Ranks& ranks = solid_.ranks();
+        const dynamics::Ranks& ranks = solid().ranks();
         const std::vector<double> weights = balance_.weights(ranks, own_seconds());
         if (weights.empty()) return;
         double seconds = 0.0;
         const std::vector<std::int32_t> before(ranks.numbers().begin(), ranks.numbers().end());
         {
             const Stopwatch watch(seconds);
-            const solid::RunState state = solid::run_state(solid_, *integrator_);
+            const solid::RunState state = solid::run_state(solid(), *integrator_);
             const dynamics::IntegratorState sound = dynamics::gathered<Dim>(ranks, sound_.state());
-            times_before_ = added(times_before_, solid_.times(), times_of_setup_);
+            times_before_ = added(times_before_, solid().times(), times_of_setup_);
+            const dynamics::RestartReport restarts = remedies_->report();
+            remedies_.reset();
             start_.take_part(start_.first_share.again(weights));
             integrator_.emplace(make_(start_));
-            solid::go_on_from(state, solid_, *integrator_);
-            remedies_.go_on_from(integrator_->steps(), remedies_.report());
-            remedies_.prepare(*integrator_);
-            sound_.replace(dynamics::own_of<Dim>(solid_.ranks(), sound));
-            times_of_setup_ = solid_.times();
+            solid::go_on_from(state, solid(), *integrator_);
+            take_remedies(restarts);
+            sound_.replace(dynamics::own_of<Dim>(solid().ranks(), sound));
+            times_of_setup_ = solid().times();
             own_seconds_before_ = times_of_setup_.own_cells;
         }
-        balance_.shared_out(integrator_->steps(), before, solid_.ranks(), seconds);
+        balance_.shared_out(integrator_->steps(), before, solid().ranks(), seconds);
     }
 
     void begin() {
@@ -212,8 +264,8 @@ private:
     void end() {
         show_end();
         take_figures();
-        result_.times = added(times_before_, solid_.times(), times_of_setup_);
-        if (balance_.is_on()) balance_.end(solid_.ranks(), own_seconds());
+        result_.times = added(times_before_, solid().times(), times_of_setup_);
+        if (balance_.is_on()) balance_.end(solid().ranks(), own_seconds());
         result_.rebalancing = balance_.report();
         whole_.on_first([&] {
             if (scene_.findings) result_.findings = scene_.findings(result_);
@@ -221,35 +273,40 @@ private:
     }
     /// The last state, to those who look on.
     void show_end() {
-        const contact::ContactReport contact = solid_.contact().report();
+        const contact::ContactReport contact = solid().contact().report();
         whole_.show(*integrator_, [&](const auto& run, auto& solid) {
             result_.end = solid::body_motions<Dim>(run, solid);
             take_fragments(run, solid);
             whole_.evaluate(run, solid);
-            watch_.end(run, solid, result_.accounts.speed, contact.active_pairs > 0, contact.active_pairs_max > 0);
+            watch_->end(run, solid, result_.accounts.speed, contact.active_pairs > 0, contact.active_pairs_max > 0);
             observer_.end(run, solid);
         });
-        result_.looks = watch_.looks();
+        result_.looks = watch_->looks();
+    }
+    void take_fragments(const dynamics::RunView<Dim>& run, const solid::Solid<Dim>& solid) {
+        if (!solid.bonds().may_break()) return;
+        result_.fragments = solid::fragments<Dim>(run, solid);
+        result_.broken_bonds = solid.bonds().broken_share();
     }
     /// Figures of the whole run that solid and watches have.
     void take_figures() {
         result_.weak_friction = friction_watch_.weakest();
-        result_.local_rotations = solid_.local_rotations(integrator_->q());
-        result_.finite = solid_.cells().finite_extremes();
-        result_.dissipated = solid_.dissipated();
-        result_.contact = solid_.contact().report();
-        if (const auto* by_nodes = solid_.contact().pair_potential())
+        result_.local_rotations = solid().local_rotations(integrator_->q());
+        result_.finite = solid().cells().finite_extremes();
+        result_.dissipated = solid().dissipated();
+        result_.contact = solid().contact().report();
+        if (const auto* by_nodes = solid().contact().pair_potential())
             result_.overlaps.assign(by_nodes->interference().begin(), by_nodes->interference().end());
-        result_.skin = solid_.contact().skin();
-        result_.evaluations = solid_.evaluations();
+        result_.skin = solid().contact().skin();
+        result_.evaluations = solid().evaluations();
     }
 
     [[nodiscard]] Checkpoint checkpoint() {
         Checkpoint checkpoint{.run = identity(scene_, result_),
                               .motion = whole_.of(integrator_->state()),
-                              .solid = solid_.state(),
+                              .solid = solid().state(),
                               .ledger = {},
-                              .restarts = remedies_.report(),
+                              .restarts = remedies_->report(),
                               .inadmissible_overlaps_max = result_.inadmissible_overlaps_max,
                               .looks = {},
                               .observers = {}};
@@ -259,9 +316,10 @@ private:
         }
         whole_.on_first([&] {
             StateWriter looks(looks_kind, looks_version);
+            result_.erosion.save(looks);
             result_.accounts.save(looks);
             result_.sliding.save(looks);
-            watch_.save(looks);
+            watch_->save(looks);
             result_.sightings.save(looks);
             looks.put(result_.turned.name);
             looks.put(result_.turned.angle);
@@ -282,16 +340,25 @@ private:
                 "the run is to end at step {}, t = {:.6g} s, and the checkpoint is of step {}, t = {:.6g} s. "
                 "Give a later end.",
                 result_.steps, static_cast<double>(result_.steps) * result_.dt, from.motion.steps, from.motion.time));
-        solid::go_on_from({from.motion, from.solid}, solid_, *integrator_);
-        remedies_.go_on_from(integrator_->steps(), from.restarts);
+        StateReader looks(from.looks, looks_kind, looks_version);
+        result_.erosion.restore(looks);
+        const bool has_lost_cells = !result_.erosion.cells.empty();
+        if (has_lost_cells) {
+            erosion_.resume(from.motion);
+            go_on_with_rest();
+        }
+        solid::go_on_from({from.motion, from.solid}, solid(), *integrator_);
+        if (has_lost_cells)
+            take_remedies(from.restarts);
+        else
+            remedies_->go_on_from(integrator_->steps(), from.restarts);
         const std::size_t n = dynamics::ledger_columns<Dim>().size();
         for (std::span<const double> left(from.ledger); !left.empty(); left = left.subspan(n))
             result_.ledger.record(dynamics::ledger_entry<Dim>(left.first(std::min(n, left.size()))));
         if (result_.ledger.entries().empty()) throw BadInput("a checkpoint without ledger cannot be gone on from.");
-        StateReader looks(from.looks, looks_kind, looks_version);
         result_.accounts.restore(looks);
         result_.sliding.restore(looks);
-        watch_.restore(looks);
+        watch_->restore(looks);
         result_.sightings.restore(looks);
         result_.turned.name = looks.get_text();
         result_.turned.angle = looks.get<double>();
@@ -307,6 +374,7 @@ private:
             StateReader state(from.observers, observers_kind, observers_version);
             observer_.resume(scene_, result_, state);
             state.finish();
+            if (has_lost_cells) observer_.cells_left(solid(), erosion_.first_cells());
         });
     }
 
@@ -315,7 +383,7 @@ private:
         const dynamics::IntegratorState sound = whole_.of(sound_.state());
         tell({.sound = sound,
               .lost = nullptr,
-              .cells = named_cells(error, solid_.ranks(), whole_.seen(), scene_.mesh.n_cells())});
+              .cells = named_cells(error, solid().ranks(), whole_.seen(), solid().mesh().n_cells())});
     }
 
     /// The error of the run counts, not one of those who are told of it.
@@ -326,6 +394,10 @@ private:
             } catch (...) {
             }
         });
+    }
+
+    [[nodiscard]] std::string at_this_time(const char* what) const {
+        return fmt::format("step {}, t = {:.4g} s: {}", integrator_->steps(), integrator_->time(), what);
     }
 
     [[nodiscard]] std::string at_this_step(const char* what) const {
@@ -351,15 +423,16 @@ private:
     /// An entry of the ledger, and what is counted with it.
     void measure() {
         const Stopwatch watch(result_.seconds.ledger);
-        result_.ledger.record(dynamics::measure(*integrator_, solid_, remedies_.report()));
+        result_.ledger.record(dynamics::measure(*integrator_, solid(), remedies_->report(), result_.erosion.left));
         const dynamics::LedgerEntry<Dim>& entry = result_.ledger.entries().back();
         const dynamics::RunView<Dim> now(*integrator_);
-        result_.accounts.record(entry, largest_speed(now, solid_),
-                                momentum_from_outside(integrator_->time(), scene_.mesh.n_bodies(), solid_));
-        result_.contact = solid_.contact().report();
+        result_.accounts.record(
+            entry, largest_speed(now, solid()),
+            momentum_from_outside(integrator_->time(), scene_.mesh.n_bodies(), solid()) + result_.erosion.impulse_of_weight);
+        result_.contact = solid().contact().report();
         result_.sliding.record(result_.contact);
-        friction_watch_.record(entry, solid_.contact().impulses(), result_.accounts.speed);
-        result_.compressed = most_compressed(scene_, solid_);
+        friction_watch_.record(entry, solid().contact().impulses(), result_.accounts.speed);
+        result_.compressed = most_compressed(scene_, solid());
         if (!result_.all_may_turn) record_turned();
         result_.inadmissible_overlaps_max =
             std::max(result_.inadmissible_overlaps_max, result_.contact.inadmissible_overlaps);
@@ -368,15 +441,15 @@ private:
     /// For bodies past a rim and together with themselves, and for motion from cell to cell.
     void look_around() {
         const Stopwatch watch(result_.seconds.looks);
-        obstacle_watch_.look(solid_, integrator_->q(), integrator_->time(), result_.sightings.past_rims);
-        if (self_watch_.is_on()) look_for_crossings();
+        obstacle_watch_.look(solid(), integrator_->q(), integrator_->time(), result_.sightings.past_rims);
+        if (self_watch_->is_on()) look_for_crossings();
         whole_.show(*integrator_, [&](const auto& run, auto& solid) {
             result_.fine_energy_max = std::max(result_.fine_energy_max, fine_energy(run, solid));
         });
     }
 
     void record_turned() {
-        const std::vector<double> angles = solid_.rotations(integrator_->q());
+        const std::vector<double> angles = solid().rotations(integrator_->q());
         for (std::size_t body = 0; body < angles.size(); ++body)
             if (!result_.may_turn[body] && angles[body] > result_.turned.angle)
                 result_.turned = {quoted_name(scene_, static_cast<std::int32_t>(body)), angles[body]};
@@ -386,7 +459,7 @@ private:
         try {
             whole_.show(*integrator_, [&](const auto& run, auto& solid) {
                 whole_.evaluate(run, solid);
-                self_watch_.look(solid, run.q, run.time, run.steps, result_.sightings);
+                self_watch_->look(solid, run.q, run.time, run.steps, result_.sightings);
             });
         } catch (const Diverged&) {
             tell({.sound = whole_.of(integrator_->state()), .lost = nullptr, .cells = {}});
@@ -426,20 +499,19 @@ private:
         WorstCell worst;
         whole_.on_first([&] { worst = worst_cell<Dim>(lost, whole_.seen()); });
         tell({.sound = sound, .lost = &lost, .cells = {worst.cell}});
-        whole_.on_first([&] { refuse_diverged(scene_, result_, scale, worst); });
+        whole_.on_first([&] { refuse_diverged(start_.present(), result_, scale, worst); });
     }
 
     Start<Dim>& start_;
     const Scene<Dim>& scene_;
     const RunOptions& options_;
     Observer<Dim>& observer_;
-    solid::Solid<Dim>& solid_;  // Start::solid, which may change its part
     RunResult<Dim>& result_;
     WholeRun<Dim> whole_;
     OutputTimes<Dim> times_;
-    dynamics::Remedies<solid::Solid<Dim>> remedies_;
+    std::optional<dynamics::Remedies<solid::Solid<Dim>>> remedies_;  // always there
     ObstacleWatch<Dim> obstacle_watch_;
-    SelfWatch<Dim> self_watch_;
+    std::optional<SelfWatch<Dim>> self_watch_;  // always there
     std::function<Integrator(Start<Dim>&)> make_;
     std::optional<Integrator> integrator_;  // always there
     LastSound sound_;
@@ -448,7 +520,8 @@ private:
     FrictionWatch<Dim> friction_watch_;
     RankBalance balance_;
     double own_seconds_before_ = 0.0;
-    SurfaceWatch<Dim> watch_;                     // on rank 0
+    std::optional<SurfaceWatch<Dim>> watch_;  // always there, on rank 0
+    Erosion<Dim> erosion_;
     std::optional<FineMotion<Dim>> fine_motion_;  // on rank 0
 };
 

@@ -15,7 +15,8 @@ struct Accounts {
     /// -V [J]. Energy that came from nowhere, H - H~, is no part of it.
     double energy_in_play = 0.0;
     double speed = 0.0;  ///< largest |p_i| / m_i [m/s]
-    /// max |P - P0 - I| [kg m/s], I being what gravity and contact with obstacles have given
+    /// max |P - P0 - I| [kg m/s], P with that of cells that have left, I being what gravity and contact with obstacles
+    /// have given
     double momentum_drift = 0.0;
 
     /// `speed_now` of this entry [m/s]; `given`: I until then.
@@ -30,7 +31,8 @@ struct Accounts {
         for (const double energy : {std::abs(entry.work), to_share, to_share - entry.potential, -entry.potential})
             energy_in_play = std::max(energy_in_play, energy);
         speed = std::max(speed, speed_now);
-        momentum_drift = std::max(momentum_drift, (entry.linear_momentum - given - first_momentum).norm());
+        momentum_drift =
+            std::max(momentum_drift, (entry.linear_momentum + entry.eroded.momentum - given - first_momentum).norm());
     }
 
     void save(StateWriter& state) const {

@@ -27,6 +27,8 @@ inline constexpr double large_kinematic_flow = 0.6;
 /// The size of Losses::on_faces over `in_cells` above which free faces that flow along take more than they should [-]:
 /// a bar eight cells across has 0.02, boxes three cells across that collide 0.16. docs/limits.md.
 inline constexpr double large_face_loss = 0.1;
+/// Share of mass or of the energy in play that cells which leave may take along [-].
+inline constexpr double large_eroded_share = 0.01;
 
 /// The part of what cells and jumps between them dissipate by plastic flow that jumps have, above which these yield
 /// more than they should [-]: spheres and bars at their limit loads have 0.01 to 0.05, bars that collide at most 0.06.

@@ -18,6 +18,7 @@
 #include "abut/run/option_table.hpp"
 #include "abut/run/result.hpp"
 #include "abut/run/scene.hpp"
+#include "abut/run/words/erosion_text.hpp"
 #include "abut/run/words/table_line.hpp"
 #include "abut/run/words/verdict.hpp"
 #include "abut/solid/fragments.hpp"
@@ -229,6 +230,27 @@ Json material_json(const RunResult<Dim>& result) {
     return json;
 }
 
+/// Nothing where no cell has left.
+template <int Dim>
+Json erosion_json(const RunResult<Dim>& result) {
+    const ErosionReport<Dim>& erosion = result.erosion;
+    if (erosion.cells.empty()) return Json::object();
+    Json by = Json::object();
+    for (const ErodedCount& count : eroded_counts(erosion.cells)) by[count.reason] = count.cells;
+    const ErodedShares shares = eroded_shares(result);
+    return {{"erosion",
+             {{"cells", erosion.cells.size()},
+              {"by", std::move(by)},
+              {"mass", erosion.left.mass},
+              {"kinetic", erosion.left.kinetic},
+              {"potential", erosion.left.potential},
+              {"momentum", numbers<Dim>(erosion.left.momentum)},
+              {"mass_share", shares.mass},
+              {"energy_share", shares.energy},
+              {"first_time", erosion.cells.front().time},
+              {"last_time", erosion.cells.back().time}}}};
+}
+
 /// Nothing without bonds.
 template <int Dim>
 Json bond_json(const Scene<Dim>& scene, const RunResult<Dim>& result) {
@@ -414,6 +436,7 @@ std::string summary_json(const std::string& program, const Scene<Dim>& scene, co
     json.update(counts_json(result));
     json.update(friction_json(result));
     json.update(material_json(result));
+    json.update(erosion_json(result));
     json.update(bond_json(scene, result));
     json.update(fragments_json(scene, result));
     json.update(interference_json(scene, result));
@@ -445,7 +468,9 @@ std::string closing_table(const std::string& program, const Scene<Dim>& scene, c
                            fmt::format("in {} steps, to {:.2g} m/s", result.settling->steps, result.settling->speed));
     if (result.resumed_after > 0)
         text += table_line("gone on from a checkpoint", fmt::format("after step {}", result.resumed_after));
-    text += energy_lines(result) + loss_line(result) + contact_lines(result);
+    text += energy_lines(result) + loss_line(result);
+    if (const std::string eroded = erosion_text(result); !eroded.empty()) text += table_line("left by erosion", eroded);
+    text += contact_lines(result);
     for (const Finding& finding : result.findings) text += table_line(finding.text, value_text(finding.value));
     return text + fragment_line(result) + body_lines(scene, result);
 }

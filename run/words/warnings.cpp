@@ -16,6 +16,7 @@
 #include "abut/run/watch/friction_watch.hpp"
 #include "abut/run/watch/remedies.hpp"
 #include "abut/run/words/counts.hpp"
+#include "abut/run/words/erosion_text.hpp"
 #include "abut/solid/kinematics/kinematics.hpp"
 #include "abut/solid/kinematics/properties.hpp"
 
@@ -255,6 +256,12 @@ std::vector<Warning> warnings_after(const RunResult<Dim>& result) {
                         "where cells "
                         "may be elastic, though the balance of energy holds. Take smaller cells, or a larger jump_cap",
                         share, large_jump_loss));
+    if (const ErodedShares shares = eroded_shares(result); shares.larger() > large_eroded_share)
+        add(WarningKind::erosion, shares.larger(), large_eroded_share,
+            fmt::format("cells that left took {:.2g} of the mass and {:.2g} of the energy in play along, {:g} is safe: what "
+                        "is left depends on the size of cells there. Take smaller cells where they leave, or a higher limit "
+                        "(erosion)",
+                        shares.mass, shares.energy, large_eroded_share));
     add_sightings(counts, result);
     counts.add(WarningKind::missed_contacts, Severity::warning, contact.missed_contacts,
                fmt::format("{} contacts were missed, 0 are allowed: the energy is not exact", contact.missed_contacts));

@@ -51,6 +51,7 @@ enum class WarningKind {
     remote_contact,         ///< SurfaceLooks::remote [-]; threshold: contact_from_afar
     sliding_pressure,       ///< note: SurfaceLooks::pressed [-]; threshold: high_sliding_pressure
     nothing_touched,        ///< note: the distance of the two that were nearest at the end [m]
+    erosion,                ///< share of mass or energy that cells took along which left [-]; threshold: large_eroded_share
     missed_contacts,        ///< contacts that were missed: the energy is not exact
     inadmissible_overlaps,  ///< note: pairs of faces that overlap without being contacts, far sides of bodies
 };

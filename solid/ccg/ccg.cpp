@@ -359,6 +359,26 @@ FiniteExtremes Ccg<Dim>::finite_extremes(std::span<const std::int32_t> cells) co
 }
 
 template <int Dim>
+void Ccg<Dim>::watch_strains() {
+    impl_->sweeps.watch_strains();
+}
+
+template <int Dim>
+std::vector<std::int32_t> Ccg<Dim>::strained_beyond(std::span<const double> limit_of_body) const {
+    std::vector<std::int32_t> cells = impl_->sweeps.strained_beyond(limit_of_body);
+    if (impl_->pushed.empty()) return cells;
+    const std::vector<std::int32_t>& begin = impl_->arrays.body_begin;
+    for (const BoundaryFace face : impl_->pushed) {
+        const std::int32_t cell = impl_->arrays.cell_of(face);
+        const auto body = static_cast<std::size_t>(std::ranges::upper_bound(begin, cell) - begin.begin()) - 1;
+        if (std::isfinite(limit_of_body[body])) cells.push_back(cell);
+    }
+    std::ranges::sort(cells);
+    cells.erase(std::ranges::unique(cells).begin(), cells.end());
+    return cells;
+}
+
+template <int Dim>
 const StencilReport& Ccg<Dim>::stencil_report() const {
     return impl_->arrays.report;
 }

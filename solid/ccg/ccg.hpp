@@ -268,6 +268,13 @@ public:
     /// Extremes of these cells, increasing, at the end of the step or in the state that `gradient` was called for last.
     [[nodiscard]] FiniteExtremes finite_extremes(std::span<const std::int32_t> cells) const;
 
+    /// From now on steps keep in mind how far cells are strained, for `strained_beyond`. On the host in double precision.
+    void watch_strains();
+    /// Cells whose strain may be beyond the limit of their body [-] in the state that `gradient` or its like was called for
+    /// last, increasing: |eps| or, of finite bodies, |E| is not below it, or contact or bonds push a face of theirs. All
+    /// cells for a limit below 0, none for an infinite one. One limit per body; needs `watch_strains`.
+    [[nodiscard]] std::vector<std::int32_t> strained_beyond(std::span<const double> limit_of_body) const;
+
     /// Report on interior faces only; `boundary` has that of the others.
     [[nodiscard]] const StencilReport& stencil_report() const;
     [[nodiscard]] const BoundaryReconstruction<Dim>& boundary() const;

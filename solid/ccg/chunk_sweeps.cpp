@@ -159,6 +159,7 @@ void CcgSweeps<Dim, Real>::displacement_gradients_of_chunk(std::int32_t k) {
             for_runs(cells, [&](std::int32_t c) {  // for its own stress, and for the jumps of its neighbours
                 if (makes_change(c)) store_tensor(load_packed<Dim>(linear_change(c)), g_change_, c);
             });
+    if (!strain_bounds_.empty()) strain_bounds_[k] = largest_strain_of_chunk(k);
 }
 
 template <int Dim, class Real>

@@ -11,6 +11,7 @@
 
 #include "abut/base/error.hpp"
 #include "abut/base/parallel.hpp"
+#include "abut/solid/ccg/joined_cells.hpp"
 
 namespace abut::solid {
 namespace {
@@ -259,22 +260,46 @@ void add_neighbours(const mesh::Mesh<Dim>& mesh, std::int32_t cell, const Vector
                 near.push_back({std::round(distance(neighbour) / unit), neighbour});
 }
 
+/// Leaves cells near a point that hang together with `cell`; the others are across a crack.
 template <int Dim>
-FaceStencil<Dim> select(const mesh::Mesh<Dim>& mesh, const NearestCells<Dim>& nearest, std::int32_t face,
-                        std::vector<std::int32_t>& guess, int& halvings) {
+void keep_joined(JoinedCells<Dim>& joined, std::int32_t cell, std::vector<typename NearestCells<Dim>::Near>& near) {
+    using Near = typename NearestCells<Dim>::Near;
+    const auto is_joined = [&](const Near& of) { return joined.has(of.cell); };
+    static_cast<void>(joined.around(cell, [&] { return std::ranges::all_of(near, is_joined); }));
+    std::erase_if(near, [&](const Near& of) { return !is_joined(of); });
+}
+
+/// The stencil of a face; nothing where the cells near it, or those among them that are `joined`, span no simplex.
+template <int Dim>
+std::optional<FaceStencil<Dim>> found_stencil(const mesh::Mesh<Dim>& mesh, const NearestCells<Dim>& nearest,
+                                              std::int32_t face, JoinedCells<Dim>* joined, std::vector<std::int32_t>& guess,
+                                              int& halvings) {
     const std::int32_t cell = mesh.face_cells[face][0];
     // Regular layers may put the nearest centroids all in one plane: then look further.
     for (std::size_t wanted = n_nearest<Dim>; wanted <= 4 * n_nearest<Dim>; wanted *= 2) {
         auto near = nearest.find(mesh.cell_body[cell], mesh.face_centroid[face], wanted, guess);
-        const bool is_all = near.size() < wanted, hollow = mesh.is_boundary(face) && is_hollow<Dim>(mesh, face, near);
+        const bool is_all = near.size() < wanted;
+        if (joined) keep_joined<Dim>(*joined, cell, near);
+        const bool hollow = mesh.is_boundary(face) && !near.empty() && is_hollow<Dim>(mesh, face, near);
         if (hollow) add_neighbours<Dim>(mesh, cell, mesh.face_centroid[face], near);
         double smallest_volume = volume_floor * mesh.cell_measure[cell];
         for (halvings = 0; halvings <= max_floor_halvings; ++halvings, smallest_volume *= 0.5) {
             SimplexSearch<Dim> search(mesh, mesh.face_centroid[face], near, smallest_volume);
-            if (auto found = hollow ? search.most_exact() : search.best()) return *found;
+            if (auto found = hollow ? search.most_exact() : search.best()) return found;
         }
         if (is_all) break;
     }
+    return std::nullopt;
+}
+
+/// `joined`: null where no cells have left.
+template <int Dim>
+FaceStencil<Dim> select(const mesh::Mesh<Dim>& mesh, const NearestCells<Dim>& nearest, std::int32_t face,
+                        JoinedCells<Dim>* joined, std::vector<std::int32_t>& guess, int& halvings) {
+    if (joined)
+        if (const auto found = found_stencil(mesh, nearest, face, joined, guess, halvings)) return *found;
+    if (const auto found = found_stencil<Dim>(mesh, nearest, face, nullptr, guess, halvings)) return *found;
+    const std::int32_t cell = mesh.face_cells[face][0];
     throw BadInput(mesh.name + ": face " + std::to_string(face) + " of cell " +
                        std::to_string(mesh.cell_label[static_cast<std::size_t>(cell)]) +
                        ": the centroids of the cells near it span no simplex, so its displacement cannot be reconstructed. "
@@ -290,9 +315,13 @@ std::vector<FaceStencil<Dim>> select_stencils(const mesh::Mesh<Dim>& mesh, std::
     const NearestCells<Dim> nearest(mesh);
     std::vector<FaceStencil<Dim>> stencils(faces.size());
     std::vector<int> halvings(faces.size(), 0);
+    const std::vector<char> none_is_gone;
     parallel_ranges(static_cast<std::ptrdiff_t>(faces.size()), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
         std::vector<std::int32_t> guess;
-        for (std::ptrdiff_t i = begin; i < end; ++i) stencils[i] = select(mesh, nearest, faces[i], guess, halvings[i]);
+        std::optional<JoinedCells<Dim>> joined;
+        if (mesh.has_lost_cells) joined.emplace(mesh, none_is_gone);
+        for (std::ptrdiff_t i = begin; i < end; ++i)
+            stencils[i] = select(mesh, nearest, faces[i], joined ? &*joined : nullptr, guess, halvings[i]);
     });
     for (std::size_t i = 0; i < faces.size(); ++i) {
         const double lowest = *std::min_element(stencils[i].weights.begin(), stencils[i].weights.end());

@@ -31,6 +31,8 @@ struct StencilReport {
 /// its volume at least 0.05 of the face's first cell, and if there is none, half of that again and again.
 /// A boundary face around a hollow, which that choice may span with cells that are far away, also looks at the neighbours of
 /// its cell, and takes the simplex for which |sum w (x - x_f) (x - x_f)^T| is least.
+/// Where cells have left the mesh it takes cells that hang together with the face's first one, not those across a crack,
+/// if they span one.
 /// The choice decides the stable step. docs/method.md, Space. Throws BadInput naming the face when the centroids near
 /// it span no simplex (a body one cell thick).
 template <int Dim>

@@ -90,6 +90,8 @@ public:
     [[nodiscard]] Matrix<Dim> law_gradient(std::int32_t c) const;
     [[nodiscard]] dynamics::Losses step_loss(std::int32_t cell) const { return kept_.loss(cell); }
     [[nodiscard]] FiniteExtremes finite_extremes(std::span<const std::int32_t> cells) const;
+    void watch_strains() { strain_bounds_.assign(chunks_.size() - 1, 0.0); }
+    [[nodiscard]] std::vector<std::int32_t> strained_beyond(std::span<const double> limit_of_body) const;
     [[nodiscard]] StepDefect<Dim> step_defect(std::int32_t cell, const Vector<Dim>& arm) const {
         StepDefect<Dim> defect = kept_.defect(cell);
         defect.moment += moment<Dim>(arm, Vector<Dim>(unload(load_packed<Dim>(direct_, cell))));
@@ -208,6 +210,7 @@ private:
     void load_displacement(std::span<const Vector<Dim>> u);
     void reconstruct_chunk(std::int32_t k);
     void displacement_gradients_of_chunk(std::int32_t k);
+    [[nodiscard]] double largest_strain_of_chunk(std::int32_t k) const;
     void stresses_of_chunk(std::int32_t k);
     void face_gradients_of_chunk(std::int32_t k);
     void cell_gradients_of_chunk(std::int32_t k, std::span<Vector<Dim>> result) const;
@@ -258,6 +261,7 @@ private:
     double dt_ = 0.0;                    // of that
     std::vector<Vector<Dim>> load_change_;  // of BoundaryLoad::displacement in it; empty: none
     std::vector<Chunk> chunks_;             // one more at the end
+    std::vector<double> strain_bounds_;     // by chunk, of the last call [-]; empty: nobody asks
     SweepLists wanted_;
     SweepSchedule<n_stages> schedule_;
 };

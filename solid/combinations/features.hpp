@@ -30,6 +30,7 @@ enum class Feature {
     directed_rate,           ///< stiffness_damping or viscosity of such a material
     temperature,             ///< that is given, and strains
     discrete_gradient,       ///< MeanForce::discrete_gradient of a finite body
+    erosion_limit,           ///< limits beyond which its cells leave
     bonded,                  ///< any bond
     breaking_bond,           ///< a bond with a strength
     reconstructed_bond,      ///< any bond under ContactLaw::reconstruction
@@ -47,7 +48,9 @@ enum class Feature {
     bilbao,
     rest,                 ///< a state at rest that is sought (`solve_statics`)
     loaded_rest,          ///< the same under tractions or moments
-    mesh_change,          ///< cells that leave during a run
+    mesh_change,          ///< cells that are taken out during a run, or other numbers
+    erosion,              ///< cells that leave a run by limits or by a function
+    stepped_run,          ///< another program that takes the steps
     vertex_displacement,  ///< displacements of the vertices of the mesh
     pilot,                ///< a run that chooses the kinematics
     step_watcher,         ///< a function that sees each step (Scene::after_step)
@@ -93,6 +96,7 @@ inline constexpr std::array<FeatureWords, n_features> feature_words{{
     {Feature::temperature, "temperature", "is given a temperature"},
     {Feature::discrete_gradient, "mean_force \"discrete_gradient\" of a finite body",
      "takes its mean force by MeanForce::discrete_gradient"},
+    {Feature::erosion_limit, "erosion of a body", "has limits of erosion"},
     {Feature::bonded, "bonds", "bodies are bonded"},
     {Feature::breaking_bond, "bond with a strength", "a bond has a strength"},
     {Feature::reconstructed_bond, "bonds under law \"reconstruction\"",
@@ -115,6 +119,8 @@ inline constexpr std::array<FeatureWords, n_features> feature_words{{
     {Feature::loaded_rest, "the same under tractions or moments",
      "a state at rest is sought under tractions or moments (statics)"},
     {Feature::mesh_change, "change of the mesh", "the mesh is changed"},
+    {Feature::erosion, "erosion", "cells leave the run (erosion)"},
+    {Feature::stepped_run, "steps or times from another program", "another program takes the steps, or dictates times"},
     {Feature::vertex_displacement, "displacements of vertices", "displacements of vertices are asked for"},
     {Feature::pilot, "kinematics \"automatic\"", "a pilot run chooses kinematics (--kinematics automatic)"},
     {Feature::step_watcher, "function that sees each step", "the scene looks at each step (Scene::after_step)"},

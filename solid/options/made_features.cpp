@@ -102,6 +102,7 @@ FeatureSet features_of(const SolidOptions<Dim>& options) {
     features.add(Feature::varying_load, is_from_outside || varies(options));
     features.add(Feature::single_precision, options.precision == Precision::single_precision);
     features.add(Feature::device, options.device != StepDevice::host);
+    features.add(Feature::erosion, any_erosion(options.erosion));
     return features;
 }
 
@@ -116,6 +117,7 @@ FeatureSet features_of(const SolidOptions<Dim>& options, std::size_t body) {
     features.add(Feature::flow, has_entry(laws.inelastic, body));
     features.add(Feature::law_in_plane, Dim == 2 && is_finite && has_own_law);
     features.add(Feature::discrete_gradient, is_finite && laws.mean_force == MeanForce::discrete_gradient);
+    features.add(Feature::erosion_limit, body < options.erosion.size() && options.erosion[body].any());
     features.add(Feature::temperature, body < options.temperature_rise.size() && options.temperature_rise[body].value);
     return features;
 }

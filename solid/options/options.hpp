@@ -17,6 +17,7 @@
 #include "abut/solid/kinematics/kinematics.hpp"
 #include "abut/solid/material/material.hpp"
 #include "abut/solid/options/attachments.hpp"
+#include "abut/solid/options/erosion_limits.hpp"
 
 namespace abut::solid {
 
@@ -62,6 +63,9 @@ struct SolidOptions {
     contact::Friction friction = {};  ///< between all bodies and obstacles that have no law of their own
     std::vector<BodyFriction> body_friction = {};
     std::vector<BodyInterference> interference = {};
+    /// One per body; empty: cells stay. A solid keeps in mind how far cells are strained; whoever takes its steps takes
+    /// them out (solid/erosion.hpp)
+    std::vector<ErosionLimits> erosion = {};
     Precision precision = Precision::double_precision;  ///< of the bulk in steps: `mean_force` and `end_force`
     StepDevice device = StepDevice::host;               ///< of the same
 

@@ -190,6 +190,38 @@ class Scenes(unittest.TestCase):
             np.testing.assert_array_equal(rest.forces, whole.forces)
             np.testing.assert_array_equal(rest.ledger, whole.ledger)
 
+    def test_cells_leave_by_limits_and_by_a_function_and_frames_keep_the_size_of_the_scene(self):
+        bar = {"shape": "structured_box", "lower": [0, 0], "upper": [2, 0.3], "counts": [20, 3], "young": 1, "poisson": 0,
+               "density": 1, "velocity": [0.1, 0]}
+        scene = {"dim": 2, "run": {"time": 2.0}, "bodies": {"bar": bar}}
+
+        def leaving(state):
+            return [30, 31] if state.steps == 5 else None
+
+        result = abut.run(scene, leaving=leaving, frames=5)
+        self.assertEqual(result.eroded["cell"].tolist(), [30, 31])
+        self.assertEqual(set(result.eroded["step"]), {5})
+        self.assertEqual(result.summary["erosion"]["by"]["function"], 2)
+        self.assertAlmostEqual(result.summary["erosion"]["mass_share"], 2 / 60)
+        for values in (result.frames.velocity, result.frames.von_mises):
+            self.assertEqual(values.shape[:2], (5, 60))
+            self.assertFalse(np.isnan(values[0]).any())
+            self.assertEqual(np.flatnonzero(np.isnan(values[-1].reshape(60, -1)[:, 0])).tolist(), [30, 31])
+        np.testing.assert_allclose(np.nanmax(abs(result.frames.velocity[-1][:, 0] - 0.1)), 0, atol=1e-12)
+        ledger = result.ledger
+        kept = ledger["pseudo_energy"] + ledger["eroded_kinetic"] + ledger["eroded_potential"]
+        np.testing.assert_allclose(kept, kept[0], rtol=1e-13)
+        self.assertEqual(ledger["eroded_cells"][-1], 2)
+
+        pulled = copy.deepcopy(scene)
+        pulled["bodies"]["bar"]["erosion"] = {"stress": 0.01}
+        pulled["tractions"] = {side: {"group": f"bar.{side}", "value": [f"{sign} * 0.02 * t", 0]}
+                               for side, sign in (("xmin", -1), ("xmax", 1))}
+        first = abut.run(pulled, frames=0).eroded["time"][0]
+        self.assertTrue(0.5 < first < 0.7)  # the load is at the limit at 0.5 s, and goes through a cell in 0.1 s
+        with self.assertRaisesRegex(TypeError, "leaving.state. gave 'some'; numbers of cells are needed"):
+            abut.run(scene, leaving=lambda state: "some")
+
     def test_errors_are_exceptions_in_the_words_of_the_program(self):
         box = {"shape": "disk", "yung": 1.0}
         with self.assertRaises(abut.BadInput) as raised:

@@ -181,3 +181,22 @@ TEST_CASE("cells that cannot be taken out are refused", "[mesh][part]") {
         if (mesh.cell_body[c] == 0) body.push_back(c);
     CHECK_THROWS_WITH(without_cells<2>(mesh, body), Catch::Contains("all cells of body 'low'"));
 }
+
+TEMPLATE_TEST_CASE_SIG("vertices and faces of a mesh that has lost cells are told by their numbers in the whole one",
+                       "[mesh][part]", ((int Dim), Dim), 2, 3) {
+    const Mesh<Dim> whole = two_boxes<Dim>();
+    std::vector<std::int32_t> gone;
+    for (std::int32_t c = 0; c < whole.n_cells(); c += 7) gone.push_back(c);
+    const auto [rest, old_cells] = without_cells(whole, gone);
+    CHECK(rest.has_lost_cells);
+    CHECK_FALSE(whole.has_lost_cells);
+    CHECK_FALSE(without_cells<Dim>(whole, {}).mesh.has_lost_cells);
+    const std::vector<std::int32_t> vertices = old_vertices(whole, rest, old_cells),
+                                    faces = old_faces(whole, rest, old_cells);
+    REQUIRE(vertices.size() == rest.vertices.size());
+    REQUIRE(faces.size() == rest.face_measure.size());
+    for (std::size_t v = 0; v < vertices.size(); ++v)
+        REQUIRE(rest.vertices[v] == whole.vertices[static_cast<std::size_t>(vertices[v])]);
+    for (std::size_t f = 0; f < faces.size(); ++f)
+        REQUIRE(rest.face_centroid[f] == whole.face_centroid[static_cast<std::size_t>(faces[f])]);
+}

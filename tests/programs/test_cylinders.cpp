@@ -131,7 +131,15 @@ TEST_CASE("energy.csv holds a row for every record and what the summary says", "
                                                     "dissipated_by_damping",
                                                     "dissipated_by_viscosity",
                                                     "damping_lagged",
-                                                    "dissipated_in_bonds"});
+                                                    "dissipated_in_bonds",
+                                                    "eroded_cells",
+                                                    "eroded_mass",
+                                                    "eroded_kinetic",
+                                                    "eroded_potential",
+                                                    "eroded_momentum_x",
+                                                    "eroded_momentum_y",
+                                                    "eroded_rest_angular_momentum",
+                                                    "eroded_pseudo_angular_momentum"});
     for (const auto& row : table.rows) CHECK(row.size() == table.columns.size());
     CHECK(table.rows.back().front() == static_cast<double>(steps));
 

@@ -21,7 +21,8 @@ struct Asked {
 };
 
 std::vector<Asked> all_asked() {
-    return {{Feature::damping, [](run::Scene<2>& scene) { scene.solid.materials[0].mass_damping = 0.1; }},
+    return {{Feature::erosion, [](run::Scene<2>& scene) { scene.solid.erosion = {{.strain = 0.5}}; }},
+            {Feature::damping, [](run::Scene<2>& scene) { scene.solid.materials[0].mass_damping = 0.1; }},
             {Feature::friction,
              [](run::Scene<2>& scene) {
                  scene.solid.body_friction = {{{0, 1}, {.coefficient = 0.3}}};

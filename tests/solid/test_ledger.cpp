@@ -46,6 +46,29 @@ TEMPLATE_TEST_CASE_SIG("the ledger measures the energies and momenta of a unifor
     CHECK((motion.velocity - velocity).norm() < 1e-13);
 }
 
+TEST_CASE("what cells took along that left is no deviation of a ledger", "[solid][ledger]") {
+    dynamics::Ledger<2> ledger;
+    dynamics::LedgerEntry<2> entry{};
+    entry.pseudo_energy = entry.energy = 10.0;
+    entry.linear_momentum = {3.0, 4.0};
+    entry.rest_angular_momentum[0] = entry.angular_momentum[0] = entry.pseudo_angular_momentum[0] = 2.0;
+    ledger.record(entry);
+    entry.pseudo_energy = entry.energy = 8.0;
+    entry.eroded = {.cells = 2, .mass = 1.0, .momentum = {1.0, 0.5}, .kinetic = 2.5, .potential = -0.5};
+    entry.eroded.rest_angular_momentum[0] = entry.eroded.pseudo_angular_momentum[0] = -1.0;
+    entry.linear_momentum = {2.0, 3.5};
+    entry.rest_angular_momentum[0] = entry.angular_momentum[0] = entry.pseudo_angular_momentum[0] = 3.0;
+    ledger.record(entry);
+    for (const double drift :
+         {ledger.pseudo_energy_drift(), ledger.energy_drift(), ledger.momentum_drift(), ledger.angular_momentum_drift(),
+          ledger.rest_angular_momentum_drift(), ledger.pseudo_angular_momentum_drift()})
+        CHECK(drift == 0.0);
+    const auto again = dynamics::ledger_entry<2>(dynamics::ledger_values(entry));
+    CHECK(again.eroded.cells == 2);
+    CHECK(again.eroded.energy() == 2.0);
+    CHECK(again.eroded.momentum == entry.eroded.momentum);
+}
+
 TEST_CASE("a ledger keeps the largest deviations from its first entry", "[solid][ledger]") {
     dynamics::Ledger<2> ledger;
     dynamics::LedgerEntry<2> entry{};

@@ -59,8 +59,8 @@ def rows_of(file):
 
 
 def open_by(rows):
-    """Largest |H~ - H~0 + D - W| of rows of energy.csv [J]; neutral restarts keep H~."""
-    kept = [row["pseudo_energy"] + row["dissipated"] - row["work"] for row in rows]
+    """Largest |H~ - H~0 + D - W| of rows of energy.csv [J], with what cells took along; neutral restarts keep H~."""
+    kept = [row["pseudo_energy"] + row["dissipated"] + row["eroded_kinetic"] + row["eroded_potential"] - row["work"] for row in rows]
     return max(abs(value - kept[0]) for value in kept)
 
 

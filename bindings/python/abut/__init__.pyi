@@ -84,6 +84,7 @@ class Result(dict[str, Any]):
     ledger: NDArray[np.void]
     probes: dict[str, NDArray[np.void]]
     forces: NDArray[np.void]
+    eroded: NDArray[np.void]
     frames: Frames
     displacement: _Doubles
     start: list[dict[str, Any]]
@@ -109,7 +110,7 @@ class Result(dict[str, Any]):
     def to_pyvista(self, frame: int = ...) -> Any: ...
 
 def run(scene: _Scene, set: Optional[Mapping[str, Any]] = ..., look: Optional[Callable[[Union[State2D, State3D]], Any]] = ...,
-        **options: Any) -> Result: ...
+        leaving: Optional[Callable[[Union[State2D, State3D]], Optional[ArrayLike]]] = ..., **options: Any) -> Result: ...
 def memm(scene: _Scene, set: Optional[Mapping[str, Any]] = ..., outside: Iterable[str] = ..., **options: Any) -> Union[Memm2D, Memm3D]: ...
 
 _Mesh = Any

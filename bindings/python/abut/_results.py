@@ -59,8 +59,11 @@ class Result(dict):
         Columns of forces.csv, a row for each pair that touched.
     frames : Frames
         As many as the option `frames` says.
+    eroded : structured array
+        Cells that have left (erosion), in the order in which they did: cell, counted in `mesh`, step and time [s]. In
+        frames they are NaN from then on.
     displacement : ndarray of float, (n_cells, dim)
-        Of the cells at the end [m].
+        Of the cells at the end [m]; of those that are left.
     start, end : list of dict
         mass [kg], velocity [m/s] and rotation [rad] of each body.
     steps, resumed_after : int
@@ -95,6 +98,7 @@ class Result(dict):
         self["frames"] = Frames(figures["frames"])
         self["probes"] = {name: _table(columns) for name, columns in figures["probes"].items()}
         self["forces"] = _table(figures["forces"])
+        self["eroded"] = _table(figures["eroded"])
         if figures["resumed_after"] > 0:  # what was before is in the files
             folder = pathlib.Path(figures["out"])
             if self.probes:

@@ -5,7 +5,7 @@ import os
 import re
 
 
-def run(scene, set=None, look=None, **options):
+def run(scene, set=None, look=None, leaving=None, **options):
     """Runs a scene.
 
     Parameters
@@ -17,6 +17,9 @@ def run(scene, set=None, look=None, **options):
         Values in place of those of the scene, {"bodies.left.density": 2} or nested.
     look : callable (state), optional
         Called at the start and after each step; True makes the next one the last.
+    leaving : callable (state), optional
+        Called after each step: numbers of the cells that leave the run, as the arrays of the state have them, or None.
+        Limits beyond which cells leave are in the table `erosion` of a body.
     **options
         Options in place of those of the scene: those of the command line of `abut run` with _ for -, as
         `abut.solid.simulate` lists them. `out` is the folder of report.html, energy.csv and all other files; without
@@ -46,7 +49,7 @@ def run(scene, set=None, look=None, **options):
     >>> abut.run(scene, set={"bodies.left.density": 2.0}, steps=3).steps
     3
     """
-    return built_solid().run_toml(*_source(scene, set), look, options)
+    return built_solid().run_toml(*_source(scene, set), look, leaving, options)
 
 
 def memm(scene, set=None, outside=(), **options):
