@@ -112,17 +112,15 @@ private:
     }
 
     /// Whether the traces of a cell do without the balance of its free faces: one of them has no support. Jumps of
-    /// metal stay as they are, and those of simplices, which are off by 5 % at most: a point on affine ones leaves
-    /// twice the H - H~ (scenes/falling_needle).
+    /// metal stay as they are, and those of tips, which are thin and bear nothing.
     bool has_affine_traces(std::int32_t cell) const {
         if (conditions_.is_thick.empty() || conditions_.is_thick[static_cast<std::size_t>(cell)] == 0) return false;
         if (rule_of(cell) != FreeFaceRule::local_equilibrium || materials_[mesh_.cell_body[cell]].law == MaterialLaw::j2)
             return false;
-        if (mesh_.cell_faces[cell].size() == Dim + 1) return false;
-        return std::ranges::any_of(mesh_.cell_faces[cell], [&](std::int32_t face) {
-            const BoundaryFace b = index_[face];
-            return b != no_face && conditions_.prescribed[b].isZero(0.0) && !is_joined(b);
-        });
+        std::vector<FreeFaceOfCell<Dim>> free;
+        for (const BoundaryFace b : boundary_of(cell))
+            if (conditions_.prescribed[b].isZero(0.0) && !is_joined(b)) free.push_back({normal_of(b), free_part(b)});
+        return !free.empty() && !is_tip<Dim>(free);
     }
 
     /// An affine extrapolation is wanted where the equilibrium of the cell alone may not fix the faces, and where

@@ -31,7 +31,7 @@ void CcgSweeps<Dim, Real>::set_any_displacement_gradient(std::int32_t c) {
 template <int Dim, class Real>
 void CcgSweeps<Dim, Real>::set_any_traces(std::int32_t c) {
     if (const std::int32_t i = element_.tables.affine_index_of(c); i >= 0)
-        element_.set_affine_traces(arrays_.affine.cells[static_cast<std::size_t>(i)]);
+        element_.set_any_affine_traces(arrays_.affine.cells[static_cast<std::size_t>(i)]);
 }
 
 template <int Dim, class Real>
@@ -153,7 +153,7 @@ void CcgSweeps<Dim, Real>::displacement_gradients_of_chunk(std::int32_t k) {
     } else if constexpr (takes_finite) {
         for_runs(cells, [&](std::int32_t c) { set_finite_displacement_gradient(c); });
     }
-    for (const AffineCell& cell : wanted_.affine_traces[k]) element_.set_affine_traces(cell);
+    for (const AffineCell& cell : wanted_.affine_traces[k]) element_.set_any_affine_traces(cell);
     if constexpr (takes_finite)
         if (steps_ && plastic_ && !chunks_[k].has_finite)
             for_runs(cells, [&](std::int32_t c) {  // for its own stress, and for the jumps of its neighbours
@@ -172,7 +172,7 @@ void CcgSweeps<Dim, Real>::stresses_of_chunk(std::int32_t k) {
     } else if constexpr (takes_finite) {
         for_runs(cells, [&](std::int32_t c) { set_finite_stress(c); });
     }
-    for (const AffineCell& cell : wanted_.affine_gradients[k]) element_.set_affine_gradients(cell);
+    for (const AffineCell& cell : wanted_.affine_gradients[k]) element_.set_any_affine_gradients(cell);
     if constexpr (takes_finite)
         if (!chunks_[k].has_finite) {
             if (steps_ || plastic_) for_runs(cells, [&](std::int32_t c) { add_linear_stress(c); });

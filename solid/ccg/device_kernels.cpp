@@ -128,7 +128,7 @@ void set_stresses(const Execution& execution, const SweepElements<V>& element, T
         KOKKOS_LAMBDA(std::int32_t c) { element.set_any_displacement_gradient(c); });
     for_each(
         execution, element.tables.affine_cells.size, "affine traces",
-        KOKKOS_LAMBDA(std::int32_t i) { element.set_affine_traces(element.tables.affine_cells[i]); });
+        KOKKOS_LAMBDA(std::int32_t i) { element.set_any_affine_traces(element.tables.affine_cells[i]); });
     for_each(
         execution, element.tables.cells.size, "stresses", KOKKOS_LAMBDA(std::int32_t c) { element.set_any_stress(c); });
     for_each(

@@ -23,9 +23,10 @@ Eigen::VectorXd mandel(const Matrix<Dim>& tensor) {
     return packed;
 }
 
-/// Whether two free faces look away from each other: the cell is the tip of a wedge, which really bears nothing.
+}  // namespace
+
 template <int Dim>
-bool are_sharp(std::span<const FreeFaceOfCell<Dim>> faces) {
+bool is_tip(std::span<const FreeFaceOfCell<Dim>> faces) {
     const auto are_opposite = [](const FreeFaceOfCell<Dim>& a, const FreeFaceOfCell<Dim>& b) {
         return a.free_part.isIdentity(0.0) && b.free_part.isIdentity(0.0) && a.normal.dot(b.normal) < -edge_cosine;
     };
@@ -34,8 +35,6 @@ bool are_sharp(std::span<const FreeFaceOfCell<Dim>> faces) {
             if (are_opposite(faces[i], faces[j])) return true;
     return false;
 }
-
-}  // namespace
 
 template <int Dim>
 BalancingCombinations balancing_combinations(std::span<const FreeFaceOfCell<Dim>> faces) {
@@ -50,10 +49,12 @@ BalancingCombinations balancing_combinations(std::span<const FreeFaceOfCell<Dim>
     const auto n_above = [&](double strain) {
         return std::ranges::count_if(squares, [&](double square) { return square > strain * strain * largest; });
     };
-    const auto n_kept = n_above(are_sharp<Dim>(faces) ? no_strain : least_strain);
+    const auto n_kept = n_above(is_tip<Dim>(faces) ? no_strain : least_strain);
     return {combinations.rightCols(n_kept), n_kept < n_above(no_strain)};
 }
 
+template bool is_tip<2>(std::span<const FreeFaceOfCell<2>>);
+template bool is_tip<3>(std::span<const FreeFaceOfCell<3>>);
 template BalancingCombinations balancing_combinations<2>(std::span<const FreeFaceOfCell<2>> faces);
 template BalancingCombinations balancing_combinations<3>(std::span<const FreeFaceOfCell<3>> faces);
 

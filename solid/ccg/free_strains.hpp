@@ -22,6 +22,11 @@ struct BalancingCombinations {
 template <int Dim>
 [[nodiscard]] BalancingCombinations balancing_combinations(std::span<const FreeFaceOfCell<Dim>> faces);
 
+/// Whether two free faces of a cell look away from each other by more than 120 degrees: the cell is the tip of a wedge,
+/// which really bears nothing, or all that there is between them.
+template <int Dim>
+[[nodiscard]] bool is_tip(std::span<const FreeFaceOfCell<Dim>> faces);
+
 /// With anything between 0.1 and 0.45 quarter models of rings are the same; below 0.05 cells at their holes bear nothing.
 inline constexpr double least_strain = 0.25;
 

@@ -86,8 +86,22 @@ inline void SweepElements<V>::add_condensed_face(const CondensedCell& condensed)
     for (int j = 0; j < Dim; ++j) stress.col[j] += added.col[j];
     store(at_face, tables.of_face.data, tables.face_of(b));
     store_tensor(stress, tables.s.data, c);
-    const Real share = tables.shares.size == 0 ? simplex_share<Dim, Real> : tables.shares[tables.face_of(b)][0];
-    store(load<V>(tables.deviation.data, c) - share * at_face, tables.deviation.data, c);
+    store(load<V>(tables.deviation.data, c) - boundary_share(tables.face_of(b)) * at_face, tables.deviation.data, c);
+}
+
+/// Share of a boundary face in the mean over the faces of its cell.
+template <class V>
+inline auto SweepElements<V>::boundary_share(std::int32_t f) const -> Real {
+    return tables.shares.size == 0 ? simplex_share<Dim, Real> : tables.shares[f][0];
+}
+
+/// d_c with the free faces of the cell where the cells around point; these faces have been reconstructed.
+template <class V>
+inline void SweepElements<V>::set_affine_deviation(const AffineCell& cell) const {
+    V deviation = load<V>(tables.deviation.data, cell.cell);
+    for (std::int32_t i = cell.begin; i < cell.end; ++i)
+        deviation -= boundary_share(tables.face_of(tables.affine_faces[i])) * affine_motion(i);
+    store(deviation, tables.deviation.data, cell.cell);
 }
 
 /// D_c.
@@ -99,6 +113,16 @@ template <class V>
     for (std::size_t i = 0; i <= Dim; ++i)
         sum += tables.faces[simplex.faces[i]].jump_stiffness * (d_c - load<V>(tables.deviation.data, simplex.neighbours[i]));
     store(sum, tables.direct.data, c);
+}
+
+/// The counterpart of `set_affine_gradients`, after D_c.
+template <class V>
+inline void SweepElements<V>::set_affine_gradients_of_simplex(const AffineCell& cell) const {
+    const V jumps = load<V>(tables.direct.data, cell.cell);
+    for (std::int32_t i = cell.begin; i < cell.end; ++i) {
+        const Real share = boundary_share(tables.face_of(tables.affine_faces[i]));
+        store(load_tensor<V>(tables.affine_parts.data, i) * (Real(-1) * share * jumps), tables.affine_y.data, i);
+    }
 }
 
 template <class V>
@@ -139,7 +163,23 @@ inline void SweepElements<V>::set_any_stress(std::int32_t c) const {
         set_simplex_jumps(c);
     else
         set_stress(c);
-    if (const std::int32_t i = tables.affine_index_of(c); i >= 0) set_affine_gradients(tables.affine_cells[i]);
+    if (const std::int32_t i = tables.affine_index_of(c); i >= 0) set_any_affine_gradients(tables.affine_cells[i]);
+}
+
+template <class V>
+inline void SweepElements<V>::set_any_affine_traces(const AffineCell& cell) const {
+    if (tables.of_simplices(cell.cell))
+        set_affine_deviation(cell);
+    else
+        set_affine_traces(cell);
+}
+
+template <class V>
+inline void SweepElements<V>::set_any_affine_gradients(const AffineCell& cell) const {
+    if (tables.of_simplices(cell.cell))
+        set_affine_gradients_of_simplex(cell);
+    else
+        set_affine_gradients(cell);
 }
 
 /// Gradient of an interior face.

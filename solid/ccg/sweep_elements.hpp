@@ -62,6 +62,7 @@ public:
     [[nodiscard]] ABUT_HOST_DEVICE Double boundary_cell_gradient(std::ptrdiff_t position) const;
 
     // Of cells that contact pushes
+    [[nodiscard]] ABUT_HOST_DEVICE V affine_motion(std::int32_t i) const;
     ABUT_HOST_DEVICE void set_affine_traces(const AffineCell& cell) const;
     ABUT_HOST_DEVICE void set_affine_gradients(const AffineCell& cell) const;
 
@@ -75,11 +76,16 @@ public:
     ABUT_HOST_DEVICE void set_simplex_jumps(std::int32_t c) const;
     [[nodiscard]] ABUT_HOST_DEVICE V shared_jumps(std::int32_t f, std::int32_t c, bool second) const;
     [[nodiscard]] ABUT_HOST_DEVICE V interior_gradient_of_simplices(std::ptrdiff_t f) const;
+    [[nodiscard]] ABUT_HOST_DEVICE Real boundary_share(std::int32_t f) const;
+    ABUT_HOST_DEVICE void set_affine_deviation(const AffineCell& cell) const;
+    ABUT_HOST_DEVICE void set_affine_gradients_of_simplex(const AffineCell& cell) const;
     ABUT_HOST_DEVICE void condense(const CondensedCell& condensed) const;
 
     // Whatever the cell is, except of a finite body: simplex_elements.hpp
     ABUT_HOST_DEVICE void set_any_displacement_gradient(std::int32_t c) const;
     ABUT_HOST_DEVICE void set_any_stress(std::int32_t c) const;
+    ABUT_HOST_DEVICE void set_any_affine_traces(const AffineCell& cell) const;
+    ABUT_HOST_DEVICE void set_any_affine_gradients(const AffineCell& cell) const;
     ABUT_HOST_DEVICE void set_any_face_gradient(std::int32_t f) const;
     [[nodiscard]] Tensor present_gradient(std::ptrdiff_t c) const;
 
@@ -192,18 +198,21 @@ inline V SweepElements<V>::reconstructed_row(const double* u, BoundaryFace face)
     return sum + units.displacement(gathered(tables.load_displacement, b) - missing);
 }
 
-/// The traces of the cell with its free faces where the cells around point; these faces have been reconstructed. No
-/// such cell is a simplex.
+/// Motion of a face of AffineTraces, by its index, from where it is reconstructed to where the cells around point.
+template <class V>
+inline V SweepElements<V>::affine_motion(std::int32_t i) const {
+    const std::int32_t f = tables.face_of(tables.affine_faces[i]);
+    return load_tensor<V>(tables.affine_parts.data, i) * (reconstructed(tables.u.data, f) - load<V>(tables.of_face.data, f));
+}
+
+/// The traces of the cell with its free faces where the cells around point; these faces have been reconstructed.
 template <class V>
 inline void SweepElements<V>::set_affine_traces(const AffineCell& cell) const {
     const std::int32_t c = cell.cell;
     Tensor g = load_tensor<V>(tables.g.data, c);
-    for (std::int32_t i = cell.begin; i < cell.end; ++i) {
-        const std::int32_t f = tables.face_of(tables.affine_faces[i]);
-        const V moved = load_tensor<V>(tables.affine_parts.data, i) *
-                        (reconstructed(tables.u.data, f) - load<V>(tables.of_face.data, f));
-        g.add_outer(tables.cells[c].inverse_measure * moved, tables.faces[f].area_vector);
-    }
+    for (std::int32_t i = cell.begin; i < cell.end; ++i)
+        g.add_outer(tables.cells[c].inverse_measure * affine_motion(i),
+                    tables.faces[tables.face_of(tables.affine_faces[i])].area_vector);
     set_traces(c, g);
 }
 

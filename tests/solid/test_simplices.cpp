@@ -5,6 +5,7 @@
 
 #include <cstring>
 #include <numbers>
+#include <numeric>
 
 #include "solid/scenes.hpp"
 
@@ -49,6 +50,9 @@ mesh::Mesh<Dim> three_bodies(int cells = 4) {
 const std::vector<solid::Material> materials{{.young = 2.0, .poisson = 0.3, .density = 1.5},
                                              {.young = 0.5, .poisson = 0.2, .density = 1.0},
                                              {.young = 1.0, .poisson = 0.45, .density = 1.0, .eta = 0.4}};
+
+/// Where the free faces of a cell are in its jumps.
+enum class Traces { balanced, affine };
 
 /// Two bodies are held, one all along a side, one on a roller; all are pulled somewhere.
 template <int Dim>
@@ -116,6 +120,15 @@ mesh::Mesh<Dim> with_points(mesh::Mesh<Dim> mesh, Points points) {
     return mesh;
 }
 
+template <int Dim>
+solid::BoundaryConditions<Dim> with_traces(solid::BoundaryConditions<Dim> conditions, const mesh::Mesh<Dim>& mesh,
+                                           Traces traces) {
+    if (traces == Traces::balanced) return conditions;
+    conditions.thick_cells.resize(static_cast<std::size_t>(mesh.n_cells()));
+    std::iota(conditions.thick_cells.begin(), conditions.thick_cells.end(), 0);
+    return conditions;
+}
+
 /// Both forms of the operators, in one state.
 template <int Dim>
 struct BothForms {
@@ -124,9 +137,10 @@ struct BothForms {
     solid::Ccg<Dim> general, simplices;
     std::vector<Vector<Dim>> u;
 
-    explicit BothForms(FreeFaceRule rule = FreeFaceRule::local_equilibrium, Points points = Points::centroids)
+    explicit BothForms(FreeFaceRule rule = FreeFaceRule::local_equilibrium, Points points = Points::centroids,
+                       Traces traces = Traces::balanced)
         : mesh(with_points(three_bodies<Dim>(), points)),
-          conditions(held_and_pulled<Dim>(rule)),
+          conditions(with_traces(held_and_pulled<Dim>(rule), mesh, traces)),
           general(mesh, materials, conditions, {}, CellForm::general),
           simplices(mesh, materials, conditions),
           u(random_vectors<Dim>(static_cast<std::size_t>(mesh.n_cells()), 3)) {}
@@ -152,7 +166,8 @@ inline constexpr double rounding = 5e-15;  // of the largest
 TEMPLATE_TEST_CASE_SIG("forces of bodies of simplices are those of the form for any cells, with supports, loads and contact",
                        "[solid][simplices]", ((int Dim), Dim), 2, 3) {
     BothForms<Dim> forms(GENERATE(FreeFaceRule::local_equilibrium, FreeFaceRule::extrapolate, FreeFaceRule::adjacent),
-                         GENERATE(Points::centroids, Points::as_of_bodies_that_turn));
+                         GENERATE(Points::centroids, Points::as_of_bodies_that_turn),
+                         GENERATE(Traces::balanced, Traces::affine));
     const auto load = forms.general.load_at(0.0, 0.0);
     const Corrections<Dim> none(forms.general, false), tilted(forms.general, true);
     for (const auto& corrections : {solid::FaceCorrections<Dim>{}, none.view(), tilted.view()}) {
@@ -176,7 +191,7 @@ TEMPLATE_TEST_CASE_SIG("forces of bodies of simplices are those of the form for 
 
 TEMPLATE_TEST_CASE_SIG("displacements of faces, displacement gradients and stresses of simplices are those of any cells",
                        "[solid][simplices]", ((int Dim), Dim), 2, 3) {
-    BothForms<Dim> forms;
+    BothForms<Dim> forms(FreeFaceRule::local_equilibrium, Points::centroids, GENERATE(Traces::balanced, Traces::affine));
     const auto load = forms.general.load_at(0.0, 0.0);
     CHECK(forms.difference_of([&](solid::Ccg<Dim>& ccg) {
         std::vector<Vector<Dim>> displacement(static_cast<std::size_t>(ccg.n_boundary()));
@@ -202,7 +217,7 @@ TEMPLATE_TEST_CASE_SIG("displacements of faces, displacement gradients and stres
 
 TEMPLATE_TEST_CASE_SIG("what bodies of simplices have on some cells and faces is that of any cells, and of the whole sweep",
                        "[solid][simplices]", ((int Dim), Dim), 2, 3) {
-    BothForms<Dim> forms;
+    BothForms<Dim> forms(FreeFaceRule::local_equilibrium, Points::centroids, GENERATE(Traces::balanced, Traces::affine));
     const auto load = forms.general.load_at(0.0, 0.0);
     const Corrections<Dim> corrections(forms.general, GENERATE(false, true));
     std::vector<std::int32_t> cells;
@@ -273,7 +288,7 @@ TEMPLATE_TEST_CASE_SIG("an infinitesimal turn of free simplices has no force and
 
 TEMPLATE_TEST_CASE_SIG("the operator of simplices is symmetric, and half its product with a state the energy",
                        "[solid][simplices]", ((int Dim), Dim), 2, 3) {
-    BothForms<Dim> forms;
+    BothForms<Dim> forms(FreeFaceRule::local_equilibrium, Points::centroids, GENERATE(Traces::balanced, Traces::affine));
     auto& ccg = forms.simplices;
     const auto free = ccg.load_free();
     const auto product = [](const std::vector<Vector<Dim>>& a, const std::vector<Vector<Dim>>& b) {
@@ -297,7 +312,8 @@ TEMPLATE_TEST_CASE_SIG("the operator of simplices is symmetric, and half its pro
 TEMPLATE_TEST_CASE_SIG("the forces of simplices have the same bits on one thread, two and four", "[solid][simplices]",
                        ((int Dim), Dim), 2, 3) {
     const auto mesh = three_bodies<Dim>(Dim == 2 ? 48 : 12);  // more chunks than the threads take one by one
-    const auto conditions = held_and_pulled<Dim>(FreeFaceRule::local_equilibrium);
+    const auto conditions =
+        with_traces(held_and_pulled<Dim>(FreeFaceRule::local_equilibrium), mesh, GENERATE(Traces::balanced, Traces::affine));
     solid::Ccg<Dim> ccg(mesh, materials, conditions);
     const Corrections<Dim> corrections(ccg, false);
     const auto load = ccg.load_at(0.0, 0.0);

@@ -1,4 +1,5 @@
 // Sharp tips of bodies and obstacles in the plane.
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -42,6 +43,21 @@ mesh::Mesh<2> block(const Vector<2>& lower, const Vector<2>& upper) {
 }
 
 }  // namespace
+
+TEST_CASE("a cell at a corner of 60 degrees or more has affine traces in a thick part, and one at a sharper tip has none",
+          "[solid][tips]") {
+    const auto [degrees, is_affine] =
+        GENERATE(std::pair(10.0, false), std::pair(59.0, false), std::pair(61.0, true), std::pair(90.0, true));
+    CAPTURE(degrees);
+    const auto mesh = wedge(degrees * std::numbers::pi / 180.0, 1.0, 8, Vector<2>::Zero());
+    const std::vector<solid::Material> material{{.young = 1.0, .poisson = 0.3, .density = 1.0}};
+    const auto lowest = std::ranges::min_element(mesh.cell_centroid, {}, [](const Vector<2>& x) { return x[1]; });
+    solid::BoundaryConditions<2> conditions;
+    conditions.thick_cells = {static_cast<std::int32_t>(lowest - mesh.cell_centroid.begin())};
+    solid::Ccg<2> thick(mesh, material, conditions), thin(mesh, material, {});
+    const auto u = random_vectors<2>(static_cast<std::size_t>(mesh.n_cells()), 3);
+    CHECK((thick.potential(u, {}, {}) != thin.potential(u, {}, {})) == is_affine);
+}
 
 TEST_CASE("tips of all angles part from a block that they strike, whatever the kinematics, and keep H~, momentum and J~",
           "[solid][tips]") {

@@ -93,3 +93,20 @@ TEST_CASE("boxes of tetrahedra that collide keep H~, momentum and J~", "[solid][
     scene.run_until(30.0);
     check_collision(scene);
 }
+
+TEMPLATE_TEST_CASE_SIG("blocks of simplices eight cells thick keep H~, momentum and J~ as they collide, off their middles",
+                       "[solid][turning]", ((int Dim), Dim), 2, 3) {
+    const auto made_of = [](const Vector<Dim>& lower, int cells, const char* name) {
+        std::array<int, Dim> counts;
+        counts.fill(cells);
+        return mesh::structured_box<Dim>(lower, lower + Vector<Dim>::Ones(), counts,
+                                         Dim == 2 ? CellShape::triangle : CellShape::tetrahedron, name);
+    };
+    Vector<Dim> above = Vector<Dim>::Constant(0.3);
+    above[Dim - 1] = 1.01;
+    const Vector<Dim> falling = -0.05 * Vector<Dim>::Unit(Dim - 1);
+    TurningScene<Dim> scene(together(made_of(Vector<Dim>::Zero(), 8, "lower"), made_of(above, 9, "upper")), bodies<Dim>(2),
+                            {moving<Dim>(Vector<Dim>::Zero()), moving<Dim>(falling, some_spin<Dim>(0.05))}, 0.6);
+    scene.run_until(Dim == 2 ? 10.0 : 1.0);
+    check_collision(scene);
+}
