@@ -33,8 +33,8 @@ struct NodalOptions {
     double compression_limit = 2.0;    ///< |g|/D above which the step is refused with an error
     FrictionOptions friction;          ///< needs `NodalFaces::shear_stiffness`
     InterferenceOptions interference;
-    /// Piece of each body that was cut out of it with others, -1 of those that were not (n_bodies); empty: of none. Faces of
-    /// a piece that lie inside of each other at rest are no contact until they have been seen from outside.
+    /// Piece of each body, which those have in common that were one or are bonded, -1: none (n_bodies); empty: no pieces.
+    /// Faces of a piece that lie inside of each other at rest are no contact until they have been seen from outside.
     std::vector<std::int32_t> pieces;
     /// Which pairs of faces of the host may touch, beside the bodies they belong to; empty: all
     std::function<bool(Face, Face)> wanted;

@@ -188,8 +188,9 @@ const Keys<FractureSettings>& fracture_keys() {
                               "size of the pieces: edge of a square or cube as large. Cracks follow their faces")),
         required(From::number("strength", &Part::strength, {.unit = "Pa", .above = 0.0},
                               "largest traction that a face between pieces bears, pressure not counted")),
-        From::number("fracture_energy", &Part::fracture_energy, {.unit = "J/m^2", .above = 0.0, .zero = true},
-                     "that a crack takes per area as it opens; 0: faces break at once, with less energy in smaller cells"),
+        From::number(
+            "fracture_energy", &Part::fracture_energy, {.unit = "J/m^2", .above = 0.0, .zero = true},
+            "energy per area that an opening crack takes; 0: faces break at once, with less energy in smaller cells"),
         From::number("weibull", &Part::weibull, {.above = 0.0},
                      "modulus of the scatter of strength from face to face, 63 % of which are below `strength`; not given: "
                      "all have it"),

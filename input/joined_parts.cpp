@@ -51,7 +51,7 @@ public:
     }
 
 private:
-    /// That of the body which this one is a grain of; none: it is no grain.
+    /// Settings of the body that this one is a grain of; null: it is no grain.
     [[nodiscard]] const FractureSettings* fracture_of(std::int32_t body) const {
         const BodySettings* table = table_of(name_of(body), settings_.bodies);
         return table && table->fracture ? &*table->fracture : nullptr;
@@ -85,7 +85,7 @@ private:
     }
     void check_that_turns(const BodySettings& body, solid::Kinematics of_scene) const {
         const auto kinematics = run::kinematics_of_all(settings_.options.kinematics).value_or(of_scene);
-        if (settings_.options.kinematics == run::BodyKinematics::automatic || kinematics == solid::Kinematics::small)
+        if (settings_.options.kinematics == run::BodyKinematics::automatic || !solid::properties_of(kinematics).turns)
             faults_.push_back(
                 {body.where, fmt::format("body '{}' may break, and pieces that come off turn. Give it kinematics "
                                          "= \"floating\", or \"finite\" where it bends far.",

@@ -11,9 +11,9 @@ namespace abut::input {
 inline constexpr const char* rest_of_regions = "rest";
 
 /// The mesh of a body in its place; bodies "<name>", of a file with several "<name>.<body of the file>", with regions
-/// "<name>.<region>", with grains "<name>.1" and so on; groups "<name>.<group>". What has common vertices in the file, or is cut into regions, is in
-/// BuildReport::joined_bodies. Files are looked for from `folder`, unless `given` (null: none) has the mesh. Throws
-/// MeshError, also where a table of BodySettings::parts has no body of the file.
+/// "<name>.<region>", with grains "<name>.1" and so on; groups "<name>.<group>". What has common vertices in the file, or is
+/// cut into regions or grains, is in BuildReport::joined_bodies. Files are looked for from `folder`, unless `given` (null:
+/// none) has the mesh. Throws MeshError, also where a table of BodySettings::parts has no body of the file.
 template <int Dim>
 [[nodiscard]] mesh::Mesh<Dim> make_body(const BodySettings& body, const std::filesystem::path& folder,
                                         const GivenMeshes* given = nullptr);

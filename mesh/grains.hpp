@@ -12,13 +12,14 @@ struct GrainOptions {
     std::uint32_t seed = 0;  ///< another one gives other grains of the same size
 };
 
-/// Fewest cells of a grain: smaller ones join a neighbour. Each cell of a grain needs Dim + 1 of them for its gradient.
+/// Fewest cells of a grain: smaller ones join a neighbour. It is twice the Dim + 1
+/// cells, itself included, that the gradient of a cell needs.
 template <int Dim>
 inline constexpr std::int32_t least_cells_of_grain = 2 * (Dim + 1);
 
 /// Grain of each cell of a mesh, 0 to n - 1 in the order of their first cells (n_cells). A grain is connected through faces
-/// and lies within one body. Its shape is that of cells nearest to a centre, along paths through cells, and no cell has more
-/// face area in common with another grain than with its own where that can be had. The grains depend on the mesh, `size` and
+/// and lies within one body. Its shape is that of cells nearest to a centre, along paths through cells; a
+/// cell moves to the grain that it borders on most. The grains depend on the mesh, `size` and
 /// `seed` alone. Throws BadInput for a size that is not positive, or that leaves each body whole.
 template <int Dim>
 [[nodiscard]] std::vector<std::int32_t> grains_of(const Mesh<Dim>& mesh, const GrainOptions& options);

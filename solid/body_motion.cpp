@@ -9,6 +9,7 @@
 #include "abut/solid/solid.hpp"
 
 namespace abut::solid {
+
 template <int Dim>
 std::vector<BodyMotion<Dim>> body_motions(const dynamics::RunView<Dim>& run, const Solid<Dim>& solid) {
     std::vector<std::int32_t> itself(static_cast<std::size_t>(solid.mesh().n_bodies()));

@@ -41,7 +41,8 @@ std::vector<Fragment<Dim>> fragments(const dynamics::RunView<Dim>& run, const So
     motions.pop_back();
     std::vector<Fragment<Dim>> fragments;
     for (const GroupMotion<Dim>& motion : motions)
-        fragments.push_back({.mass = motion.mass, .centre = motion.centre, .velocity = motion.velocity, .spin = motion.spin});
+        fragments.push_back(
+            {.mass = motion.mass, .centre = motion.centre, .velocity = motion.velocity, .spin = motion.spin});
     const auto visit_fragment_of = [&](std::int32_t body, const auto& visit) {
         const std::int32_t fragment = of_bodies[static_cast<std::size_t>(body)];
         if (fragment >= 0) visit(fragments[static_cast<std::size_t>(fragment)]);

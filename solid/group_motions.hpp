@@ -21,7 +21,8 @@ struct GroupMotion {
     AxialVector<Dim> spin = AxialVector<Dim>::Zero();  ///< as of a rigid body with its angular momentum [rad/s]
 };
 
-/// `group`: of each body (n_bodies), from 0 to n_groups - 1.
+/// Motion of each group of bodies (n_groups); that of a group without bodies is zero. `group`: number of the group of each
+/// body, 0 to n_groups - 1 (n_bodies).
 template <int Dim>
 [[nodiscard]] std::vector<GroupMotion<Dim>> group_motions(const dynamics::RunView<Dim>& run, const Solid<Dim>& solid,
                                                           std::span<const std::int32_t> group, std::size_t n_groups) {
@@ -46,6 +47,7 @@ template <int Dim>
         angular[group_of(i)] += moment<Dim>(arm, run.momentum(static_cast<std::ptrdiff_t>(i)));
     }
     for (std::size_t g = 0; g < n_groups; ++g) {
+        if (motions[g].mass == 0.0) continue;
         motions[g].velocity /= motions[g].mass;
         motions[g].spin = spin_of<Dim>(second_moment[g], angular[g]);
     }

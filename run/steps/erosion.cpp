@@ -126,15 +126,14 @@ template <int Dim>
 void Erosion<Dim>::require_stable(solid::Solid<Dim>& solid) {
     const double worst = worst_weight_of(solid);
     if (worst >= worst_weight_) return;
-    worst_weight_ = worst;
-    if (start_.options.allow_unstable) return;
-    const double dt = dynamics::stable_step(solid).dt;
+    const double dt = start_.options.allow_unstable ? start_.result.dt : dynamics::stable_step(solid).dt;
     if (start_.result.dt > dt)
         throw LimitExceeded(
             fmt::format("erosion: the stable step of what is left is {:.4g} s, and the run takes {:.4g} s. Take a cfl of "
                         "{:.2g}.",
                         dt, start_.result.dt, 0.9 * start_.options.cfl * dt / start_.result.dt),
             {.value = start_.result.dt, .allowed = dt});
+    worst_weight_ = worst;
 }
 
 template class Erosion<2>;

@@ -22,7 +22,8 @@ struct StepStart {
 };
 
 /// Shows an observer the bodies at RunOptions::times, as Observer::look_at_time says: on the straight path of the step in
-/// which a time lies. The steps of the run stay as they are. All functions but `is_due`, `skip` and `forget_solid` are calls of all ranks.
+/// which a time lies. The steps of the run stay as they are. All functions except `is_due`, `skip` and `forget_solid` are
+/// calls of all ranks.
 template <int Dim>
 class OutputTimes {
 public:

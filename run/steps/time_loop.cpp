@@ -352,6 +352,7 @@ private:
             take_remedies(from.restarts);
         else
             remedies_->go_on_from(integrator_->steps(), from.restarts);
+        times_of_setup_ = solid().times();
         const std::size_t n = dynamics::ledger_columns<Dim>().size();
         for (std::span<const double> left(from.ledger); !left.empty(); left = left.subspan(n))
             result_.ledger.record(dynamics::ledger_entry<Dim>(left.first(std::min(n, left.size()))));

@@ -11,7 +11,7 @@
 namespace abut::run {
 
 /// The whole of a run, for its observers: they are on rank 0, and the other ranks take part where the whole is brought
-/// together. On one rank it is the run itself. All functions but `seen` are calls of all ranks.
+/// together. On one rank it is the run itself. All functions except `seen` are calls of all ranks.
 template <int Dim>
 class WholeRun {
 public:

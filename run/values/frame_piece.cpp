@@ -200,9 +200,9 @@ FramePiece<Dim> frame_piece(std::int64_t frame, const mesh::Mesh<Dim>& mesh, con
 }
 
 template std::vector<double> left_of_bonds(const solid::Solid<2>&);
+template std::vector<double> left_of_bonds(const solid::Solid<3>&);
 template std::vector<double> fragment_of_cells(const solid::Solid<2>&);
 template std::vector<double> fragment_of_cells(const solid::Solid<3>&);
-template std::vector<double> left_of_bonds(const solid::Solid<3>&);
 template FramePiece<2> frame_piece(std::int64_t, const mesh::Mesh<2>&, const dynamics::RunView<2>&, solid::Solid<2>&);
 template FramePiece<3> frame_piece(std::int64_t, const mesh::Mesh<3>&, const dynamics::RunView<3>&, solid::Solid<3>&);
 

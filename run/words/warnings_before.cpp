@@ -164,7 +164,7 @@ void add_inertia(Counts& counts, const Scene<Dim>& scene, const RunResult<Dim>& 
              "its centroid. It turns and precesses too fast by {:.2g} %. Take smaller cells, or rigid{} where it "
              "does not bend",
              scene.mesh.body_names[worst], name_of(kinematics), share, enough_inertia,
-             n > 1 ? fmt::format(", and {} more bodies lack less", n - 1) : "", 100.0 * (1.0 / share - 1.0),
+             n > 1 ? fmt::format(" ({} more bodies lack less)", n - 1) : "", 100.0 * (1.0 / share - 1.0),
              solid::properties_of(kinematics).finite_strains ? " or floating" : ""),
          share, enough_inertia});
 }

@@ -79,8 +79,9 @@ void Bonds<Dim>::check_fracture_energy() const {
             return "'" + bodies_.mesh().body_names[static_cast<std::size_t>(places_[p].bodies[side])] + "'";
         };
         throw BadInput(mesh_.name + ": the bond of " + body_at(0) + " and " + body_at(1) + " has a fracture energy of " +
-                           number(bond.fracture_energy) + " J/m^2, but at its strength the half cells beside it hold " +
-                           number(held) + " J/m^2, and it would take these at once. Make cells there " +
+                           number(bond.fracture_energy) + " J/m^2, but at its strength of " + number(places_[p].strength) +
+                           " Pa the half cells beside it hold " + number(held) +
+                           " J/m^2, and it would take these at once. Make cells there " +
                            number(std::ceil(10.0 * held / bond.fracture_energy) / 10.0 + 0.1) +
                            " times smaller or more, or leave fracture_energy out.",
                        {.value = bond.fracture_energy, .allowed = held});
@@ -104,6 +105,7 @@ void Bonds<Dim>::take_over(const Bonds& before, std::span<const std::int32_t> ol
         if (from == before.places_.end())
             throw BadInput(bodies_.mesh().name + ": faces are bonded that were not. Keep bonds as they are.");
         share_[p] = before.share_[static_cast<std::size_t>(from - before.places_.begin())];
+        places_[p].strength = from->strength;  // drawn once, whatever numbers the faces have now
     }
 }
 

@@ -185,7 +185,7 @@ std::uint64_t mixed(std::uint64_t bits) {
     return bits ^ (bits >> 31);
 }
 
-/// The draw of two faces, whose numbers are those of all ranks.
+/// Strength drawn for two faces, from their numbers among all ranks.
 double drawn_strength(const Bond& bond, const std::array<std::size_t, 2>& numbers) {
     if (std::isinf(bond.weibull_modulus)) return bond.strength;
     const std::uint64_t bits = mixed(mixed(mixed(bond.seed) ^ numbers[0]) ^ numbers[1]);

@@ -52,7 +52,7 @@ public:
         std::ranges::sort(entries_);
     }
 
-    /// Whether it is bonded all over, so that nothing comes near it.
+    /// Whether the whole face is bonded: then nothing can touch it.
     [[nodiscard]] bool covers(contact::Face face) const {
         constexpr double rounding = 1e-6;
         double left = 1.0;
@@ -62,6 +62,7 @@ public:
         }
         return left < rounding;
     }
+    /// Whether an unbroken bond holds the face to the body.
     [[nodiscard]] bool joins(contact::Face face, std::int32_t body) const {
         return std::ranges::any_of(of(face), [&](const Entry& entry) {
             return bonds_.places()[entry.place].bodies[1 - entry.side] == body && !bonds_.is_broken(entry.place);
