@@ -207,9 +207,8 @@ mesh::Mesh<Dim> cut_into_grains(mesh::Mesh<Dim> mesh, const BodySettings& body) 
     if (!body.fracture) return mesh;
     if (mesh.n_bodies() > 1)
         throw mesh::MeshError(
-            fmt::format("bodies.{}.fracture: it has {} bodies or regions, and one that breaks is made of one. Leave "
-                        "fracture out, or the "
-                        "regions.",
+            fmt::format("bodies.{}.fracture: the body has {} parts, and one that breaks is made of one. Leave fracture or "
+                        "its parts out.",
                         body.name, mesh.n_bodies()));
     const std::vector<std::int32_t> grains =
         mesh::grains_of<Dim>(mesh, {.size = body.fracture->grain, .seed = static_cast<std::uint32_t>(body.fracture->seed)});

@@ -179,6 +179,8 @@ TEST_CASE("a body that may break is cut into grains, whose bonds have its streng
     CHECK(is_piece_refused(plate("kinematics = \"floating\"\nfracture = {grain = 4, strength = 1}\n"),
                            "leave each body whole"));
     CHECK(is_piece_refused(plate("kinematics = \"rigid\"\n" + fracture), "fracture"));
+    CHECK(is_piece_refused(plate("kinematics = \"floating\"\n" + fracture + "[bodies.plate.hub]\nregion = \"x < 0.5\"\n"),
+                           "the body has 2 parts, and one that breaks is made of one"));
 }
 
 TEST_CASE("parts of a piece that cannot be are refused with the reason", "[input][pieces]") {
