@@ -180,8 +180,7 @@ inline constexpr auto combinations = std::to_array<Combination>({
     {Feature::erosion,
      {Feature::stepped_run},
      "whoever takes the steps takes out cells, too",
-     "Leave erosion out, and take them out between steps (SteppedRun::change; remove_cells in Python), or let Abut run the "
-     "whole."},
+     "Leave erosion out, and take cells out between steps (remove_cells in Python), or let Abut run the whole."},
     // States at rest
     {Feature::rest,
      {Feature::floating, Feature::rigid},
