@@ -19,6 +19,8 @@ struct Variety {
     Keys<Section> keys;
 };
 
+[[nodiscard]] Keys<Settings> all_keys();         ///< of a scene; `values` and `materials`, read before, without effect
+[[nodiscard]] Key<Settings> materials_key();     ///< reads them, before all others
 [[nodiscard]] const Keys<Settings>& top_keys();  ///< those in no table
 [[nodiscard]] const Keys<Settings>& run_keys();
 [[nodiscard]] const Keys<Settings>& contact_keys();
