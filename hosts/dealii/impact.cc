@@ -8,9 +8,10 @@
 //   cylinders  the same in 3D, length 0.5, ends free: (-0.0275, -0.0402)
 //   bars       2D, finite strain: a bar that spins about its middle hits a square at rest with a corner, and both turn on
 //
-// impact <scene> [fine] [erode] [restart]: `fine` halves the cells of round bodies; `erode` takes away the cells of the left
-// body that are pressed hardest, with 1 % of all faces, while the bodies touch; `restart` goes on from a saved state in new
-// objects 1 s later, and compares the bits of both ends. The exit status is 1 if a figure is off.
+// impact <scene> [fine] [friction] [erode] [restart]: `fine` halves the cells of round bodies; with `friction`, a coefficient of
+// 0.05, these slide all along, and friction takes what it takes from rigid discs; `erode` takes away the cells of the left body
+// that are pressed hardest, with 1 % of all faces, while the bodies touch; `restart` goes on from a saved state in new objects 1 s
+// later, and compares the bits of both ends. The exit status is 1 if a figure is off.
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/base/timer.h>
 #include <deal.II/dofs/dof_handler.h>
@@ -27,7 +28,7 @@
 #include <deal.II/physics/elasticity/kinematics.h>
 
 #include <abut/contact/nodal_contact.hpp>
-#include <abut/contact/nodal_faces.hpp>
+#include <abut/contact/surface/nodal_faces.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -64,7 +65,8 @@ enum class Strain { small, finite };  // linear elasticity, or Green's strain: S
 struct State {  // all that a run goes on from
     VectorType x, v_before, v_after;  // x^n, v^{n-1/2}, v^{n+1/2}
     std::vector<bool> eroded;  // of each cell
-    double potential = 0.0;    // V(x^n)
+    double potential = 0.0;    // V(x^n), with what faces hold that stick
+    double taken = 0.0;        // by friction until now
     double dt;
     std::vector<std::byte> contact;
 };
@@ -72,7 +74,8 @@ struct State {  // all that a run goes on from
 template <int dim>
 class Bodies {
 public:
-    Bodies(const Triangulation<dim>& mesh, Strain strain, const State* saved = nullptr) : strain_(strain), dofs_(mesh) {
+    Bodies(const Triangulation<dim>& mesh, Strain strain, double friction, const State* saved = nullptr)
+        : strain_(strain), dofs_(mesh) {
         dofs_.distribute_dofs(FESystem<dim>(FE_Q<dim>(1), dim));  // numbers the components of a node one after the other
         typename MatrixFree<dim>::AdditionalData serial;
         serial.tasks_parallel_scheme = MatrixFree<dim>::AdditionalData::none;
@@ -106,8 +109,13 @@ public:
         for (const auto& cell : dofs_.active_cell_iterators())
             for (const unsigned f : cell->face_indices())
                 if (is_skin(cell, f)) depth[cell->material_id()].push_back(half_height(cell, f));
-        for (const auto& d : depth) stiffness_.push_back(abut::contact::skin_stiffness(lambda + 2.0 * mu, d));
-        contact = std::make_unique<abut::contact::NodalContact<dim>>(skin());
+        for (const auto& d : depth) {
+            stiffness_.push_back(abut::contact::skin_stiffness(lambda + 2.0 * mu, d));
+            shear_stiffness_.push_back(abut::contact::skin_stiffness(mu, d));
+        }
+        abut::contact::NodalOptions options;
+        if (friction > 0.0) options.friction.laws = {{.coefficient = friction}};
+        contact = std::make_unique<abut::contact::NodalContact<dim>>(skin(), options);
         if (saved) contact->restore(saved->contact);
 
         std::vector<double> node_mass;
@@ -127,7 +135,8 @@ public:
         force = 0.0;
         const auto& step = contact->step(now.dt, values(now.x), values(x), take);
         step.add_force_to(std::span(force.begin(), force.locally_owned_size()));
-        now.potential = step.energy + add_elastic_force(take == TakenForce::mean ? now.x : x, x, force);
+        now.taken += step.report.friction.dissipated;
+        now.potential = step.energy + step.report.friction.energy + add_elastic_force(take == TakenForce::mean ? now.x : x, x, force);
         for (unsigned i = 0; i < force.size(); ++i) force[i] /= mass[i];
         VectorType v = take == TakenForce::mean ? now.v_before : now.v_after;
         v.add(take == TakenForce::mean ? 2.0 * now.dt : now.dt, force);
@@ -303,7 +312,9 @@ private:
                 arrays.append_face(corners, half_height(cell, f), cell->material_id());
                 faces_.push_back(cell->active_cell_index() * GeometryInfo<dim>::faces_per_cell + f);
             }
-        abut::contact::NodalSurface<dim> surface(values(rest_), arrays.view());
+        abut::contact::NodalFaces<dim> faces = arrays.view();
+        faces.shear_stiffness = shear_stiffness_;  // friction alone reads it
+        abut::contact::NodalSurface<dim> surface(values(rest_), faces);
         AssertThrow(surface.inward_bodies().empty(), ExcMessage("faces look inwards"));
         return surface;
     }
@@ -314,7 +325,7 @@ private:
     MatrixFree<dim> matrix_free_;
     AlignedVector<Lanes> intact_;    // 0 where a cell has eroded, else 1
     std::vector<unsigned> faces_;    // of contact, as faces_per_cell * cell + face: increasing
-    std::vector<double> stiffness_;  // of contact, of each body
+    std::vector<double> stiffness_, shear_stiffness_;  // of contact, of each body
 };
 
 struct Scene {
@@ -327,7 +338,16 @@ struct Scene {
 
 struct Options {
     bool erode, restart;
+    double friction;
 };
+
+/// What friction takes from rigid discs, over their kinetic energy: they meet with the normal impulse of discs without friction,
+/// and each kg m/s along their faces slows sliding by 3/m on each disc.
+double taken_from_rigid_discs(double friction, const Tensor<1, 2>& without) {
+    const double impulse = std::hypot(without[0] - speed, without[1]);  // over m
+    const double sliding = 2.0 * speed * std::abs(without[1]) / impulse;
+    return friction * impulse * (sliding - 3.0 * friction * impulse) / (speed * speed);
+}
 
 template <int dim>
 void set_velocity(Bodies<dim>& bodies, const Scene& scene) {
@@ -344,7 +364,7 @@ void set_velocity(Bodies<dim>& bodies, const Scene& scene) {
 template <int dim>
 bool run(const Triangulation<dim>& mesh, const Scene& scene, Options options, Strain strain, TakenForce take) {
     const Timer timer;
-    Bodies<dim> bodies(mesh, strain);
+    Bodies<dim> bodies(mesh, strain, options.friction);
     set_velocity(bodies, scene);
     const auto step_at = [&](double time) { return static_cast<unsigned>(time / bodies.now.dt); };
     const double H_0 = bodies.pseudo_energy();  // all of it kinetic
@@ -360,7 +380,7 @@ bool run(const Triangulation<dim>& mesh, const Scene& scene, Options options, St
         if (options.erode && n == step_at(scene.impact)) lost = bodies.erode(0.01);
         if (options.restart && n == step_at(scene.impact + 1.0))
             saved = bodies.state(), pairs_at_restart = bodies.contact->last().pairs.size();
-        const double gain = bodies.pseudo_energy() + lost - H_0;
+        const double gain = bodies.pseudo_energy() + lost + bodies.now.taken - H_0;
         drift = std::max(drift, std::abs(gain));
         H_drift = std::max(H_drift, std::abs(gain + bodies.energy_excess()));
         excess = std::max(excess, bodies.energy_excess());
@@ -388,12 +408,16 @@ bool run(const Triangulation<dim>& mesh, const Scene& scene, Options options, St
         std::printf("    %zu of %zu faces eroded, and %.1e of the energy\n", bodies.faces_eroded, bodies.faces_before,
                     lost / H_0);
         holds = holds && bodies.faces_eroded > 0 && lost > 0.0;
+    } else if (options.friction > 0.0) {
+        const double taken = bodies.now.taken / H_0, of_rigid = taken_from_rigid_discs(options.friction, scene.expected);
+        std::printf("    friction took %.4f of the energy, %.4f of rigid discs\n", taken, of_rigid);
+        holds = holds && std::abs(taken - of_rigid) < 0.05 * of_rigid;
     } else if (strain == Strain::small) {
         std::printf("    off by %.2f %% of its speed\n", 100.0 * off);
         holds = holds && off < 0.01;
     }
     if (options.restart) {
-        Bodies<dim> again(mesh, strain, &saved);
+        Bodies<dim> again(mesh, strain, options.friction, &saved);
         for (unsigned n = step_at(scene.impact + 1.0) + 1; n < step_at(scene.end); ++n) again.step(take);
         const auto same = [](const VectorType& u, const VectorType& v) { return std::ranges::equal(values(u), values(v)); };
         const bool equal = same(again.now.x, bodies.now.x) && same(again.now.v_after, bodies.now.v_after);
@@ -451,7 +475,7 @@ Scene bar_and_square() {
 int main(int argc, char** argv) {
     const std::vector<std::string> words(argv + 1, argv + argc);
     const auto given = [&](const char* word) { return std::ranges::count(words, word) > 0; };
-    const Options options{given("erode"), given("restart")};
+    const Options options{given("erode"), given("restart"), given("friction") ? 0.05 : 0.0};
     if (given("discs")) {
         const Scene scene = round_bodies(given("fine") ? 4 : 3, Point<2>(-0.0279, -0.0400));
         return run_all(scene.mesh, scene, options) ? 0 : 1;
@@ -466,6 +490,6 @@ int main(int argc, char** argv) {
         const Scene scene = bar_and_square();
         return run_all(scene.mesh, scene, options) ? 0 : 1;
     }
-    std::fprintf(stderr, "usage: impact discs|cylinders|bars [fine] [erode] [restart]\n");
+    std::fprintf(stderr, "usage: impact discs|cylinders|bars [fine] [friction] [erode] [restart]\n");
     return 2;
 }
