@@ -1,6 +1,7 @@
 #include "abut/geometry/broad_phase/broad_phase.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -117,21 +118,52 @@ BroadPhase chosen(BroadPhase method, std::size_t n_tests) {
     return n_tests < tests_worth_a_tree ? BroadPhase::brute_force : BroadPhase::packed_tree;
 }
 
-// What a back end allocates for each box that takes part, its copy included [bytes]: measured, docs/detection.md.
-double bytes_per_box(BroadPhase method) {
-    switch (method) {
-        case BroadPhase::packed_tree:
-        case BroadPhase::automatic:
-            return 120.0;
-        case BroadPhase::embree:
-            return 130.0;
-        case BroadPhase::fcl:
-            return 200.0;
-        case BroadPhase::brute_force:
-            return 56.0;
-    }
-    throw BadInput("not a BroadPhase");
+/// A broad phase by its name, cost and functions. `between` and `within` find the pairs of two sets and of one; they may
+/// take the boxes of the selections with them, to have room for the pairs.
+struct Method {
+    BroadPhase method;
+    std::string_view name;
+    const bool* is_built;  ///< null: always
+    double bytes_per_box;  ///< allocated for each box that takes part, its copy included: measured, docs/detection.md
+    void (*between)(Selection&, Selection&, bool in_spatial_order, FoundPairs&);
+    void (*within)(Selection&, bool in_spatial_order, FoundPairs&);
+};
+
+void between_by_packed_tree(Selection& selection_1, Selection& selection_2, bool in_spatial_order, FoundPairs& found) {
+    backend::find_by_packed_tree(std::move(selection_1.boxes), std::move(selection_2.boxes), in_spatial_order, found);
 }
+
+void within_by_packed_tree(Selection& selection, bool in_spatial_order, FoundPairs& found) {
+    backend::find_by_packed_tree(std::move(selection.boxes), in_spatial_order, found);
+}
+
+template <auto Find>
+void between_by(Selection& selection_1, Selection& selection_2, bool, FoundPairs& found) {
+    Find(selection_1.boxes, selection_2.boxes, found);
+}
+
+template <auto Find>
+void within_by(Selection& selection, bool, FoundPairs& found) {
+    Find(selection.boxes, found);
+}
+
+using FindBetween = void (*)(backend::Boxes, backend::Boxes, FoundPairs&);
+using FindWithin = void (*)(backend::Boxes, FoundPairs&);
+
+/// In the order of BroadPhase; the first is never asked to find, `chosen` takes another in its place.
+constexpr std::array methods{
+    Method{BroadPhase::automatic, "automatic", nullptr, 0.0, nullptr, nullptr},
+    Method{BroadPhase::packed_tree, "packed_tree", nullptr, 120.0, between_by_packed_tree, within_by_packed_tree},
+    Method{BroadPhase::embree, "embree", &backend::has_embree, 130.0, between_by<FindBetween{backend::find_by_embree}>,
+           within_by<FindWithin{backend::find_by_embree}>},
+    Method{BroadPhase::fcl, "fcl", &backend::has_fcl, 200.0, between_by<FindBetween{backend::find_by_fcl}>,
+           within_by<FindWithin{backend::find_by_fcl}>},
+    Method{BroadPhase::brute_force, "brute_force", nullptr, 56.0, between_by<FindBetween{backend::find_by_brute_force}>,
+           within_by<FindWithin{backend::find_by_brute_force}>}};
+constexpr bool is_in_its_place(const Method& row) { return &row == &methods[static_cast<std::size_t>(row.method)]; }
+static_assert(std::ranges::all_of(methods, is_in_its_place));
+
+const Method& row_of(BroadPhase method) { return methods.at(static_cast<std::size_t>(method)); }
 
 [[noreturn]] void refuse_bytes(const std::string& what, double needed, double allowed) {
     throw SearchLimitError("broad phase: " + what + " " + number(needed) + " bytes or more, " + number(allowed) +
@@ -149,7 +181,8 @@ struct PairLimit {
 };
 
 PairLimit pair_limit(const SearchLimits& limits, BroadPhase method, std::size_t n_boxes) {
-    const double trees = bytes_per_box(method) * static_cast<double>(n_boxes), allowed = static_cast<double>(limits.bytes);
+    const double trees = row_of(method).bytes_per_box * static_cast<double>(n_boxes),
+                 allowed = static_cast<double>(limits.bytes);
     if (trees > allowed) refuse_bytes("the trees of " + std::to_string(n_boxes) + " boxes take", trees, allowed);
     const double fitting = std::floor((allowed - trees) / bytes_per_pair);
     const double most = std::min(static_cast<double>(limits.pairs), double{std::numeric_limits<std::uint32_t>::max()});
@@ -168,35 +201,6 @@ void check_number(const FoundPairs& found, const SearchLimits& limits, const Pai
                            static_cast<double>(n), static_cast<double>(limit.pairs));
 }
 
-// May take the boxes of the selections with it, to have room for the pairs.
-void find_between(BroadPhase method, Selection& selection_1, Selection& selection_2, bool in_spatial_order,
-                  FoundPairs& found) {
-    switch (method) {
-        case BroadPhase::packed_tree:
-            return backend::find_by_packed_tree(std::move(selection_1.boxes), std::move(selection_2.boxes), in_spatial_order,
-                                                found);
-        case BroadPhase::embree:
-            return backend::find_by_embree(selection_1.boxes, selection_2.boxes, found);
-        case BroadPhase::fcl:
-            return backend::find_by_fcl(selection_1.boxes, selection_2.boxes, found);
-        default:
-            return backend::find_by_brute_force(selection_1.boxes, selection_2.boxes, found);
-    }
-}
-
-void find_within(BroadPhase method, Selection& selection, bool in_spatial_order, FoundPairs& found) {
-    switch (method) {
-        case BroadPhase::packed_tree:
-            return backend::find_by_packed_tree(std::move(selection.boxes), in_spatial_order, found);
-        case BroadPhase::embree:
-            return backend::find_by_embree(selection.boxes, found);
-        case BroadPhase::fcl:
-            return backend::find_by_fcl(selection.boxes, found);
-        default:
-            return backend::find_by_brute_force(selection.boxes, found);
-    }
-}
-
 // Both selections must outlive it.
 PairFilter in_numbers_of_selections(const PairFilter& wanted, const Selection& selection_1, const Selection& selection_2) {
     if (!wanted) return {};
@@ -212,7 +216,7 @@ std::vector<IndexPair> in_numbers_of_caller(std::vector<IndexPair> pairs, const 
 }  // namespace
 
 void check_options(const SearchOptions& options) {
-    const auto method = static_cast<int>(options.method), last = static_cast<int>(BroadPhase::brute_force);
+    const auto method = static_cast<int>(options.method), last = static_cast<int>(methods.back().method);
     if (method < 0 || method > last)
         throw BadInput("search options: the broad phase is " + std::to_string(method) + "; 0 (automatic) to " +
                            std::to_string(last) + " (brute force) are allowed.",
@@ -238,7 +242,7 @@ std::vector<IndexPair> overlapping_pairs(const SearchOptions& options, std::span
     Selection selection_1 = parts_inside(regions.of_1, boxes_1, n_1);
     Selection selection_2 = parts_inside(regions.of_2, boxes_2, n_2);
     FoundPairs found(limit.pairs, in_numbers_of_selections(wanted, selection_1, selection_2));
-    find_between(method, selection_1, selection_2, options.in_spatial_order, found);
+    row_of(method).between(selection_1, selection_2, options.in_spatial_order, found);
     check_number(found, options.limits, limit);
     return in_numbers_of_caller(found.sorted(n_1), selection_1, selection_2);
 }
@@ -254,37 +258,22 @@ std::vector<IndexPair> overlapping_pairs(const SearchOptions& options, std::span
     const PairLimit limit = pair_limit(options.limits, method, n);
     Selection selection = parts_inside(everywhere<Dim>(), boxes, n);
     FoundPairs found(limit.pairs, in_numbers_of_selections(wanted, selection, selection));
-    find_within(method, selection, options.in_spatial_order, found);
+    row_of(method).within(selection, options.in_spatial_order, found);
     check_number(found, options.limits, limit);
     return in_numbers_of_caller(found.sorted(n), selection, selection);
 }
 
 std::span<const BroadPhase> broad_phases() {
-    static const std::vector<BroadPhase> all = [] {
-        std::vector<BroadPhase> methods{BroadPhase::automatic, BroadPhase::packed_tree};
-        if (backend::has_embree) methods.push_back(BroadPhase::embree);
-        if (backend::has_fcl) methods.push_back(BroadPhase::fcl);
-        methods.push_back(BroadPhase::brute_force);
-        return methods;
+    static const std::vector<BroadPhase> built = [] {
+        std::vector<BroadPhase> all;
+        for (const Method& row : methods)
+            if (!row.is_built || *row.is_built) all.push_back(row.method);
+        return all;
     }();
-    return all;
+    return built;
 }
 
-std::string_view name(BroadPhase method) {
-    switch (method) {
-        case BroadPhase::automatic:
-            return "automatic";
-        case BroadPhase::packed_tree:
-            return "packed_tree";
-        case BroadPhase::embree:
-            return "embree";
-        case BroadPhase::fcl:
-            return "fcl";
-        case BroadPhase::brute_force:
-            return "brute_force";
-    }
-    return "unknown";
-}
+std::string_view name(BroadPhase method) { return row_of(method).name; }
 
 #define ABUT_INSTANTIATE(Dim)                                                                               \
     template std::vector<IndexPair> overlapping_pairs<Dim>(const SearchOptions&, std::span<const Box<Dim>>, \
