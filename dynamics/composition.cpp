@@ -1,6 +1,7 @@
 #include "abut/dynamics/composition.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <span>
 #include <string>
@@ -40,50 +41,37 @@ std::vector<SubFlow> blanes_moan_6() {
         std::vector{a1, b1, a2, b2, a3, b3, a4, b4, a5, 0.5 - (b1 + b2 + b3 + b4), 1.0 - 2.0 * (a1 + a2 + a3 + a4 + a5)});
 }
 
+std::vector<SubFlow> strang() { return symmetric(std::vector{0.5, 1.0}); }
+
+std::vector<SubFlow> suzuki_4() {
+    const double g = 1.0 / (4.0 - std::cbrt(4.0));
+    return whole_steps(std::vector{g, g, 1.0 - 4.0 * g, g, g});
+}
+
+struct Row {
+    Composition composition;
+    const char* name;
+    int order;
+    std::vector<SubFlow> (*sub_flows)();
+};
+
+/// In the order of Composition.
+constexpr std::array rows{Row{Composition::strang, "strang", 2, strang}, Row{Composition::suzuki_4, "suzuki_4", 4, suzuki_4},
+                          Row{Composition::blanes_moan_4, "blanes_moan_4", 4, blanes_moan_4},
+                          Row{Composition::blanes_moan_6, "blanes_moan_6", 6, blanes_moan_6}};
+
+constexpr bool is_in_its_place(const Row& row) { return &row == &rows[static_cast<std::size_t>(row.composition)]; }
+static_assert(std::ranges::all_of(rows, is_in_its_place));
+
+const Row& row_of(Composition composition) { return rows.at(static_cast<std::size_t>(composition)); }
+
 }  // namespace
 
-const char* name_of(Composition composition) {
-    switch (composition) {
-        case Composition::strang:
-            return "strang";
-        case Composition::suzuki_4:
-            return "suzuki_4";
-        case Composition::blanes_moan_4:
-            return "blanes_moan_4";
-        case Composition::blanes_moan_6:
-            return "blanes_moan_6";
-    }
-    return "";
-}
+const char* name_of(Composition composition) { return row_of(composition).name; }
 
-int order_of(Composition composition) {
-    switch (composition) {
-        case Composition::strang:
-            return 2;
-        case Composition::suzuki_4:
-        case Composition::blanes_moan_4:
-            return 4;
-        case Composition::blanes_moan_6:
-            return 6;
-    }
-    return 0;
-}
+int order_of(Composition composition) { return row_of(composition).order; }
 
-std::vector<SubFlow> sub_flows(Composition composition) {
-    switch (composition) {
-        case Composition::strang:
-            return symmetric(std::vector{0.5, 1.0});
-        case Composition::suzuki_4: {
-            const double g = 1.0 / (4.0 - std::cbrt(4.0));
-            return whole_steps(std::vector{g, g, 1.0 - 4.0 * g, g, g});
-        }
-        case Composition::blanes_moan_4:
-            return blanes_moan_4();
-        case Composition::blanes_moan_6:
-            return blanes_moan_6();
-    }
-    return {};
-}
+std::vector<SubFlow> sub_flows(Composition composition) { return row_of(composition).sub_flows(); }
 
 void detail::check_composition_mean(Composition composition, PathMean mean, bool system_is_exact) {
     const int order = order_of(composition), points = static_cast<int>(mean);
