@@ -130,7 +130,7 @@ TiltedPair pair_of(Kind kind, int i, std::mt19937& random) {
     auto& second = pair.second;
     const Vector<2> along = b - a;
     const bool same_side = uniform(random, 0.0, 1.0) < 0.7;
-    const auto on_line = [&](double at) { return Vector<2>(a + std::round(16.0 * at) / 16.0 * along); };
+    const auto on_line = [start = a, along](double at) { return Vector<2>(start + std::round(16.0 * at) / 16.0 * along); };
     const auto put_on_line = [&] {
         const double low = uniform(random, -0.5, 0.5), high = uniform(random, 0.6, 1.4);
         second[0] = same_side ? on_line(low) : on_line(high);
