@@ -33,9 +33,9 @@ template <int Dim>
 mesh::Mesh<Dim> two_bars() {
     Vector<Dim> corner = Vector<Dim>::Constant(0.3), other = corner, lower = Vector<Dim>::Zero();
     std::array<int, Dim> n, n_other;
-    n.fill(4), n_other.fill(3);
+    n.fill(Dim == 2 ? 4 : 3), n_other.fill(Dim == 2 ? 3 : 2);
     corner[0] = 4.0, other[0] = 3.6;
-    n[0] = Dim == 2 ? 56 : 40, n_other[0] = Dim == 2 ? 44 : 33;
+    n[0] = Dim == 2 ? 56 : 24, n_other[0] = Dim == 2 ? 44 : 19;
     lower[0] = 0.17, lower[1] = 0.302;
     const auto shape = Dim == 2 ? mesh::CellShape::triangle : mesh::CellShape::tetrahedron;
     std::vector<mesh::Mesh<Dim>> bars{mesh::structured_box<Dim>(Vector<Dim>::Zero(), corner, n, shape, "lower"),
