@@ -45,7 +45,8 @@ void check_held(std::span<const double> of_scheme, double dt) {
 }
 
 void refuse_pairs(const char* what) {
-    throw BadInput(std::string("Pairs: the system has ") + what + ". Take Memm with OwnClock.");
+    throw BadInput(std::string("Pairs: the system has ") + what +
+                   ". Take Memm with OwnClock; a solid has its own, solid::ClockedRun.");
 }
 
 }  // namespace abut::dynamics::detail

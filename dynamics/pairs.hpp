@@ -54,8 +54,8 @@ class Pairs {
 public:
     /// Starts from q and p at the same time. `stable_step` is 2/omega_max [s], as of `dynamics::stable_step`, infinite where
     /// nothing is known: then `may_grow` stays false. The system must outlive it. Throws BadInput if that is not > 0, the
-    /// sizes disagree, a value is not finite, or the system has constraints, forces on rates, several ranks, or no such
-    /// mean.
+    /// sizes disagree, a value is not finite, or the system has constraints, forces on rates (as every solid), several
+    /// ranks, or no such mean.
     Pairs(S& system, std::vector<double> q, std::span<const double> p, double stable_step, PathMean mean = PathMean::system)
         : system_(checked(system, stable_step)), memm_(system, std::move(q), p, first_step, mean), changes_(stable_step) {
         IntegratorState state = memm_.state();
@@ -139,7 +139,7 @@ private:
     static S& checked(S& system, double stable_step) {
         detail::check_stable_step(stable_step);
         refuse_ranks(ranks_of(system), {{"pairs of sub-steps"}});
-        if constexpr (RateSystem<S>) detail::refuse_pairs("forces on rates, which the last step decides");
+        if constexpr (RateSystem<S>) detail::refuse_pairs("forces on rates (set_rates), which the last step decides");
         if constexpr (ConstrainedSystem<S>)
             if (system.has_constraints()) detail::refuse_pairs("constraints, whose impulses are those of a step");
         return system;

@@ -57,14 +57,14 @@ void ClockedRun<Dim>::set_mean(Load& load) {
     run_.solid().set_traction(load.group, mean);
 }
 
-/// Else some ranks would wait for ever for a step that others do not take.
+/// Else ranks would wait for ever for a step that others do not take.
 template <int Dim>
 void ClockedRun<Dim>::require_same(double d) const {
     const dynamics::Ranks& ranks = run_.solid().ranks();
     if (ranks.is_one()) return;
     const double most = ranks.largest(d), least = -ranks.largest(-d);
     if (most != least)
-        throw BadInput("ClockedRun: ranks go on by times from " + exact_number(least) + " to " + exact_number(most) +
+        throw BadInput("ClockedRun: ranks give times from " + exact_number(least) + " to " + exact_number(most) +
                            " s. Give the same on all of them.",
                        {.value = most, .allowed = least});
 }
@@ -81,6 +81,7 @@ void ClockedRun<Dim>::advance(double d) {
 
 template <int Dim>
 std::vector<Vector<Dim>> ClockedRun<Dim>::motion(const std::string& group, double d) {
+    require_same(d);
     constexpr double nearness = 1e-9;  // of the step
     dynamics::Memm<Solid<Dim>>& memm = run_.memm();
     if (!(d > 0.0) || d > time_to_node() + nearness * memm.dt())
@@ -115,30 +116,43 @@ template <int Dim>
 typename ClockedRun<Dim>::State ClockedRun<Dim>::state() const {
     State state{run_state(run_.solid(), run_.memm()), run_.restarts(), clock_.time(), {}};
     for (const Load& load : loads_)
-        for (const std::vector<Vector<Dim>>* values : load.all()) state.loads.push_back(*values);
+        for (const std::vector<Vector<Dim>>* values : load.all())
+            state.loads.push_back(run_.solid().outside(load.group).gather(std::span<const Vector<Dim>>(*values)));
     state.has_begun = has_begun_;
     return state;
 }
 
 template <int Dim>
 void ClockedRun<Dim>::restore(const State& state) {
-    std::vector<Load> loads = loads_;
+    std::vector<Load> loads = dynamics::agreed(run_.solid().ranks(), [&] { return loads_of(state); });
+    run_.restore(state.run, state.restarts);
+    clock_.restore(state.time);
+    loads_ = std::move(loads);
+    has_begun_ = state.has_begun;
+}
+
+/// Loads of a state, if it is one of this run.
+template <int Dim>
+auto ClockedRun<Dim>::loads_of(const State& state) const -> std::vector<Load> {
     const auto is_of_this_run = [&] {
-        if (state.loads.size() != 4 * loads.size()) return false;
+        if (state.loads.size() != 4 * loads_.size()) return false;
         for (std::size_t i = 0; i < state.loads.size(); ++i)
-            if (state.loads[i].size() != loads[i / 4].traction.size()) return false;
+            if (state.loads[i].size() != run_.solid().outside(loads_[i / 4].group).n_all()) return false;
         return true;
     };
     if (!is_of_this_run())
         throw BadInput(
             "ClockedRun: the state has loads on other groups or faces than this run. Restore one that it has given.");
-    for (std::size_t i = 0; i < state.loads.size(); ++i) *loads[i / 4].all()[i % 4] = state.loads[i];
     const dynamics::IntegratorState& motion = state.run.motion;
     dynamics::detail::check_clock_time(state.time, motion.time, motion.time + motion.dt);
-    run_.restore(state.run, state.restarts);
-    clock_.restore(state.time);
-    loads_ = std::move(loads);
-    has_begun_ = state.has_begun;
+    std::vector<Load> loads = loads_;
+    for (std::size_t i = 0; i < state.loads.size(); ++i) {
+        Load& load = loads[i / 4];
+        const std::span<const std::int32_t> numbers = run_.solid().outside(load.group).numbers();
+        for (std::size_t face = 0; face < numbers.size(); ++face)
+            (*load.all()[i % 4])[face] = state.loads[i][static_cast<std::size_t>(numbers[face])];
+    }
+    return loads;
 }
 
 template class ClockedRun<2>;

@@ -36,8 +36,8 @@ enum class LoadImpulse {
 ///         clock.advance(d);
 ///     }
 ///
-/// On several ranks, where no load comes from outside, `advance`, `q`, `state` and `restore` are calls of all of them with
-/// the same times, and q is that of the points of each.
+/// On several ranks all functions but `time` and `time_to_node` are calls of all of them, with the same times and groups.
+/// Arrays by face are of the faces that a rank has (OutsideView), and q is that of its points.
 template <int Dim>
 class ClockedRun {
 public:
@@ -63,13 +63,14 @@ public:
     /// Displacements of the points now (n_points * Dim) [m].
     [[nodiscard]] std::vector<double> q() { return clock_.q(); }
 
-    /// All that what follows depends on.
+    /// All that what follows depends on: the same on all ranks, for any number of them.
     struct State {
         RunState run;
         dynamics::RestartReport restarts;
         double time = 0.0;  ///< [s]
         bool has_begun = false;
-        std::vector<std::vector<Vector<Dim>>> loads;  ///< of each group: traction, mean, load at the node, mean before
+        /// Traction, mean, load at the node and mean before, group after group, by face of all ranks.
+        std::vector<std::vector<Vector<Dim>>> loads;
     };
     [[nodiscard]] State state() const;
     /// Goes back to a state of this run, for a step that is rejected and taken again: what follows has the same bits. Throws
@@ -89,6 +90,7 @@ private:
         }
     };
     [[nodiscard]] Load& load_on(const std::string& group);
+    [[nodiscard]] std::vector<Load> loads_of(const State& state) const;
     void require_same(double d) const;
     void add_piece(double s);
     void set_mean(Load& load);

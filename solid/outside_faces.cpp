@@ -11,10 +11,12 @@ OutsideFaces<Dim> outside_faces(const dynamics::RunView<Dim>& run, const Solid<D
     std::vector<double> momentum(run.p_before.begin(), run.p_before.end());
     for (std::size_t i = 0; i < momentum.size(); ++i) momentum[i] = 0.5 * (momentum[i] + run.p_after[i]);
     OutsideFaces<Dim> faces;
+    const auto numbers = solid.outside(group).numbers();
+    faces.number.assign(numbers.begin(), numbers.end());
     faces.position = solid.outside(group).position(run.q);
     faces.velocity = solid.outside(group).velocity(momentum);
     faces.normal = solid.outside(group).normal(run.q);
-    for (const std::int32_t face : solid.mesh().group(group).faces)
+    for (const std::int32_t face : solid.outside(group).faces())
         faces.area.push_back(solid.mesh().face_measure[static_cast<std::size_t>(face)]);
     const auto traction = solid.outside(group).traction();
     faces.traction.assign(traction.begin(), traction.end());

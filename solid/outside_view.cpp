@@ -1,11 +1,50 @@
 // How a program outside of a solid follows the faces that it loads.
 #include "abut/solid/outside_view.hpp"
 
+#include "abut/base/error.hpp"
 #include "abut/solid/body/bodies.hpp"
 #include "abut/solid/load/outside_loads.hpp"
+#include "abut/solid/part/rank_part.hpp"
 #include "abut/solid/solid.hpp"
 
 namespace abut::solid {
+
+template <int Dim>
+std::span<const std::int32_t> OutsideView<Dim>::faces() const {
+    return solid_.outside_->group(group_).faces.own();
+}
+
+template <int Dim>
+std::span<const std::int32_t> OutsideView<Dim>::numbers() const {
+    return solid_.outside_->group(group_).faces.numbers();
+}
+
+template <int Dim>
+std::size_t OutsideView<Dim>::n_all() const {
+    return solid_.outside_->group(group_).faces.n_all();
+}
+
+template <int Dim>
+void OutsideView<Dim>::require_values(std::size_t n_given) const {
+    dynamics::agreed(solid_.ranks(), [&] {
+        if (const std::size_t n_faces = faces().size(); n_given != n_faces)
+            throw BadInput("faces of '" + group_ + "': " + std::to_string(n_given) + " values are given for " +
+                               std::to_string(n_faces) + " faces. Give one per face of the group that this rank has.",
+                           {.value = static_cast<double>(n_given), .allowed = static_cast<double>(n_faces)});
+    });
+}
+
+template <int Dim>
+std::vector<double> OutsideView<Dim>::gather(std::span<const double> of_faces) const {
+    require_values(of_faces.size());
+    return solid_.outside_->group(group_).faces.gather(of_faces);
+}
+
+template <int Dim>
+std::vector<Vector<Dim>> OutsideView<Dim>::gather(std::span<const Vector<Dim>> of_faces) const {
+    require_values(of_faces.size());
+    return solid_.outside_->group(group_).faces.gather(of_faces);
+}
 
 template <int Dim>
 std::span<const Vector<Dim>> OutsideView<Dim>::traction() const {
@@ -15,36 +54,46 @@ std::span<const Vector<Dim>> OutsideView<Dim>::traction() const {
 template <int Dim>
 std::vector<Vector<Dim>> OutsideView<Dim>::position(std::span<const double> q) const {
     const auto& group = solid_.outside_->group(group_);
-    std::vector<Vector<Dim>> position = solid_.outside_->displacement(group, as_vectors<Dim>(q));
+    std::vector<Vector<Dim>> of_part;
+    std::vector<Vector<Dim>> position =
+        solid_.outside_->displacement(group, solid_.part_->filled(as_vectors<Dim>(q), of_part));
     for (std::size_t i = 0; i < position.size(); ++i)
-        position[i] += solid_.mesh_.face_centroid[static_cast<std::size_t>(group.faces[i])];
+        position[i] += solid_.mesh_.face_centroid[static_cast<std::size_t>(group.faces.own()[i])];
     return position;
 }
 
 template <int Dim>
 std::vector<Vector<Dim>> OutsideView<Dim>::velocity(std::span<const double> p) const {
+    const auto& group = solid_.outside_->group(group_);
     std::vector<double> of_points(p.begin(), p.end());
     for (std::size_t i = 0; i < of_points.size(); ++i) of_points[i] *= solid_.inverse_mass()[i];
-    return solid_.outside_->velocity(solid_.outside_->group(group_), as_vectors<Dim>(std::span<const double>(of_points)));
+    std::vector<Vector<Dim>> of_part;
+    return solid_.outside_->velocity(group,
+                                     solid_.part_->filled(as_vectors<Dim>(std::span<const double>(of_points)), of_part));
 }
 
 template <int Dim>
 std::vector<Vector<Dim>> OutsideView<Dim>::motion(std::span<const double> q_0, std::span<const double> q_1, double time,
                                                   double dt) const {
-    return solid_.outside_->motion(solid_.outside_->group(group_), as_vectors<Dim>(q_0), as_vectors<Dim>(q_1), time, dt);
+    const auto& group = solid_.outside_->group(group_);
+    std::vector<Vector<Dim>> of_part_0, of_part_1;
+    const auto here_0 = solid_.part_->filled(as_vectors<Dim>(q_0), of_part_0);
+    return solid_.outside_->motion(group, here_0, solid_.part_->filled(as_vectors<Dim>(q_1), of_part_1), time, dt);
 }
 
 template <int Dim>
 std::vector<Vector<Dim>> OutsideView<Dim>::normal(std::span<const double> q) const {
-    std::vector<Vector<Dim>> normal;
-    for (const std::int32_t face : solid_.outside_->group(group_).faces) {
+    const auto& group = solid_.outside_->group(group_);
+    std::vector<Vector<Dim>> of_part, normal;
+    const auto here = solid_.part_->filled(as_vectors<Dim>(q), of_part);
+    for (const std::int32_t face : group.faces.own()) {
         const std::int32_t cell = solid_.mesh_.face_cells[static_cast<std::size_t>(face)][0];
         const auto [deformable, body] = solid_.bodies_->deformable_cell(cell);
         Matrix<Dim> turn = Matrix<Dim>::Identity();
         if (deformable >= 0) turn = solid_.frames_->end()[static_cast<std::size_t>(body)].turn;
         for (std::size_t i = 0; i < solid_.bodies_->rigid().size(); ++i)
             if (solid_.bodies_->rigid().mesh_body(i) == solid_.mesh_.cell_body[static_cast<std::size_t>(cell)])
-                turn = solid_.bodies_->rigid().place(i, as_vectors<Dim>(q)).map;
+                turn = solid_.bodies_->rigid().place(i, here).map;
         normal.push_back(turn * solid_.mesh_.face_normal[static_cast<std::size_t>(face)]);
     }
     return normal;

@@ -1,4 +1,6 @@
 #pragma once
+#include <cstddef>
+#include <cstdint>
 #include <span>
 #include <string>
 #include <utility>
@@ -14,10 +16,21 @@ class Solid;
 /// The faces of a group whose tractions a program outside sets (TractionCondition::from_outside, Solid::outside), all
 /// in the order of the group. It is of use as long as the solid lives. docs/loads.md; `outside_faces` gives all of it
 /// in one value.
+///
+/// On several ranks each has the faces of its own cells, and of rigid bodies whose points it owns: arrays are of these.
+/// Functions that take q or p, and `gather`, are calls of all ranks.
 template <int Dim>
 class OutsideView {
 public:
     OutsideView(const Solid<Dim>& solid, std::string group) : solid_(solid), group_(std::move(group)) {}
+
+    [[nodiscard]] std::span<const std::int32_t> faces() const;  ///< in the mesh of this rank, increasing (n_faces)
+    /// Numbers of these in the order of one rank, which has all faces of the group, increasing (n_faces).
+    [[nodiscard]] std::span<const std::int32_t> numbers() const;
+    [[nodiscard]] std::size_t n_all() const;  ///< faces of all ranks
+    /// Values of the faces of all ranks by number, on all of them (n_all), from those of this rank (n_faces).
+    [[nodiscard]] std::vector<double> gather(std::span<const double> of_faces) const;
+    [[nodiscard]] std::vector<Vector<Dim>> gather(std::span<const Vector<Dim>> of_faces) const;
 
     [[nodiscard]] std::span<const Vector<Dim>> traction() const;  ///< as set last (n_faces) [Pa]
     /// Positions of the centroids in q, under the tractions of the last step (n_faces) [m].
@@ -32,6 +45,8 @@ public:
     [[nodiscard]] std::vector<Vector<Dim>> normal(std::span<const double> q) const;
 
 private:
+    void require_values(std::size_t n_given) const;
+
     const Solid<Dim>& solid_;
     std::string group_;
 };

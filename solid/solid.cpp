@@ -115,7 +115,7 @@ Solid<Dim>::Solid(const mesh::Mesh<Dim>& mesh, SolidOptions<Dim> options, const 
     });
     frame_loads_ = std::make_unique<FrameLoads<Dim>>(*bodies_, *frames_, *part_);
     if (frame_loads_->any()) frame_loads_->take(loads_->end());
-    outside_ = std::make_unique<OutsideLoads<Dim>>(*bodies_, ccg_, *loads_, point_loads_->tractions());
+    outside_ = std::make_unique<OutsideLoads<Dim>>(*bodies_, *part_, ccg_, *loads_, point_loads_->tractions());
     const MeanForce mean_force = options_.finite.mean_force;
     if (bodies_->any_finite() && (mean_force == MeanForce::closed_trapezoid || mean_force == MeanForce::automatic))
         closure_ = std::make_unique<TrapezoidClosure<Dim>>(*bodies_, *part_, ccg_);

@@ -177,10 +177,11 @@ public:
                                    std::span<const std::int32_t> old_cells);
 
     /// Tractions on a group with a TractionCondition::from_outside, in the order of its faces, that act from the next
-    /// step on until they are set again (n_faces) [Pa]; what that changes in V is booked as work. Throws BadInput, and
-    /// nothing has changed, for another group, another number, or one that is not finite. docs/loads.md.
+    /// step on until they are set again (n_faces) [Pa]; what that changes in V is booked as work. A call of all ranks, each
+    /// with the faces that it has (OutsideView). Throws BadInput, and nothing has changed, for another group, another
+    /// number, or one that is not finite. docs/loads.md.
     void set_traction(const std::string& group, std::span<const Vector<Dim>> traction);
-    /// Work of tractions from outside so far; q is where the last step ended.
+    /// Work of tractions from outside so far; q is where the last step ended. A call of all ranks.
     [[nodiscard]] OutsideWork outside_work(std::span<const double> q) const;
 
     // Parts, each in a value of its own

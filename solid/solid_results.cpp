@@ -122,7 +122,8 @@ void Solid<Dim>::set_traction(const std::string& group, std::span<const Vector<D
 
 template <int Dim>
 OutsideWork Solid<Dim>::outside_work(std::span<const double> q) const {
-    return outside_->work(as_vectors<Dim>(q));
+    std::vector<Vector<Dim>> of_part;
+    return outside_->work(part_->filled(as_vectors<Dim>(q), of_part));
 }
 
 template <int Dim>

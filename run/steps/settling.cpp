@@ -17,6 +17,7 @@
 #include "abut/run/body_names.hpp"
 #include "abut/run/steps/of_all_ranks.hpp"
 #include "abut/solid/contact_view.hpp"
+#include "abut/solid/kinematics/properties.hpp"
 
 namespace abut::run {
 namespace {
@@ -28,6 +29,9 @@ constexpr std::int64_t window = 500;  // steps: where peaks do not fall by a ten
 constexpr std::int64_t most_rise = 20'000;  // steps without a peak: the bodies fall or slide
 constexpr std::int64_t most_steps = 200'000;
 constexpr std::int64_t between_looks = 50;  // steps
+// Paths within most_rise steps, of the radius of a body, below which it does not move: of rigid bodies, and by loads that
+// something else might balance.
+constexpr double still_path = 1e-9, balanced_path = 1e-6;
 
 /// Loads and obstacles that stay as they are at t = 0.
 template <int Dim>
@@ -50,18 +54,25 @@ solid::SolidOptions<Dim> frozen(solid::SolidOptions<Dim> options) {
 /// makes a low one while a slow one has only begun.
 class Peaks {
 public:
+    /// Energy `still` and less is that of bodies which do not move [J].
+    explicit Peaks(double still) : still_(still) {}
+
     /// Takes the next one, at a step; whether it is the last.
     bool is_last(double kinetic, std::int64_t step) {
         largest_ = std::max(largest_, kinetic);
         in_window_ = std::max(in_window_, kinetic);
         if (largest_ == 0.0) return true;
         if (step < begin_ + window) return false;
+        if (largest_ <= still_) return true;
         begin_ = step;
         const double before = std::exchange(in_window_before_, std::exchange(in_window_, 0.0));
-        return in_window_before_ <= settled * largest_ && in_window_before_ > 0.9 * before;
+        return are_settled() && (in_window_before_ > 0.9 * before || step > most_steps);
     }
+    /// Whether the last window had low ones alone.
+    [[nodiscard]] bool are_settled() const { return in_window_before_ <= settled * largest_; }
 
 private:
+    double still_;
     std::int64_t begin_ = 0;  // of the window
     double largest_ = 0.0;
     double in_window_ = 0.0;
@@ -203,6 +214,61 @@ template <int Dim>
         {.value = of_body[fastest], .allowed = 0.0});
 }
 
+/// Whether a support, a spring, a bond or contact may hold each body.
+template <int Dim>
+std::vector<bool> may_be_held(const Scene<Dim>& scene, const solid::SolidOptions<Dim>& options) {
+    const mesh::Mesh<Dim>& mesh = scene.mesh;
+    const bool may_touch = scene.contact && (mesh.n_bodies() > 1 || !options.obstacles.empty());
+    std::vector<bool> is_held(mesh.body_names.size(), may_touch || !options.bonds.empty());
+    for (const solid::Spring<Dim>& spring : options.springs)
+        for (const std::int32_t body : {spring.first.body, spring.second.body})
+            if (body != solid::ground) is_held[static_cast<std::size_t>(body)] = true;
+    for (const solid::DirichletCondition<Dim>& support : options.boundary.dirichlet)
+        for (const std::int32_t face : mesh.group(support.group).faces) {
+            const std::int32_t cell = mesh.face_cells[static_cast<std::size_t>(face)][0];
+            is_held[static_cast<std::size_t>(mesh.cell_body[static_cast<std::size_t>(cell)])] = true;
+        }
+    return is_held;
+}
+
+/// Kinetic energy of rigid bodies that go nowhere, with steps dt [J]; 0 where a body deforms, which vibrates first.
+template <int Dim>
+double still_energy(const solid::Solid<Dim>& solid, std::span<const double> q, double dt) {
+    const auto deforms = [&](std::size_t body) { return solid::properties_of(solid.options().kinematics, body).deforms; };
+    const std::vector<double> at_rest(q.size(), 0.0);
+    double energy = 0.0;
+    for (std::size_t body = 0; body < solid.mesh().body_names.size(); ++body) {
+        if (deforms(body)) return 0.0;
+        const Whole<Dim> whole = whole_of<Dim>(solid, q, at_rest, body);
+        const double speed = still_path * whole.radius() / (static_cast<double>(most_rise) * dt);
+        energy += 0.5 * whole.mass * speed * speed;
+    }
+    return energy;
+}
+
+/// Refuses a body that nothing holds, and that loads would push on for ever.
+template <int Dim>
+void require_holds(const Scene<Dim>& scene, solid::Solid<Dim>& solid, std::span<const double> q, double dt) {
+    const std::vector<bool> is_held = may_be_held(scene, solid.options());
+    if (std::ranges::find(is_held, false) == is_held.end()) return;
+    std::vector<double> force(q.size());
+    solid.force(q, force);
+    const double time = static_cast<double>(most_rise) * dt;
+    for (std::size_t body = 0; body < is_held.size(); ++body) {
+        if (is_held[body]) continue;
+        const Whole<Dim> pushed = whole_of<Dim>(solid, q, force, body);
+        const double push = pushed.momentum.norm();  // resultant of the forces [N]
+        if (push * time * time <= balanced_path * pushed.radius() * pushed.mass) continue;
+        throw BadInput(
+            fmt::format(
+                "--settle: nothing holds {}: it has no support, spring or bond, and nothing that it could touch, and "
+                "loads of t = 0 push it {} with {:.3g} N. To begin at rest hold it by supports or springs, or give "
+                "it something to rest on; else leave --settle out.",
+                quoted_name(scene, static_cast<std::int32_t>(body)), along<Dim>(pushed.momentum), push),
+            {.value = push, .allowed = 0.0});
+    }
+}
+
 /// Tells rank 0 how far it is, and whether that wants to go on.
 template <int Dim>
 void show(const solid::Solid<Dim>& solid, const dynamics::Memm<solid::Solid<Dim>>& motion, Observer<Dim>& observer) {
@@ -225,9 +291,11 @@ Settled settle(const Scene<Dim>& scene, const solid::SolidOptions<Dim>& options,
                std::vector<double> q, double stable_dt, Observer<Dim>& observer) {
     Settled result;
     solid::Solid<Dim> solid(share.part, frozen(options), share.ranks);
+    const double dt = cfl * stable_dt;
+    require_holds<Dim>(scene, solid, q, dt);
+    Peaks peaks(still_energy<Dim>(solid, q, dt));
     const std::vector<double> at_rest(q.size(), 0.0);
-    dynamics::Memm<solid::Solid<Dim>> motion(solid, std::move(q), at_rest, cfl * stable_dt);
-    Peaks peaks;
+    dynamics::Memm<solid::Solid<Dim>> motion(solid, std::move(q), at_rest, dt);
     double before = 0.0, last = 0.0;  // of two steps: a swing from step to step is no peak
     std::int64_t peak_at = 0;
     std::vector<double> q_before(motion.q().begin(), motion.q().end());  // where the last half of the steps begins
@@ -240,7 +308,8 @@ Settled settle(const Scene<Dim>& scene, const solid::SolidOptions<Dim>& options,
         }
         if (motion.steps() % between_looks == 0) show(solid, motion, observer);
         const double now = motion.kinetic_energy(), kinetic = 0.5 * (now + std::exchange(last, now));
-        if (motion.steps() > most_steps || motion.steps() - peak_at > most_rise) refuse(scene, solid, motion, q_before);
+        const bool takes_long = motion.steps() > most_steps && !peaks.are_settled();
+        if (takes_long || motion.steps() - peak_at > most_rise) refuse(scene, solid, motion, q_before);
         if (motion.steps() == most_steps / 2) q_before.assign(motion.q().begin(), motion.q().end());
         if (kinetic > before) {
             before = kinetic;

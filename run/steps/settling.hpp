@@ -23,8 +23,9 @@ struct Settled {
 /// `stable_dt`: the stable step of the solid [s]. `observer` of rank 0 is told how far it is. On several ranks all call
 /// this.
 ///
-/// Throws BadInput, with the fastest body, its speed and how it moves, where bodies do not come to rest: they fall,
-/// slide or roll; and std::runtime_error where the observer asks to stop.
+/// Throws BadInput for a body that nothing holds and loads push, before anything moves, and, with the fastest body, its
+/// speed and how it moves, where bodies do not come to rest: they fall, slide or roll; and std::runtime_error where the
+/// observer asks to stop.
 template <int Dim>
 [[nodiscard]] Settled settle(const Scene<Dim>& scene, const solid::SolidOptions<Dim>& options, const Share<Dim>& share,
                              std::vector<double> q, double stable_dt, Observer<Dim>& observer);

@@ -37,7 +37,6 @@ enum class Feature {
     interference,            ///< bodies that overlap at the start on purpose
     friction,                ///< bodies that rub
     varying_load,            ///< a condition or a temperature that varies, or a load from outside
-    load_from_outside,       ///< a load that another program sets between steps
     reconstruction,          ///< ContactLaw::reconstruction
     pair_potential,          ///< ContactLaw::pair_potential
     single_precision,        ///< steps of the bulk in it
@@ -105,7 +104,6 @@ inline constexpr std::array<FeatureWords, n_features> feature_words{{
     {Feature::friction, "friction", "bodies rub"},
     {Feature::varying_load, "load, support or temperature that varies or is set from outside",
      "a boundary condition has a history or is set from outside, or a temperature varies"},
-    {Feature::load_from_outside, "load from outside", "a load is set from outside"},
     {Feature::reconstruction, "law \"reconstruction\"", "contact is by ContactLaw::reconstruction"},
     {Feature::pair_potential, "law \"pair_potential\"", "contact is by ContactLaw::pair_potential"},
     {Feature::single_precision, "single precision", "steps of the bulk are made in single precision"},

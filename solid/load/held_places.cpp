@@ -176,26 +176,25 @@ HeldPlace<Dim> HeldPlaces<Dim>::place_of(std::int32_t face) const {
 template <int Dim>
 auto HeldPlaces<Dim>::faces_of(const std::string& group) -> std::vector<Face> {
     const mesh::Mesh<Dim>& mesh = bodies_.mesh();
-    const std::vector<std::int32_t>& in_group = mesh.group(group).faces;
     std::vector<Face> faces;
     std::vector<double> mine;  // key, body, area, corners, points, centroid
-    for (std::size_t i = 0; i < in_group.size(); ++i) {
-        const auto f = static_cast<std::size_t>(in_group[i]);
+    for (const std::int32_t in_mesh : mesh.group(group).faces) {
+        const auto f = static_cast<std::size_t>(in_mesh);
         const std::int32_t cell = mesh.face_cells[f][0], body = mesh.cell_body[cell];
-        Face face{in_group[i], body, i, mesh.face_measure[f], mesh.face_centroid[f], mesh.face_normal[f], {}, {}};
-        for (const std::int32_t vertex : mesh.face_vertices[in_group[i]]) face.corners.push_back(mesh.vertices[vertex]);
+        Face face{in_mesh, body, 0, mesh.face_measure[f], mesh.face_centroid[f], mesh.face_normal[f], {}, {}};
+        for (const std::int32_t vertex : mesh.face_vertices[in_mesh]) face.corners.push_back(mesh.vertices[vertex]);
         if (area_vector<Dim>(face.corners).dot(face.normal) < 0.0) std::ranges::reverse(face.corners);
         if (part_.is_whole() || bodies_.is_rigid(body)) {
-            face.place = bodies_.is_rigid(body) ? of({.body = body, .position = face.centroid}) : place_of(in_group[i]);
+            face.place = bodies_.is_rigid(body) ? of({.body = body, .position = face.centroid}) : place_of(in_mesh);
             faces.push_back(std::move(face));
             continue;
         }
         const std::int32_t deformable = bodies_.deformable_cell(cell).first;
         if (!std::ranges::binary_search(part_.own_cells(), deformable)) continue;
-        const auto position = std::ranges::find(mesh.cell_faces[cell], in_group[i]) - mesh.cell_faces[cell].begin();
+        const auto position = std::ranges::find(mesh.cell_faces[cell], in_mesh) - mesh.cell_faces[cell].begin();
         mine.insert(mine.end(),
                     {static_cast<double>(part_.key_of(deformable, position)), static_cast<double>(body), face.area});
-        face.place = place_of(in_group[i]);
+        face.place = place_of(in_mesh);
         mine.insert(mine.end(), {static_cast<double>(face.corners.size()), static_cast<double>(face.place.points.size())});
         for (const Vector<Dim>* vector : {&face.centroid, &face.normal})
             mine.insert(mine.end(), vector->begin(), vector->end());
@@ -223,6 +222,7 @@ auto HeldPlaces<Dim>::faces_of(const std::string& group) -> std::vector<Face> {
         faces.push_back(std::move(face));
     }
     std::ranges::sort(faces, {}, [](const Face& face) { return std::pair(face.body, face.key); });
+    for (std::size_t i = 0; i < faces.size(); ++i) faces[i].in_group = i;  // bodies come one after the other
     return faces;
 }
 

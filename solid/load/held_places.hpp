@@ -47,7 +47,7 @@ public:
     struct Face {
         std::int64_t key;  // orders the faces of a body
         std::int32_t body;
-        std::size_t in_group;  // its position in the group; on one rank alone
+        std::size_t in_group;  // its number among the faces of the group on all ranks
         double area;
         Vector<Dim> centroid;
         Vector<Dim> normal;                // out of the body

@@ -8,30 +8,50 @@
 namespace abut::solid {
 namespace {
 
-/// Boundary faces, in the mesh of the bodies that deform, of a group whose bodies do not turn.
+/// Own faces of a group whose bodies do not turn, as boundary faces in the mesh of the bodies that deform: where bodies are
+/// rigid, their faces are numbered otherwise there, in the same order.
 template <int Dim>
-std::vector<BoundaryFace> faces_from_outside(const mesh::Mesh<Dim>& part, const std::string& name) {
+std::vector<BoundaryFace> faces_from_outside(const Bodies<Dim>& bodies, const GroupFaces<Dim>& faces,
+                                             const std::string& name) {
+    const std::vector<std::int32_t>&in_mesh = bodies.mesh().group(name).faces,
+          &deformable = bodies.deformable().group(name).faces;
+    const std::vector<std::int32_t>& all = bodies.deformable().boundary_faces;
     std::vector<BoundaryFace> boundary;
-    for (const std::int32_t face : part.group(name).faces) {
-        const auto at = std::ranges::lower_bound(part.boundary_faces, face);
-        boundary.push_back(static_cast<BoundaryFace>(at - part.boundary_faces.begin()));
+    for (const std::int32_t face : faces.own()) {
+        const auto in_group = std::ranges::lower_bound(in_mesh, face) - in_mesh.begin();
+        const auto at = std::ranges::lower_bound(all, deformable[static_cast<std::size_t>(in_group)]);
+        boundary.push_back(static_cast<BoundaryFace>(at - all.begin()));
     }
     return boundary;
+}
+
+/// Places of own faces, held by points of the part.
+template <int Dim>
+std::vector<HeldPlace<Dim>> own_places(const RankPart<Dim>& part, const GroupFaces<Dim>& faces,
+                                       const std::vector<HeldPlace<Dim>>& of_all) {
+    std::vector<HeldPlace<Dim>> places;
+    for (const std::int32_t number : faces.numbers()) {
+        HeldPlace<Dim>& place = places.emplace_back(of_all[static_cast<std::size_t>(number)]);
+        for (std::int32_t& point : place.points) point = part.position_of(point);
+    }
+    return places;
 }
 
 }  // namespace
 
 template <int Dim>
-OutsideLoads<Dim>::OutsideLoads(const Bodies<Dim>& bodies, Ccg<Dim>& ccg, const Loads<Dim>& loads,
+OutsideLoads<Dim>::OutsideLoads(const Bodies<Dim>& bodies, const RankPart<Dim>& part, Ccg<Dim>& ccg, const Loads<Dim>& loads,
                                 PointTractions<Dim>& tractions)
-    : bodies_(bodies), ccg_(ccg), loads_(loads), tractions_(tractions) {
+    : bodies_(bodies), part_(part), ccg_(ccg), loads_(loads), tractions_(tractions) {
     const auto& conditions = bodies.options().boundary.traction;
     for (std::size_t i = 0; i < conditions.size(); ++i) {
         if (!conditions[i].from_outside) continue;
-        Group group{conditions[i].group, i, bodies.mesh().group(conditions[i].group).faces, {}, {}, {}, {}};
-        group.places = tractions.places_of(i);
-        if (group.places.empty()) group.boundary = faces_from_outside(bodies.deformable(), group.name);
-        group.traction.assign(group.faces.size(), conditions[i].value);
+        Group group{conditions[i].group, i, GroupFaces<Dim>(bodies, part, conditions[i].group), {}, {}, {}, {}};
+        if (bodies.traction_hold(i) == TractionHold::cells)
+            group.boundary = faces_from_outside(bodies, group.faces, group.name);
+        else
+            group.places = own_places(part, group.faces, tractions.places_of(i));
+        group.traction.assign(group.faces.own().size(), conditions[i].value);
         group.acting = group.traction;
         groups_.push_back(std::move(group));
     }
@@ -50,22 +70,49 @@ const typename OutsideLoads<Dim>::Group& OutsideLoads<Dim>::group(const std::str
 
 template <int Dim>
 void OutsideLoads<Dim>::set_traction(const std::string& name, std::span<const Vector<Dim>> traction) {
-    Group& changed = groups_[static_cast<std::size_t>(&group(name) - groups_.data())];
-    if (traction.size() != changed.faces.size())
-        throw BadInput(
-            "traction on '" + name + "': " + std::to_string(traction.size()) + " are given for " +
-                std::to_string(changed.faces.size()) + " faces. Give one per face of the group.",
-            {.value = static_cast<double>(traction.size()), .allowed = static_cast<double>(changed.faces.size())});
+    Group& changed = *dynamics::agreed(part_.ranks(), [&] { return &known_group(name, traction); });
+    require_same(changed);
+    set_all(changed, changed.faces.gather(traction));
+}
+
+/// The group of that name, if it can take these tractions.
+template <int Dim>
+auto OutsideLoads<Dim>::known_group(const std::string& name, std::span<const Vector<Dim>> traction) -> Group& {
+    Group& known = groups_[static_cast<std::size_t>(&group(name) - groups_.data())];
+    const std::span<const std::int32_t> faces = known.faces.own();
+    if (traction.size() != faces.size())
+        throw BadInput("traction on '" + name + "': " + std::to_string(traction.size()) + " are given for " +
+                           std::to_string(faces.size()) + " faces. Give one per face of the group" +
+                           (part_.is_whole() ? "." : " that this rank has."),
+                       {.value = static_cast<double>(traction.size()), .allowed = static_cast<double>(faces.size())});
     for (std::size_t i = 0; i < traction.size(); ++i)
         if (!traction[i].allFinite())
             throw BadInput("traction on '" + name + "': that on its face " + std::to_string(i) +
                                ", counted from 0, is not finite. Nothing has changed; give finite tractions.",
-                           {.face_1 = changed.faces[i]});
-    changed.traction.assign(traction.begin(), traction.end());
-    if (changed.places.empty())
-        ccg_.set_traction(name, traction);
+                           {.face_1 = faces[i]});
+    return known;
+}
+
+/// Else ranks would take tractions of one group for those of another.
+template <int Dim>
+void OutsideLoads<Dim>::require_same(const Group& group) const {
+    if (part_.is_whole()) return;
+    const double mine[] = {static_cast<double>(group.condition)};
+    for (const double other : part_.ranks().gather(mine))
+        if (other != mine[0])
+            throw BadInput("tractions: ranks give those on '" + group.name + "' and on '" +
+                           bodies_.options().boundary.traction[static_cast<std::size_t>(other)].group +
+                           "' at the same time. Give the same group on all of them; nothing has changed.");
+}
+
+/// Copies of faces take what their owners have.
+template <int Dim>
+void OutsideLoads<Dim>::set_all(Group& group, std::span<const Vector<Dim>> of_all) {
+    group.traction = group.faces.own_of(of_all);
+    if (bodies_.traction_hold(group.condition) == TractionHold::cells)
+        ccg_.set_traction(group.name, group.faces.here_of(of_all));
     else
-        tractions_.set(changed.condition, traction);
+        tractions_.set(group.condition, of_all);
 }
 
 template <int Dim>
@@ -105,18 +152,16 @@ std::vector<Vector<Dim>> OutsideLoads<Dim>::motion(const Group& group, std::span
 
 template <int Dim>
 double OutsideLoads<Dim>::area(const Group& group, std::size_t face) const {
-    return bodies_.mesh().face_measure[static_cast<std::size_t>(group.faces[face])];
+    return bodies_.mesh().face_measure[static_cast<std::size_t>(group.faces.own()[face])];
 }
 
 /// `held` of bodies that do not turn [J].
 template <int Dim>
 double OutsideLoads<Dim>::held(const Group& group, std::span<const Vector<Dim>> traction, std::span<const Vector<Dim>> q,
                                const BoundaryLoad<Dim>& load) const {
-    if (group.boundary.empty()) return 0.0;
+    if (bodies_.traction_hold(group.condition) != TractionHold::cells) return 0.0;
     const std::vector<Vector<Dim>> displacement = displacement_under(group, q, load);
-    double sum = 0.0;
-    for (std::size_t i = 0; i < displacement.size(); ++i) sum += area(group, i) * traction[i].dot(displacement[i]);
-    return sum;
+    return group.faces.fold(0.0, [&](std::size_t i) { return area(group, i) * traction[i].dot(displacement[i]); });
 }
 
 template <int Dim>
@@ -142,12 +187,12 @@ void OutsideLoads<Dim>::add_step(std::span<const Vector<Dim>> q_0, std::span<con
         group.acting = group.traction;
         const bool follows = bodies_.options().boundary.traction[group.condition].follows;
         const std::vector<Vector<Dim>> motion = motion_under(group, q_0, q_1, loads_.start(), loads_.end());
-        for (std::size_t i = 0; i < motion.size(); ++i) {
+        work_.steps = group.faces.fold(work_.steps, [&](std::size_t i) {
             Vector<Dim> push = area(group, i) * group.traction[i];
-            const std::int32_t cell = bodies_.mesh().face_cells[static_cast<std::size_t>(group.faces[i])][0];
+            const std::int32_t cell = bodies_.mesh().face_cells[static_cast<std::size_t>(group.faces.own()[i])][0];
             if (follows) push = turn_of(bodies_.mesh().cell_body[static_cast<std::size_t>(cell)]) * push;
-            work_.steps += push.dot(motion[i]);
-        }
+            return push.dot(motion[i]);
+        });
     }
 }
 
@@ -164,8 +209,8 @@ void OutsideLoads<Dim>::save(StateWriter& state) const {
     state.put(work_.changes);
     if (ccg_.is_warm()) state.put(work_.heat);
     for (const Group& group : groups_) {
-        put_all<Dim>(state, group.traction);
-        put_all<Dim>(state, group.acting);
+        put_all<Dim>(state, group.faces.gather(group.traction));
+        put_all<Dim>(state, group.faces.gather(group.acting));
     }
 }
 
@@ -175,10 +220,11 @@ void OutsideLoads<Dim>::restore(StateReader& state) {
     work_.changes = state.get<double>();
     if (ccg_.is_warm()) work_.heat = state.get<double>();
     for (Group& group : groups_) {
-        std::vector<Vector<Dim>> traction = group.traction;
-        take_all<Dim>(state, traction);
-        set_traction(group.name, traction);
-        take_all<Dim>(state, group.acting);
+        std::vector<Vector<Dim>> of_all(group.faces.n_all());
+        take_all<Dim>(state, of_all);
+        set_all(group, of_all);
+        take_all<Dim>(state, of_all);
+        group.acting = group.faces.own_of(of_all);
     }
 }
 
@@ -188,11 +234,13 @@ void OutsideLoads<Dim>::take_over(const OutsideLoads& before, std::span<const st
     for (Group& group : groups_) {
         const auto from = std::ranges::find(before.groups_, group.name, &Group::name);
         if (from == before.groups_.end()) continue;
+        const std::span<const std::int32_t> faces = group.faces.own(), of_before = from->faces.own();
         std::vector<Vector<Dim>> traction = group.traction;
-        for (std::size_t i = 0; i < group.faces.size(); ++i) {
-            const auto at = std::ranges::lower_bound(from->faces, old_faces[static_cast<std::size_t>(group.faces[i])]);
-            if (at == from->faces.end() || *at != old_faces[static_cast<std::size_t>(group.faces[i])]) continue;
-            const auto k = static_cast<std::size_t>(at - from->faces.begin());
+        for (std::size_t i = 0; i < faces.size(); ++i) {
+            const std::int32_t old_face = old_faces[static_cast<std::size_t>(faces[i])];
+            const auto at = std::ranges::lower_bound(of_before, old_face);
+            if (at == of_before.end() || *at != old_face) continue;
+            const auto k = static_cast<std::size_t>(at - of_before.begin());
             traction[i] = from->traction[k];
             group.acting[i] = from->acting[k];
         }

@@ -8,6 +8,7 @@
 #include "abut/base/state_bytes.hpp"
 #include "abut/solid/body/bodies.hpp"
 #include "abut/solid/ccg/ccg.hpp"
+#include "abut/solid/load/group_faces.hpp"
 #include "abut/solid/load/loads.hpp"
 #include "abut/solid/load/outside_work.hpp"
 #include "abut/solid/load/point_tractions.hpp"
@@ -16,13 +17,14 @@ namespace abut::solid {
 
 /// Tractions that a program outside sets between steps: on whom they act, how far these faces move, and the work of that.
 /// Displacements q are those of all points (n_points); groups are found by their names, and BadInput is thrown for others.
+/// Arrays by face are of the own ones of a group. What changes tractions or sums over faces is a call of all ranks.
 template <int Dim>
 class OutsideLoads {
 public:
     struct Group {
         std::string name;
-        std::size_t condition;               // in the options
-        std::vector<std::int32_t> faces;     // of the mesh
+        std::size_t condition;  // in the options
+        GroupFaces<Dim> faces;
         std::vector<BoundaryFace> boundary;  // of the bodies that deform; empty where bodies turn
         std::vector<HeldPlace<Dim>> places;  // empty where they do not
         std::vector<Vector<Dim>> traction;   // as set last [Pa]
@@ -30,11 +32,13 @@ public:
     };
 
     /// All must outlive it.
-    OutsideLoads(const Bodies<Dim>& bodies, Ccg<Dim>& ccg, const Loads<Dim>& loads, PointTractions<Dim>& tractions);
+    OutsideLoads(const Bodies<Dim>& bodies, const RankPart<Dim>& part, Ccg<Dim>& ccg, const Loads<Dim>& loads,
+                 PointTractions<Dim>& tractions);
 
     [[nodiscard]] bool any() const { return !groups_.empty(); }
     [[nodiscard]] const Group& group(const std::string& name) const;
-    /// Throws BadInput for another number than the group has faces, or a traction that is not finite.
+    /// Throws BadInput for another number than the group has faces, a traction that is not finite, or ranks that give those
+    /// of different groups.
     void set_traction(const std::string& name, std::span<const Vector<Dim>> traction);
 
     /// Displacement of the centroids in q, with the loads at the end of the step (n_faces) [m].
@@ -68,6 +72,9 @@ public:
     void take_over(const OutsideLoads& before, std::span<const std::int32_t> old_faces);
 
 private:
+    [[nodiscard]] Group& known_group(const std::string& name, std::span<const Vector<Dim>> traction);
+    void require_same(const Group& group) const;
+    void set_all(Group& group, std::span<const Vector<Dim>> of_all);
     [[nodiscard]] std::vector<Vector<Dim>> displacement_under(const Group& group, std::span<const Vector<Dim>> q,
                                                               const BoundaryLoad<Dim>& load) const;
     [[nodiscard]] std::vector<Vector<Dim>> motion_under(const Group& group, std::span<const Vector<Dim>> q_0,
@@ -78,6 +85,7 @@ private:
     [[nodiscard]] double area(const Group& group, std::size_t face) const;
 
     const Bodies<Dim>& bodies_;
+    const RankPart<Dim>& part_;
     Ccg<Dim>& ccg_;
     const Loads<Dim>& loads_;
     PointTractions<Dim>& tractions_;

@@ -69,10 +69,11 @@ PointTractions<Dim>::PointTractions(const Bodies<Dim>& bodies, HeldPlaces<Dim>& 
     : bodies_(bodies), held_(held) {
     const auto& conditions = bodies.options().boundary.traction;
     for (std::size_t i = 0; i < conditions.size(); ++i) {
-        const std::size_t n_faces = bodies_.mesh().group(conditions[i].group).faces.size();
-        outside_.emplace_back(conditions[i].from_outside ? n_faces : 0, conditions[i].value);
+        std::vector<Vector<Dim>>& from_outside = outside_.emplace_back();
         if (bodies_.traction_hold(i) == TractionHold::cells) continue;
-        for (const auto& face : places.faces_of(conditions[i].group)) {
+        const auto faces = places.faces_of(conditions[i].group);
+        if (conditions[i].from_outside) from_outside.assign(faces.size(), conditions[i].value);
+        for (const auto& face : faces) {
             if (bodies_.traction_hold(i) == TractionHold::frames && !bodies_.is_rigid(face.body)) continue;
             Held traction{face.place, face.area, face.body, i, face.in_group, face.normal, {}, {}};
             if (conditions[i].follows && bodies_.is_finite(face.body)) {

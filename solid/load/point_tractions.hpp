@@ -32,10 +32,10 @@ public:
     void add(const PointStep<Dim>& step, std::span<Vector<Dim>> force, double& work) override;
     void add_at(const ByPoint<Dim>& q, double time, const TurnOf<Dim>& turn_of, std::span<Vector<Dim>> force) const override;
 
-    /// Places where tractions of a condition act, one per face of its group, with numbers of points of the system;
-    /// empty where the bodies do not turn.
+    /// Places where tractions of a condition act, one per face of its group on all ranks, in their order, with numbers of
+    /// points among those of all; empty where the bodies do not turn.
     [[nodiscard]] std::vector<HeldPlace<Dim>> places_of(std::size_t condition) const;
-    /// Sets tractions of a condition that is from outside, by face of its group (n) [Pa]; they are not checked.
+    /// Sets tractions of a condition that is from outside, by face of its group on all ranks (n) [Pa]; they are not checked.
     void set(std::size_t condition, std::span<const Vector<Dim>> traction) {
         outside_[condition].assign(traction.begin(), traction.end());
     }
@@ -46,7 +46,7 @@ private:
         double area;
         std::int32_t body;
         std::size_t condition;
-        std::size_t face;                     // in the group
+        std::size_t face;                     // of the group on all ranks
         Vector<Dim> normal;                   // at rest
         std::vector<HeldPlace<Dim>> corners;  // of a face that a pressure turns with, and stretches; else empty
         std::vector<double> weights;          // of c_f, as many

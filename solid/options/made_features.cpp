@@ -98,7 +98,6 @@ FeatureSet features_of(const SolidOptions<Dim>& options) {
                  std::ranges::any_of(options.bonds, [](const Bond& bond) { return std::isfinite(bond.strength); }));
     features.add(Feature::interference, !options.interference.empty());
     features.add(Feature::friction, options.contact && options.has_friction());
-    features.add(Feature::load_from_outside, is_from_outside);
     features.add(Feature::varying_load, is_from_outside || varies(options));
     features.add(Feature::single_precision, options.precision == Precision::single_precision);
     features.add(Feature::device, options.device != StepDevice::host);

@@ -104,6 +104,12 @@ void RankPart<Dim>::fill_only(std::span<const std::int32_t> cells) {
     copies_ = ranks_.copy_set(filled);
 }
 
+template <int Dim>
+std::int32_t RankPart<Dim>::position_of(std::int32_t number) const {
+    if (number >= n_all_cells()) return number - n_all_cells() + static_cast<std::int32_t>(cell_numbers_.size());
+    return static_cast<std::int32_t>(std::ranges::lower_bound(cell_numbers_, number) - cell_numbers_.begin());
+}
+
 /// Faces are numbered by their cell, then by their position in it.
 template <int Dim>
 std::int64_t RankPart<Dim>::key_of(const mesh::Mesh<Dim>& mesh, BoundaryFace face) const {

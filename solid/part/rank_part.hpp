@@ -57,6 +57,8 @@ public:
     [[nodiscard]] std::vector<BoundaryFace> faces_by_number(const mesh::Mesh<Dim>& mesh) const;
     /// The numbers of the cells here that deform among all that do, increasing (n_cells).
     [[nodiscard]] std::span<const double> cell_numbers() const { return cell_numbers_; }
+    /// Point of the part with this number among all points; it must be here, as all those of rigid bodies are.
+    [[nodiscard]] std::int32_t position_of(std::int32_t number) const;
     /// Values of all boundary faces of the whole mesh, in their order, from those of the boundary faces here. A call of
     /// all ranks.
     [[nodiscard]] std::vector<Vector<Dim>> gather_faces(std::span<const Vector<Dim>> of_faces) const;

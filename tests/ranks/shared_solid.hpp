@@ -68,21 +68,24 @@ struct SharedSolid {
     }
 };
 
-/// A solid under its own clock, all of it or the part of a rank; two bodies move towards each other.
+/// A solid under its own clock, all of it or the part of a rank, whose bodies have these velocities.
 template <int Dim>
 struct ClockedPart {
     std::optional<mesh::MeshPart<Dim>> part;
     std::optional<ranks::PointRanks> points;
     solid::SteppedRun<Dim> run;
-    solid::ClockedRun<Dim> clock{run};
+    solid::ClockedRun<Dim> clock;
 
-    ClockedPart(const mesh::Mesh<Dim>& whole, const solid::SolidOptions<Dim>& options)
-        : run(made(std::make_unique<solid::Solid<Dim>>(whole, options))) {}
+    ClockedPart(const mesh::Mesh<Dim>& whole, const solid::SolidOptions<Dim>& options, std::span<const Vector<Dim>> velocity,
+                solid::LoadImpulse impulse = solid::LoadImpulse::as_given)
+        : run(made(std::make_unique<solid::Solid<Dim>>(whole, options), velocity)), clock(run, impulse) {}
     ClockedPart(const ranks::Communicator& all, const mesh::Mesh<Dim>& whole, const solid::SolidOptions<Dim>& options,
-                std::span<const int> owner)
+                std::span<const int> owner, std::span<const Vector<Dim>> velocity,
+                solid::LoadImpulse impulse = solid::LoadImpulse::as_given)
         : part(solid::part_of<Dim>(whole, owner, all.rank(), options.kinematics)),
           points(std::in_place, all, shared_points<Dim>(all, *part, options.kinematics)),
-          run(made(std::make_unique<solid::Solid<Dim>>(part->mesh, options, *points))) {}
+          run(made(std::make_unique<solid::Solid<Dim>>(part->mesh, options, *points), velocity)),
+          clock(run, impulse) {}
 
     /// Those of this rank among values by point of the whole.
     [[nodiscard]] std::vector<double> own(std::span<const double> of_all) const {
@@ -90,8 +93,7 @@ struct ClockedPart {
     }
 
 private:
-    static solid::SteppedRun<Dim> made(std::unique_ptr<solid::Solid<Dim>> solid) {
-        const std::vector<Vector<Dim>> velocity{0.04 * Vector<Dim>::Unit(0), -0.04 * Vector<Dim>::Unit(0)};
+    static solid::SteppedRun<Dim> made(std::unique_ptr<solid::Solid<Dim>> solid, std::span<const Vector<Dim>> velocity) {
         const std::vector<double> p = solid::uniform_momentum<Dim>(*solid, velocity), q(p.size(), 0.0);
         const double stable = dynamics::stable_step(*solid).dt;
         return {std::move(solid), q, p, std::isinf(stable) ? 0.01 : 0.9 * stable, {.filter = true, .restart = 7}};

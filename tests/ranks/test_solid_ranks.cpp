@@ -323,7 +323,8 @@ TEMPLATE_TEST_CASE_SIG("a solid at dictated times has the bits of one rank, also
                                           solid::Kinematics::rigid));
     options.contact = contact::ContactOptions{};
     options.friction.coefficient = 0.2;
-    test::ClockedPart<Dim> alone(mesh, options), shared(all, mesh, options, parts(all, mesh));
+    const std::vector<Vector<Dim>> velocity = towards_each_other<Dim>(0.04);
+    test::ClockedPart<Dim> alone(mesh, options, velocity), shared(all, mesh, options, parts(all, mesh), velocity);
     const auto check = [&] {
         REQUIRE(shared.clock.time() == alone.clock.time());
         REQUIRE(shared.clock.time_to_node() == alone.clock.time_to_node());
@@ -355,9 +356,6 @@ TEST_CASE("what is not made for ranks yet is refused by name", "[ranks][solid]")
     const std::vector<int> owner = parts(all, mesh);
     solid::SolidOptions<2> options;
     options.materials = {steel};
-    options.boundary.traction = {{.group = "xmax", .from_outside = true}};
-    CHECK_THROWS_WITH(test::SharedSolid<2>(all, mesh, options, owner), Catch::Contains("a load is set from outside"));
-    options.boundary.traction.clear();
     options.precision = solid::Precision::single_precision;
     CHECK_THROWS_WITH(test::SharedSolid<2>(all, mesh, options, owner), Catch::Contains("single precision"));
 }

@@ -8,6 +8,7 @@
 #include <random>
 
 #include "abut/base/error.hpp"
+#include "abut/dynamics/pairs.hpp"
 #include "abut/dynamics/stable_step.hpp"
 #include "abut/solid/clocked_run.hpp"
 #include "abut/solid/contact_view.hpp"
@@ -327,4 +328,11 @@ TEST_CASE("a step that changes by more than 5 % is warned of once, and the clock
     CHECK(run.memm().dt() == 0.9 * dt);
     run.step();
     CHECK(run.set_step(dt, change).empty());
+}
+
+TEST_CASE("pairs of sub-steps refuse a solid by name, and name its clock", "[solid][clock][errors]") {
+    Bar bar(8, 0.5, 0);
+    solid::Solid<2>& solid = bar.run->solid();
+    const std::vector<double> rest(solid.size(), 0.0);
+    CHECK_THROWS_WITH(dynamics::Pairs(solid, rest, rest, 1.0), Contains("Pairs") && Contains("solid::ClockedRun"));
 }

@@ -1,0 +1,133 @@
+#include "abut/run/steps/watches.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "abut/run/body_names.hpp"
+#include "abut/solid/contact_view.hpp"
+
+namespace abut::run {
+namespace {
+
+const std::string looks_kind = "looks at surfaces of a rest";
+constexpr std::int64_t sightings_per_run = 40;  // looks for bodies past a rim and together with themselves, about
+
+}  // namespace
+
+template <int Dim>
+Watches<Dim>::Watches(Start<Dim>& start, const WholeRun<Dim>& whole)
+    : start_(start),
+      whole_(whole),
+      obstacles_(start.scene),
+      friction_(start.scene, start.options),
+      self_(std::in_place, start.scene, whole.seen()),
+      surfaces_(std::in_place, start.scene) {}
+
+template <int Dim>
+void Watches<Dim>::take_rest() {
+    fine_motion_.reset();
+    self_.emplace(start_.present(), whole_.seen());
+    StateWriter looked(looks_kind, 1);
+    surfaces_->save(looked);
+    const std::vector<std::byte> looks = std::move(looked).finish();
+    surfaces_.emplace(start_.present());
+    StateReader known(looks, looks_kind, 1);
+    surfaces_->restore(known);
+}
+
+template <int Dim>
+void Watches<Dim>::record(const dynamics::LedgerEntry<Dim>& entry, std::span<const double> q) {
+    friction_.record(entry, start_.solid->contact().impulses(), start_.result.accounts.speed);
+    if (!start_.result.all_may_turn) record_turned(q);
+}
+
+template <int Dim>
+void Watches<Dim>::record_turned(std::span<const double> q) {
+    RunResult<Dim>& result = start_.result;
+    const std::vector<double> angles = start_.solid->rotations(q);
+    for (std::size_t body = 0; body < angles.size(); ++body)
+        if (!result.may_turn[body] && angles[body] > result.turned.angle)
+            result.turned = {quoted_name(start_.scene, static_cast<std::int32_t>(body)), angles[body]};
+}
+
+/// At the end, and at evenly spaced records before it: a look at fine motion costs about a tenth of a step, and the lists
+/// for the first one less than a step (27,000 bricks, or as many tetrahedra).
+template <int Dim>
+bool Watches<Dim>::is_sighting_due(std::int64_t step) const {
+    const std::int64_t interval = start_.options.interval, steps = start_.result.steps;
+    const std::int64_t every = interval * std::max<std::int64_t>(1, steps / (interval * sightings_per_run));
+    return step % every == 0 || step == steps;
+}
+
+template <int Dim>
+void Watches<Dim>::look_at_obstacles(std::span<const double> q, double time) {
+    obstacles_.look(*start_.solid, q, time, start_.result.sightings.past_rims);
+}
+
+template <int Dim>
+void Watches<Dim>::look_for_crossings(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) {
+    whole_.evaluate(run, solid);
+    self_->look(solid, run.q, run.time, run.steps, start_.result.sightings);
+}
+
+/// Neighbours of cells are listed at the first look.
+template <int Dim>
+void Watches<Dim>::look_at_fine_motion(const dynamics::RunView<Dim>& run, const solid::Solid<Dim>& solid) {
+    if (!fine_motion_) fine_motion_.emplace(solid.mesh());
+    double& most = start_.result.fine_energy_max;
+    most = std::max(most, fine_motion_->energy(run, solid));
+}
+
+template <int Dim>
+void Watches<Dim>::look_at_surfaces_of(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) {
+    RunResult<Dim>& result = start_.result;
+    const Stopwatch watch(result.seconds.looks);
+    whole_.evaluate(run, solid);
+    surfaces_->look(run, solid, result.accounts.speed, result.contact.active_pairs > 0);
+}
+
+template <int Dim>
+void Watches<Dim>::end(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid, const contact::ContactReport& contact) {
+    whole_.evaluate(run, solid);
+    surfaces_->end(run, solid, start_.result.accounts.speed, contact.active_pairs > 0, contact.active_pairs_max > 0);
+}
+
+template <int Dim>
+void Watches<Dim>::take_figures() const {
+    start_.result.looks = surfaces_->looks();
+    start_.result.weak_friction = friction_.weakest();
+}
+
+template <int Dim>
+void Watches<Dim>::save(StateWriter& state) const {
+    const RunResult<Dim>& result = start_.result;
+    result.accounts.save(state);
+    result.sliding.save(state);
+    surfaces_->save(state);
+    result.sightings.save(state);
+    state.put(result.turned.name);
+    state.put(result.turned.angle);
+    friction_.save(state);
+    state.put(result.fine_energy_max);
+}
+
+template <int Dim>
+void Watches<Dim>::restore(StateReader& state) {
+    RunResult<Dim>& result = start_.result;
+    result.accounts.restore(state);
+    result.sliding.restore(state);
+    surfaces_->restore(state);
+    result.sightings.restore(state);
+    result.turned.name = state.get_text();
+    result.turned.angle = state.get<double>();
+    friction_.restore(state);
+    result.fine_energy_max = state.get<double>();
+}
+
+template class Watches<2>;
+template class Watches<3>;
+
+}  // namespace abut::run
