@@ -283,8 +283,8 @@ template <int Dim>
 double CornerSurface<Dim>::motion(std::int32_t face, const Points& from, const Points& to) const {
     double farthest = 0.0;
     for (std::int32_t n = corner_offsets_[face]; n < corner_offsets_[face + 1]; ++n)
-        farthest = larger(farthest, (to[n] - from[n]).norm());
-    return farthest;
+        farthest = larger(farthest, (to[n] - from[n]).squaredNorm());
+    return std::sqrt(farthest);
 }
 
 /// Brings the nodes of all listed faces from where they are placed.

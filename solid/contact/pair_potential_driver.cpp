@@ -5,6 +5,7 @@
 #include <cmath>
 #include <compare>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 #include "abut/base/disjoint_sets.hpp"
@@ -155,7 +156,9 @@ PairPotentialDriver<Dim>::PairPotentialDriver(const Bodies<Dim>& bodies, Ccg<Dim
       x_1_(x_0_),
       x_state_(x_0_),
       near_watch_{.corners = corners_.motion(), .from = {}, .radius = {}, .places = {}},
-      far_watch_{near_watch_} {}
+      far_watch_{near_watch_} {
+    for (const double depth : contact_.surface().facets().cell_depth) deepest_ = std::max(deepest_, depth);
+}
 
 // The path of the listed faces ---------------------------------------------------------------------------------------
 
@@ -174,6 +177,7 @@ void PairPotentialDriver<Dim>::follow(std::span<const Vector<Dim>> q_0, std::spa
     }
     const Stopwatch watch(times_.contact);
     corners_.place(listed_, q_1, frames_.end(), loads_.end(), time + dt, x_1_, StepState::end);
+    set_placed_motion();
 }
 
 /// Far faces stay where they were placed last as long as none of them can have come near another body: they are in no pair.
@@ -185,13 +189,17 @@ void PairPotentialDriver<Dim>::search(std::span<const Vector<Dim>> q_0, std::spa
     } else {
         search_placed(all_, q_0, q_1, time, dt);
         searched_at_ = x_0_;
+        placed_.clear();
         if (faces_leave_cells()) return;
         far_reach_ = far_skins * contact_.skin();
-        near_ = corners_.list(near_nodes());
+        near_facets_ = near_facets();
+        near_ = corners_.list(nodes_of(near_facets_));
         begin(far_watch_, all_, q_0, cell_motion, time + dt);
     }
     searched_at_ = x_0_;
     begin(near_watch_, near_, q_0, cell_motion, time + dt);
+    near_watch_.corners.set_slack(near_slack());
+    find_placed();
 }
 
 template <int Dim>
@@ -203,27 +211,38 @@ void PairPotentialDriver<Dim>::search_placed(const Listed& placed, std::span<con
     listed_ = corners_.list(listed_nodes_ = contact_.last().nodes);
 }
 
-/// Nodes of faces that reach another body or obstacle when that grows by twice `far_reach_`, and by all that contact itself
-/// looks ahead and reaches beyond faces.
+/// Facets that reach another body or obstacle when that grows by twice `far_reach_`, and by all that contact itself looks
+/// ahead and reaches beyond faces; increasing.
 template <int Dim>
-std::vector<std::int32_t> PairPotentialDriver<Dim>::near_nodes() const {
+std::vector<std::int32_t> PairPotentialDriver<Dim>::near_facets() const {
     const contact::SurfaceView<Dim> facets = contact_.surface().facets().view();
-    std::vector<geometry::Box<Dim>> boxes(static_cast<std::size_t>(facets.size()));
-    double deepest = 0.0;
-    for (std::int32_t facet = 0; facet < facets.size(); ++facet) {
-        for (const std::int32_t n : facets.vertices_of(facet))
-            boxes[facet].extend(geometry::Box<Dim>{x_0_[n].cwiseMin(x_1_[n]), x_0_[n].cwiseMax(x_1_[n])});
-        deepest = std::max(deepest, facets.cell_depth[facet]);
-    }
+    std::vector<std::int32_t> all(static_cast<std::size_t>(facets.size()));
+    std::iota(all.begin(), all.end(), 0);
     const double margin =
-        2.0 * (contact_.bevel_stretch() * far_reach_ + contact_.bevel_width()) + contact_.skin() + 4.0 * deepest;
+        2.0 * (contact_.bevel_stretch() * far_reach_ + contact_.bevel_width()) + contact_.skin() + 4.0 * deepest_;
+    return near_others<Dim>(swept_boxes(all), facets.body, margin);
+}
+
+template <int Dim>
+std::vector<std::int32_t> PairPotentialDriver<Dim>::nodes_of(std::span<const std::int32_t> facets) const {
     std::vector<std::int32_t> nodes;
-    for (const std::int32_t facet : near_others<Dim>(boxes, facets.body, margin)) {
-        const auto corners = facets.vertices_of(facet);
+    for (const std::int32_t facet : facets) {
+        const auto corners = contact_.surface().facets().view().vertices_of(facet);
         nodes.insert(nodes.end(), corners.begin(), corners.end());
     }
     sort_unique(nodes);
     return nodes;
+}
+
+/// Boxes of some facets along the step that candidates are searched for.
+template <int Dim>
+std::vector<geometry::Box<Dim>> PairPotentialDriver<Dim>::swept_boxes(std::span<const std::int32_t> facets) const {
+    const contact::SurfaceView<Dim> of_all = contact_.surface().facets().view();
+    std::vector<geometry::Box<Dim>> boxes(facets.size());
+    for (std::size_t i = 0; i < facets.size(); ++i)
+        for (const std::int32_t n : of_all.vertices_of(facets[i]))
+            boxes[i].extend(geometry::Box<Dim>{x_0_[n].cwiseMin(x_1_[n]), x_0_[n].cwiseMax(x_1_[n])});
+    return boxes;
 }
 
 template <int Dim>

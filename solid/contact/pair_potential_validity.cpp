@@ -5,9 +5,16 @@
 
 #include "abut/base/parallel.hpp"
 #include "abut/solid/contact/frame_motion.hpp"
+#include "abut/solid/contact/near_faces.hpp"
 #include "abut/solid/contact/pair_potential_driver.hpp"
 
 namespace abut::solid {
+namespace {
+
+/// Skins beyond that of the list within which near faces look for others: farther ones have the slack of these.
+constexpr double slack_skins = 4.0;
+
+}  // namespace
 
 template <int Dim>
 FarthestMotion PairPotentialDriver<Dim>::near_allowed() const {
@@ -35,6 +42,59 @@ void PairPotentialDriver<Dim>::begin(Watch& watch, const Listed& listed, std::sp
         watch.radius[body] = larger(watch.radius[body], (x_1_[n] - corners_.rigid_places()[body].centre).norm());
     }
     place_given(watch, listed, time, x_1_);
+}
+
+/// How far each near face may move beyond half a skin: of two faces that could meet when they come nearer by c, none has a
+/// slack above (c - skin)/2, and together they move by c at most. Pairs of one body have none.
+template <int Dim>
+std::vector<double> PairPotentialDriver<Dim>::near_slack() const {
+    std::vector<double> slack(near_.own.size(), 0.0);
+    if (touches_itself_) return slack;
+    const double beyond = contact_.skin() + 2.0 * contact_.bevel_width(), most = slack_skins * contact_.skin();
+    const std::vector<double> distances = distances_of_near(beyond + most);
+    std::ranges::fill(slack, most);
+    std::size_t at = 0;  // facets and faces are in the same order
+    for (std::size_t i = 0; i < distances.size(); ++i) {
+        const auto face = static_cast<std::int32_t>(contact_.surface().face_of(contact::Facet{near_facets_[i]}));
+        while (at < near_.own.size() && near_.own[at] < face) ++at;
+        if (at == near_.own.size()) break;
+        if (near_.own[at] == face) slack[at] = std::min(slack[at], std::max(0.0, distances[i] - beyond));
+    }
+    for (double& of_face : slack) of_face /= 2.0 * contact_.bevel_stretch();
+    return slack;
+}
+
+/// How much nearer each near facet may come to those of other bodies before they could meet, at most `most`.
+template <int Dim>
+std::vector<double> PairPotentialDriver<Dim>::distances_of_near(double most) const {
+    const contact::SurfaceView<Dim> facets = contact_.surface().facets().view();
+    const bool any_bevels = contact_.bevel_width() > 0.0;  // they have the depths of faces beside them
+    std::vector<geometry::Box<Dim>> boxes = swept_boxes(near_facets_);
+    std::vector<std::int32_t> bodies;
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+        const std::int32_t facet = near_facets_[i];
+        boxes[i] = boxes[i].grown(2.0 * (any_bevels ? deepest_ : facets.cell_depth[facet]));
+        bodies.push_back(facets.body[facet]);
+    }
+    return distances_to_others<Dim>(boxes, bodies, most);
+}
+
+template <int Dim>
+void PairPotentialDriver<Dim>::find_placed() {
+    placed_.clear();
+    auto at = near_.own.begin();
+    for (const std::int32_t face : listed_.own) {
+        at = std::lower_bound(at, near_.own.end(), face);
+        if (at != near_.own.end() && *at == face)
+            placed_.push_back({face, static_cast<std::int32_t>(at - near_.own.begin())});
+    }
+}
+
+/// The listed faces are where the step ends.
+template <int Dim>
+void PairPotentialDriver<Dim>::set_placed_motion() {
+    for (const auto& [face, near] : placed_)
+        near_watch_.corners.set_in_space(near, corners_.motion(face, searched_at_, x_1_));
 }
 
 /// Nodes of rigid bodies and obstacles know where they are.
@@ -169,6 +229,9 @@ bool PairPotentialDriver<Dim>::is_valid_in(std::span<const Vector<Dim>> q, doubl
 
 #define ABUT_INSTANTIATE(Dim)                                                                                           \
     template void PairPotentialDriver<Dim>::begin(Watch&, const Listed&, std::span<const Vector<Dim>>, double, double); \
+    template std::vector<double> PairPotentialDriver<Dim>::near_slack() const;                                          \
+    template void PairPotentialDriver<Dim>::find_placed();                                                              \
+    template void PairPotentialDriver<Dim>::set_placed_motion();                                                        \
     template bool PairPotentialDriver<Dim>::is_surely_valid(double, double);                                            \
     template bool PairPotentialDriver<Dim>::is_valid_by_cells(std::span<const Vector<Dim>>, double);                    \
     template bool PairPotentialDriver<Dim>::is_valid_at_all_nodes(std::span<const Vector<Dim>>, double);                \
