@@ -68,15 +68,6 @@ std::vector<BodyBoxes<Dim>> by_body(Boxes<Dim> boxes, std::span<const std::int32
     return bodies;
 }
 
-/// Groups of a body that come within `margin` of a box, grown by it.
-template <int Dim>
-void append_near(const BodyBoxes<Dim>& body, const geometry::Box<Dim>& box, double margin,
-                 std::vector<geometry::Box<Dim>>& near) {
-    if (!body.all.grown(margin).overlaps(box)) return;
-    for (const Group<Dim>& group : body.groups)
-        if (const geometry::Box<Dim> grown = group.box.grown(margin); grown.overlaps(box)) near.push_back(grown);
-}
-
 template <int Dim>
 double distance(const geometry::Box<Dim>& a, const geometry::Box<Dim>& b) {
     double distance = 0.0;
@@ -101,22 +92,6 @@ void approach(Boxes<Dim> boxes, const Group<Dim>& group_1, const Group<Dim>& gro
 }  // namespace
 
 template <int Dim>
-std::vector<std::int32_t> near_others(Boxes<Dim> boxes, std::span<const std::int32_t> body, double margin) {
-    const std::vector<BodyBoxes<Dim>> bodies = by_body<Dim>(boxes, body);
-    std::vector<std::int32_t> near;
-    for (const BodyBoxes<Dim>& of_body : bodies) {
-        std::vector<geometry::Box<Dim>> others;
-        for (const BodyBoxes<Dim>& other : bodies)
-            if (&other != &of_body) append_near(other, of_body.all, margin, others);
-        for (const std::int32_t i : of_body.which)
-            if (std::ranges::any_of(others, [&](const geometry::Box<Dim>& group) { return group.overlaps(boxes[i]); }))
-                near.push_back(i);
-    }
-    std::ranges::sort(near);
-    return near;
-}
-
-template <int Dim>
 std::vector<double> distances_to_others(Boxes<Dim> boxes, std::span<const std::int32_t> body, double most) {
     const std::vector<BodyBoxes<Dim>> bodies = by_body<Dim>(boxes, body);
     std::vector<double> distances(boxes.size(), most);
@@ -132,9 +107,25 @@ std::vector<double> distances_to_others(Boxes<Dim> boxes, std::span<const std::i
     return distances;
 }
 
-template std::vector<std::int32_t> near_others(Boxes<2>, std::span<const std::int32_t>, double);
-template std::vector<std::int32_t> near_others(Boxes<3>, std::span<const std::int32_t>, double);
+template <int Dim>
+std::vector<double> distances_to_groups(Boxes<Dim> boxes, std::span<const std::int32_t> body, double most) {
+    const std::vector<BodyBoxes<Dim>> bodies = by_body<Dim>(boxes, body);
+    std::vector<double> distances(boxes.size(), most);
+    std::vector<geometry::Box<Dim>> others;
+    for (const BodyBoxes<Dim>& of_body : bodies) {
+        others.clear();
+        for (const BodyBoxes<Dim>& other : bodies)
+            if (&other != &of_body && distance(other.all, of_body.all) < most)
+                for (const Group<Dim>& group : other.groups) others.push_back(group.box);
+        for (const std::int32_t i : of_body.which)
+            for (const geometry::Box<Dim>& group : others) distances[i] = std::min(distances[i], distance(boxes[i], group));
+    }
+    return distances;
+}
+
 template std::vector<double> distances_to_others(Boxes<2>, std::span<const std::int32_t>, double);
 template std::vector<double> distances_to_others(Boxes<3>, std::span<const std::int32_t>, double);
+template std::vector<double> distances_to_groups(Boxes<2>, std::span<const std::int32_t>, double);
+template std::vector<double> distances_to_groups(Boxes<3>, std::span<const std::int32_t>, double);
 
 }  // namespace abut::solid

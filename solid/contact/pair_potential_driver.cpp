@@ -22,9 +22,6 @@
 namespace abut::solid {
 namespace {
 
-/// Skins that faces which are far from all other bodies may move before they must be looked at again.
-constexpr double far_skins = 4.0;
-
 /// In the order of the bodies that contact has. A rigid body never comes together with itself.
 template <int Dim>
 std::vector<std::array<std::int32_t, 2>> ignored_pairs(const Bodies<Dim>& bodies) {
@@ -191,15 +188,10 @@ void PairPotentialDriver<Dim>::search(std::span<const Vector<Dim>> q_0, std::spa
         searched_at_ = x_0_;
         placed_.clear();
         if (faces_leave_cells()) return;
-        far_reach_ = far_skins * contact_.skin();
-        near_facets_ = near_facets();
-        near_ = corners_.list(nodes_of(near_facets_));
-        begin(far_watch_, all_, q_0, cell_motion, time + dt);
+        begin_far(q_0, cell_motion, time + dt);
     }
     searched_at_ = x_0_;
-    begin(near_watch_, near_, q_0, cell_motion, time + dt);
-    near_watch_.corners.set_slack(near_slack());
-    find_placed();
+    begin_near(q_0, cell_motion, time + dt);
 }
 
 template <int Dim>
@@ -209,18 +201,6 @@ void PairPotentialDriver<Dim>::search_placed(const Listed& placed, std::span<con
     corners_.place(placed, q_1, frames_.end(), loads_.end(), time + dt, x_1_, StepState::end);
     contact_.search(x_0_, x_1_);
     listed_ = corners_.list(listed_nodes_ = contact_.last().nodes);
-}
-
-/// Facets that reach another body or obstacle when that grows by twice `far_reach_`, and by all that contact itself looks
-/// ahead and reaches beyond faces; increasing.
-template <int Dim>
-std::vector<std::int32_t> PairPotentialDriver<Dim>::near_facets() const {
-    const contact::SurfaceView<Dim> facets = contact_.surface().facets().view();
-    std::vector<std::int32_t> all(static_cast<std::size_t>(facets.size()));
-    std::iota(all.begin(), all.end(), 0);
-    const double margin =
-        2.0 * (contact_.bevel_stretch() * far_reach_ + contact_.bevel_width()) + contact_.skin() + 4.0 * deepest_;
-    return near_others<Dim>(swept_boxes(all), facets.body, margin);
 }
 
 template <int Dim>

@@ -115,10 +115,12 @@ private:
                 double dt);
     void search_placed(const Listed& placed, std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1, double time,
                        double dt);
-    [[nodiscard]] std::vector<std::int32_t> near_facets() const;
     [[nodiscard]] std::vector<std::int32_t> nodes_of(std::span<const std::int32_t> facets) const;
     [[nodiscard]] std::vector<geometry::Box<Dim>> swept_boxes(std::span<const std::int32_t> facets) const;
-    [[nodiscard]] std::vector<double> near_slack() const;
+    void begin_far(std::span<const Vector<Dim>> q_0, double cell_motion, double time);
+    void begin_near(std::span<const Vector<Dim>> q_0, double cell_motion, double time);
+    [[nodiscard]] std::vector<double> slack_of(const Listed& listed, std::span<const std::int32_t> facets,
+                                               std::span<const double> distances, double beyond) const;
     [[nodiscard]] std::vector<double> distances_of_near(double most) const;
     void find_placed();
     void set_placed_motion();

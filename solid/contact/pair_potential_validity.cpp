@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "abut/base/parallel.hpp"
 #include "abut/solid/contact/frame_motion.hpp"
@@ -11,8 +12,11 @@
 namespace abut::solid {
 namespace {
 
-/// Skins beyond that of the list within which near faces look for others: farther ones have the slack of these.
-constexpr double slack_skins = 4.0;
+/// Skins that faces which are far from all other bodies may move before they must be placed again.
+constexpr double far_skins = 4.0;
+/// How far beyond what they must know of near and far faces look for others: skins, and what they may move. Those that are
+/// farther from all others have the slack of these.
+constexpr double near_looks = 4.0, far_looks = 4.0;
 
 }  // namespace
 
@@ -44,21 +48,49 @@ void PairPotentialDriver<Dim>::begin(Watch& watch, const Listed& listed, std::sp
     place_given(watch, listed, time, x_1_);
 }
 
-/// How far each near face may move beyond half a skin: of two faces that could meet when they come nearer by c, none has a
-/// slack above (c - skin)/2, and together they move by c at most. Pairs of one body have none.
+/// Near faces are those that reach another body or obstacle when that grows by twice `far_reach_`, and by all that contact
+/// itself looks ahead and reaches beyond faces.
 template <int Dim>
-std::vector<double> PairPotentialDriver<Dim>::near_slack() const {
-    std::vector<double> slack(near_.own.size(), 0.0);
+void PairPotentialDriver<Dim>::begin_far(std::span<const Vector<Dim>> q_0, double cell_motion, double time) {
+    far_reach_ = far_skins * contact_.skin();
+    const contact::SurfaceView<Dim> facets = contact_.surface().facets().view();
+    std::vector<std::int32_t> all(static_cast<std::size_t>(facets.size()));
+    std::iota(all.begin(), all.end(), 0);
+    const double motion = 2.0 * contact_.bevel_stretch() * far_reach_,
+                 margin = motion + 2.0 * contact_.bevel_width() + contact_.skin() + 4.0 * deepest_;
+    const std::vector<double> distances =
+        distances_to_groups<Dim>(swept_boxes(all), facets.body, margin + far_looks * motion);
+    near_facets_.clear();
+    for (const std::int32_t facet : all)
+        if (distances[static_cast<std::size_t>(facet)] <= margin) near_facets_.push_back(facet);
+    near_ = corners_.list(nodes_of(near_facets_));
+    begin(far_watch_, all_, q_0, cell_motion, time);
+    far_watch_.corners.set_slack(slack_of(all_, all, distances, margin));
+}
+
+template <int Dim>
+void PairPotentialDriver<Dim>::begin_near(std::span<const Vector<Dim>> q_0, double cell_motion, double time) {
+    begin(near_watch_, near_, q_0, cell_motion, time);
+    const double beyond = contact_.skin() + 2.0 * contact_.bevel_width();
+    const std::vector<double> distances = distances_of_near(beyond + near_looks * contact_.skin());
+    near_watch_.corners.set_slack(slack_of(near_, near_facets_, distances, beyond));
+    find_placed();
+}
+
+/// How far each listed face may move beyond what all may, from the distances of facets: two faces may come nearer to each
+/// other by their distance less `beyond`, and each of them has half of what it knows of that. Faces of one body have none.
+template <int Dim>
+std::vector<double> PairPotentialDriver<Dim>::slack_of(const Listed& listed, std::span<const std::int32_t> facets,
+                                                       std::span<const double> distances, double beyond) const {
+    std::vector<double> slack(listed.own.size(), 0.0);
     if (touches_itself_) return slack;
-    const double beyond = contact_.skin() + 2.0 * contact_.bevel_width(), most = slack_skins * contact_.skin();
-    const std::vector<double> distances = distances_of_near(beyond + most);
-    std::ranges::fill(slack, most);
+    std::ranges::fill(slack, std::numeric_limits<double>::infinity());
     std::size_t at = 0;  // facets and faces are in the same order
-    for (std::size_t i = 0; i < distances.size(); ++i) {
-        const auto face = static_cast<std::int32_t>(contact_.surface().face_of(contact::Facet{near_facets_[i]}));
-        while (at < near_.own.size() && near_.own[at] < face) ++at;
-        if (at == near_.own.size()) break;
-        if (near_.own[at] == face) slack[at] = std::min(slack[at], std::max(0.0, distances[i] - beyond));
+    for (std::size_t i = 0; i < facets.size(); ++i) {
+        const auto face = static_cast<std::int32_t>(contact_.surface().face_of(contact::Facet{facets[i]}));
+        while (at < slack.size() && listed.own[at] < face) ++at;
+        if (at == slack.size()) break;
+        if (listed.own[at] == face) slack[at] = std::min(slack[at], std::max(0.0, distances[i] - beyond));
     }
     for (double& of_face : slack) of_face /= 2.0 * contact_.bevel_stretch();
     return slack;
@@ -229,8 +261,8 @@ bool PairPotentialDriver<Dim>::is_valid_in(std::span<const Vector<Dim>> q, doubl
 
 #define ABUT_INSTANTIATE(Dim)                                                                                           \
     template void PairPotentialDriver<Dim>::begin(Watch&, const Listed&, std::span<const Vector<Dim>>, double, double); \
-    template std::vector<double> PairPotentialDriver<Dim>::near_slack() const;                                          \
-    template void PairPotentialDriver<Dim>::find_placed();                                                              \
+    template void PairPotentialDriver<Dim>::begin_far(std::span<const Vector<Dim>>, double, double);                    \
+    template void PairPotentialDriver<Dim>::begin_near(std::span<const Vector<Dim>>, double, double);                   \
     template void PairPotentialDriver<Dim>::set_placed_motion();                                                        \
     template bool PairPotentialDriver<Dim>::is_surely_valid(double, double);                                            \
     template bool PairPotentialDriver<Dim>::is_valid_by_cells(std::span<const Vector<Dim>>, double);                    \

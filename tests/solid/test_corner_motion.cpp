@@ -278,6 +278,10 @@ TEMPLATE_TEST_CASE_SIG("boxes of other bodies are as far away as the nearest of 
             expected[i] = std::min(expected[i], apart);
         }
     CHECK(solid::distances_to_others<Dim>(boxes, body, most) == expected);
+    const std::vector<double> to_groups = solid::distances_to_groups<Dim>(boxes, body, most);
+    REQUIRE(to_groups.size() == expected.size());
+    for (std::size_t i = 0; i < expected.size(); ++i) CHECK(to_groups[i] <= expected[i]);
+    CHECK(std::ranges::max(to_groups) > 0.5 * std::ranges::max(expected));  // they tell something
 }
 
 TEMPLATE_TEST_CASE_SIG("a position that is not finite is farther than any bound allows", "[solid][candidates]",
