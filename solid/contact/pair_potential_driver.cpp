@@ -306,9 +306,10 @@ void PairPotentialDriver<Dim>::collect(const Points& x_0, const Points& x_1) {
     std::size_t at = 0;  // nodes and faces are in the same order
     for (std::size_t i = 0; i < step.nodes.size(); ++i) {
         const std::int32_t node = step.nodes[i];
+        const Vector<Dim>&p = step.gradient[i], rest = corners_.rest()[node];
+        if (p == Vector<Dim>::Zero()) continue;
         if (corners_.is_of_obstacle(node)) break;
         const std::size_t face = corners_.face_of(node);
-        const Vector<Dim>&p = step.gradient[i], rest = corners_.rest()[node];
         if (!corners_.is_deformable(face)) {
             const std::size_t rigid = corners_.rigid_of(face);
             rigid_pushes_[rigid].add(p, rest - bodies_.rigid().rest_centre(rigid));
