@@ -213,8 +213,9 @@ void CornerSurface<Dim>::place_deformable(std::span<const std::int32_t> faces, c
                                           const BoundaryLoad<Dim>& load, Points& x, StepState state) {
     displacement_.resize(faces.size());
     tilt_.resize(faces.size());
-    frames_.displacement(region.input_cells, q, frames, u_);
-    ccg_.evaluate_tilted_faces(region, u_, load, displacement_, tilt_, state);
+    if (frames_.any()) frames_.displacement(region.input_cells, q, frames, u_);
+    const std::span<const Vector<Dim>> u = frames_.any() ? u_ : q.first(u_.size());
+    ccg_.evaluate_tilted_faces(region, u, load, displacement_, tilt_, state);
     parallel_each(
         std::ssize(faces),
         [&](std::ptrdiff_t i) {
