@@ -165,16 +165,15 @@ void PairPotentialDriver<Dim>::follow(std::span<const Vector<Dim>> q_0, std::spa
     end_time_ = time + dt;
     corners_.place_rigid(q_1);
     keep_end(q_1);
-    if (!is_surely_valid(cell_motion, time + dt)) {
+    if (is_valid_until(q_1, cell_motion, time + dt)) {
+        const Stopwatch watch(times_.contact);
+        corners_.place(listed_, q_1, frames_.end(), loads_.end(), time + dt, x_1_, StepState::end);
+        set_placed_motion();
+    } else {
         const Stopwatch watch(times_.search);
-        if (!is_valid_by_cells(q_1, time + dt)) {
-            if (!is_valid_at_all_nodes(q_1, time + dt)) search(q_0, q_1, cell_motion, time, dt);
-            return;
-        }
+        if (!is_valid_at_all_nodes(q_1, time + dt)) search(q_0, q_1, cell_motion, time, dt);
     }
-    const Stopwatch watch(times_.contact);
-    corners_.place(listed_, q_1, frames_.end(), loads_.end(), time + dt, x_1_, StepState::end);
-    set_placed_motion();
+    has_stepped_ = false;  // until the step has ended well
 }
 
 /// Far faces stay where they were placed last as long as none of them can have come near another body: they are in no pair.
@@ -244,7 +243,6 @@ void PairPotentialDriver<Dim>::end_step() {
 template <int Dim>
 void PairPotentialDriver<Dim>::integrate(double dt) {
     const Stopwatch watch(times_.contact);
-    has_stepped_ = false;  // until the step has ended well
     contact_.step_listed(dt, x_0_, x_1_, contact::TakenForce::mean);
     collect(x_0_, x_1_);
     keep_touching_faces();
@@ -259,7 +257,6 @@ void PairPotentialDriver<Dim>::take_start() {
 template <int Dim>
 void PairPotentialDriver<Dim>::take_end(double dt) {
     const Stopwatch watch(times_.contact);
-    has_stepped_ = false;
     contact_.step_listed(dt, x_0_, x_1_, contact::TakenForce::end);
     collect(x_1_, x_1_);
     keep_touching_faces();

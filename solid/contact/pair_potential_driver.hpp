@@ -101,6 +101,7 @@ private:
     [[nodiscard]] double given_motion(const Watch& watch, double time) const;
     [[nodiscard]] bool is_within(Watch& watch, const FarthestMotion& allowed, double time) const;
     [[nodiscard]] bool agree(bool here) const { return ranks_.largest(here ? 0.0 : 1.0) == 0.0; }
+    [[nodiscard]] bool is_valid_until(std::span<const Vector<Dim>> q_1, double cell_motion, double time);
     [[nodiscard]] bool is_surely_valid(double cell_motion, double time);
     [[nodiscard]] bool is_valid_by_cells(std::span<const Vector<Dim>> q_1, double time);
     void look(Watch& watch, const Listed& listed, const FarthestMotion& allowed, std::span<const Vector<Dim>> q_1,

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "abut/base/parallel.hpp"
+#include "abut/base/stopwatch.hpp"
 #include "abut/solid/contact/frame_motion.hpp"
 #include "abut/solid/contact/near_faces.hpp"
 #include "abut/solid/contact/pair_potential_driver.hpp"
@@ -163,6 +164,13 @@ bool PairPotentialDriver<Dim>::is_within(Watch& watch, const FarthestMotion& all
     return watch.corners.is_within(allowed) && given_motion(watch, time) <= allowed.in_space;
 }
 
+template <int Dim>
+bool PairPotentialDriver<Dim>::is_valid_until(std::span<const Vector<Dim>> q_1, double cell_motion, double time) {
+    if (is_surely_valid(cell_motion, time)) return true;
+    const Stopwatch watch(times_.search);
+    return is_valid_by_cells(q_1, time);
+}
+
 /// By what no cell and no frame exceeds in the step.
 template <int Dim>
 bool PairPotentialDriver<Dim>::is_surely_valid(double cell_motion, double time) {
@@ -264,7 +272,7 @@ bool PairPotentialDriver<Dim>::is_valid_in(std::span<const Vector<Dim>> q, doubl
     template void PairPotentialDriver<Dim>::begin_far(std::span<const Vector<Dim>>, double, double);                    \
     template void PairPotentialDriver<Dim>::begin_near(std::span<const Vector<Dim>>, double, double);                   \
     template void PairPotentialDriver<Dim>::set_placed_motion();                                                        \
-    template bool PairPotentialDriver<Dim>::is_surely_valid(double, double);                                            \
+    template bool PairPotentialDriver<Dim>::is_valid_until(std::span<const Vector<Dim>>, double, double);               \
     template bool PairPotentialDriver<Dim>::is_valid_by_cells(std::span<const Vector<Dim>>, double);                    \
     template bool PairPotentialDriver<Dim>::is_valid_at_all_nodes(std::span<const Vector<Dim>>, double);                \
     template bool PairPotentialDriver<Dim>::may_search_near() const;                                                    \
