@@ -56,8 +56,8 @@ template <int Dim>
 /// - `n_watched`, `position`: points whose motion bounds how long a list is valid;
 /// - `search`: candidates for a step between two states;
 /// - `is_wanted`: whether a pair of facets may touch;
-/// - `list`: takes on the pairs of a new list, and may leave out those that cannot act while no point is farther than a reach
-///   from where it is; `list_remembered`: takes on pairs to
+/// - `list`: takes on the pairs of a new list, and may leave out those that cannot act while no point is farther than a
+///   reach from where it is; `list_remembered`: takes on pairs to
 ///   ask about, of a list that is not valid; `drop_list`;
 /// - `is_pressed_in`, `decide_first`: of a pair of the list, by its index;
 /// - `sees_from_outside`: whether a pair that was no contact, since it lay inside of its body, has come out at the end of a

@@ -68,9 +68,9 @@ public:
           offsets_(interference_.times.size(), 0.0),
           shared_(sharing) {}
 
-    /// For all positions in which no node is farther than `reach` from where x has it [m]. Leaves out of `facets` what cannot
-    /// act there with |g| up to `compression` D, except those `in_contact` (increasing): boxes know
-    /// nothing of how faces lie to each other. The nodes of `watched` pairs are listed, too.
+    /// For all positions in which no node is farther than `reach` from where x has it [m]. Leaves out of `facets` what
+    /// cannot act there with |g| up to `compression` D, except those `in_contact` (increasing): boxes know nothing of how
+    /// faces lie to each other. The nodes of `watched` pairs are listed, too.
     void assign(const BevelledSurface<Dim>& surface, std::vector<FacetPair>& facets, std::span<const FacetPair> in_contact,
                 std::span<const NodalPair<Dim>> watched, PointsView<Dim> x, double reach, double compression);
     /// Pairs without an outlook: of a list that does not hold.

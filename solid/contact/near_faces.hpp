@@ -14,8 +14,8 @@ template <int Dim>
 [[nodiscard]] std::vector<double> distances_to_others(std::span<const geometry::Box<Dim>> boxes,
                                                       std::span<const std::int32_t> body, double most);
 
-/// As `distances_to_others`, for boxes that are far: others are looked at by small groups, whose boxes may be a little nearer
-/// than all of them are.
+/// As `distances_to_others`, for boxes that are far: others are looked at by small groups, whose boxes may be a little
+/// nearer than all of them are.
 template <int Dim>
 [[nodiscard]] std::vector<double> distances_to_groups(std::span<const geometry::Box<Dim>> boxes,
                                                       std::span<const std::int32_t> body, double most);
