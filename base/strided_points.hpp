@@ -37,9 +37,11 @@ public:
 
     [[nodiscard]] std::int32_t size() const { return size_; }
     [[nodiscard]] Vector<Dim> operator[](std::ptrdiff_t i) const {
-        Vector<Dim> point;
-        for (int d = 0; d < Dim; ++d) point[d] = data_[i * item_ + d * component_];
-        return point;
+        const Double* const first = data_ + i * item_;
+        if constexpr (Dim == 2)
+            return {first[0], first[component_]};
+        else
+            return {first[0], first[component_], first[2 * component_]};
     }
     void add(std::ptrdiff_t i, const Vector<Dim>& value) const requires(!std::is_const_v<Double>) {
         for (int d = 0; d < Dim; ++d) data_[i * item_ + d * component_] += value[d];

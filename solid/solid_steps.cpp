@@ -229,11 +229,12 @@ void Solid<Dim>::follow_loads(std::span<const Vector<Dim>> q_0, double time, dou
 /// asks where none turns, and it is 0.
 template <int Dim>
 double Solid<Dim>::follow_frames(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1) {
-    const Stopwatch watch(times_.bulk);
     if (!frames_->any()) {
         if (!contact_) return 0.0;
+        const Stopwatch watch(times_.search);
         return ranks().largest(largest_motion<Dim>(q_0, q_1));
     }
+    const Stopwatch watch(times_.bulk);
     frames_->follow(q_0, q_1);
     frame_loads_->follow();
     midpoint_.resize(lane_width<Dim> * q_0.size());

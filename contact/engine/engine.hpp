@@ -56,7 +56,8 @@ template <int Dim>
 /// - `n_watched`, `position`: points whose motion bounds how long a list is valid;
 /// - `search`: candidates for a step between two states;
 /// - `is_wanted`: whether a pair of facets may touch;
-/// - `list`: takes on the pairs of a new list, and may leave out those that cannot act; `list_remembered`: takes on pairs to
+/// - `list`: takes on the pairs of a new list, and may leave out those that cannot act while no point is farther than a
+///   reach from where it is; `list_remembered`: takes on pairs to
 ///   ask about, of a list that is not valid; `drop_list`;
 /// - `is_pressed_in`, `decide_first`: of a pair of the list, by its index;
 /// - `sees_from_outside`: whether a pair that was no contact, since it lay inside of its body, has come out at the end of a
@@ -122,7 +123,7 @@ public:
         for (const auto& [facet_1, facet_2] : candidates_.candidates())
             if (const FacetPair pair{Facet{facet_1}, Facet{facet_2}}; law_.is_wanted(pair)) found_.push_back(pair);
         keep_contacts(start);
-        law_.list(found_, in_contact_, start, end, 0.5 * candidates_.skin());
+        law_.list(found_, in_contact_, start, std::max(0.5 * candidates_.skin(), candidates_.report().motion));
         pairs_.follow(found_, [&](std::size_t i) { return PairMemory{is_admitted_at_first(i, start)}; });
         law_.clear(step_);
         listed(law_);

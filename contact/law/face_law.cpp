@@ -20,7 +20,7 @@ FaceLaw<Dim>::FaceLaw(const SurfaceView<Dim>& surface, const ContactOptions& opt
 // The list -----------------------------------------------------------------------------------------------------------
 
 template <int Dim>
-void FaceLaw<Dim>::list(std::span<const FacetPair> pairs, std::span<const FacetPair>, State, State, double) {
+void FaceLaw<Dim>::list(std::span<const FacetPair> pairs, std::span<const FacetPair>, State, double) {
     list_remembered(pairs);
     list_.list_faces(faces_);
 }

@@ -47,7 +47,7 @@ public:
     void search(CandidateSearch<Dim>& candidates, State u_0, State u_1) const { candidates.search(u_0, u_1); }
     [[nodiscard]] bool has_turned(State) const { return false; }  // its lists do not ask how faces look
     [[nodiscard]] bool is_wanted(FacetPair) const { return true; }
-    void list(std::span<const FacetPair> pairs, std::span<const FacetPair> in_contact, State u_0, State u_1, double reach);
+    void list(std::span<const FacetPair> pairs, std::span<const FacetPair> in_contact, State u_0, double reach);
     void list_remembered(std::span<const FacetPair> pairs);
     void drop_list() { faces_.clear(); }
     [[nodiscard]] bool is_pressed_in(std::size_t pair, State u) const;

@@ -160,11 +160,10 @@ bool NodeLaw<Dim>::is_seen_from_outside(const NodalPair<Dim>& pair, State x) con
 }
 
 template <int Dim>
-void NodeLaw<Dim>::list(std::vector<FacetPair>& pairs, std::span<const FacetPair> in_contact, State x_0, State x_1,
-                        double reach) {
+void NodeLaw<Dim>::list(std::vector<FacetPair>& pairs, std::span<const FacetPair> in_contact, State x_0, double reach) {
     watched_.clear();
     if (!inside_.empty()) set_inside_pairs_apart(pairs, x_0);
-    pairs_.assign(surface_, pairs, in_contact, watched_, x_0, x_1, reach, options_.compression_limit);
+    pairs_.assign(surface_, pairs, in_contact, watched_, x_0, reach, options_.compression_limit);
     if (ramps_.any() && !ramps_.has_begun()) begin_interference(x_0);
 }
 

@@ -56,7 +56,7 @@ public:
         return surface_.may_meet(number_of(pair.facet_1), number_of(pair.facet_2)) &&
                (!options_.wanted || options_.wanted(acting().face_of(pair.facet_1), acting().face_of(pair.facet_2)));
     }
-    void list(std::vector<FacetPair>& pairs, std::span<const FacetPair> in_contact, State x_0, State x_1, double reach);
+    void list(std::vector<FacetPair>& pairs, std::span<const FacetPair> in_contact, State x_0, double reach);
     void list_remembered(std::span<const FacetPair> pairs) { pairs_.assign(surface_, pairs); }
     void drop_list() {
         watched_.clear();

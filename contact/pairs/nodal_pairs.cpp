@@ -89,11 +89,11 @@ NodalPair<Dim> NodalPairs<Dim>::make_pair(const BevelledSurface<Dim>& surface, c
 template <int Dim>
 void NodalPairs<Dim>::assign(const BevelledSurface<Dim>& surface, std::vector<FacetPair>& facets,
                              std::span<const FacetPair> in_contact, std::span<const NodalPair<Dim>> watched,
-                             PointsView<Dim> x_0, PointsView<Dim> x_1, double reach, double compression) {
+                             PointsView<Dim> x, double reach, double compression) {
     compression_ = compression;
     pairs_.clear();
     for (const FacetPair& of_facets : facets) pairs_.push_back(make_pair(surface, of_facets));
-    look_ahead(x_0, x_1, reach);
+    look_ahead(x, reach);
     std::size_t n = 0;
     for (std::size_t p = 0; p < facets.size(); ++p) {
         const bool may_act = outlooks_[p].may_act;
@@ -116,7 +116,7 @@ void NodalPairs<Dim>::assign(const BevelledSurface<Dim>& surface, std::span<cons
 }
 
 template <int Dim>
-void NodalPairs<Dim>::look_ahead(PointsView<Dim> x_0, PointsView<Dim> x_1, double reach) {
+void NodalPairs<Dim>::look_ahead(PointsView<Dim> x, double reach) {
     outlooks_.resize(pairs_.size());
     const auto look = [&](const IndexRange& range) {
         parallel_each(
@@ -124,10 +124,7 @@ void NodalPairs<Dim>::look_ahead(PointsView<Dim> x_0, PointsView<Dim> x_1, doubl
             [&](std::ptrdiff_t i) {
                 const std::size_t p = range.begin + static_cast<std::size_t>(i);
                 const NodalPair<Dim>& pair = pairs_[p];
-                const geometry::PairCorners<Dim> start = pair.at(x_0), end = pair.at(x_1);
-                double farthest = reach;
-                for (std::size_t v = 0; v < start.size(); ++v) farthest = std::max(farthest, (end[v] - start[v]).norm());
-                outlooks_[p] = geometry::pair_outlook<Dim>(start, pair.law, farthest, compression_ * pair.admission_depth);
+                outlooks_[p] = geometry::pair_outlook<Dim>(pair.at(x), pair.law, reach, compression_ * pair.admission_depth);
             },
             pairs_per_task);
     };
@@ -147,7 +144,7 @@ template <int Dim>
 void NodalPairs<Dim>::prune(PointsView<Dim> x_0, PointsView<Dim> x_1, std::span<PairMemory> memory) {
     const auto motion = [&](std::ptrdiff_t i) { return (x_1[nodes_[i]] - x_0[nodes_[i]]).squaredNorm(); };
     prune_reach_ = steps_between * std::sqrt(largest(std::ssize(nodes_), motion));
-    look_ahead(x_0, x_1, prune_reach_);
+    look_ahead(x_0, prune_reach_);
     in_reach_.clear();
     for (std::size_t p = 0; p < pairs_.size(); ++p) {
         const bool is_kept_anyway = !pairs_[p].outlook.may_act;

@@ -68,12 +68,11 @@ public:
           offsets_(interference_.times.size(), 0.0),
           shared_(sharing) {}
 
-    /// For a step from x_0 to x_1, and for all positions in which no node is farther than `reach` from x_0 [m]. Leaves out
-    /// of `facets` what cannot act there with |g| up to `compression` D, except those `in_contact` (increasing): boxes know
-    /// nothing of how faces lie to each other. The nodes of `watched` pairs are listed, too.
+    /// For all positions in which no node is farther than `reach` from where x has it [m]. Leaves out of `facets` what
+    /// cannot act there with |g| up to `compression` D, except those `in_contact` (increasing): boxes know nothing of how
+    /// faces lie to each other. The nodes of `watched` pairs are listed, too.
     void assign(const BevelledSurface<Dim>& surface, std::vector<FacetPair>& facets, std::span<const FacetPair> in_contact,
-                std::span<const NodalPair<Dim>> watched, PointsView<Dim> x_0, PointsView<Dim> x_1, double reach,
-                double compression);
+                std::span<const NodalPair<Dim>> watched, PointsView<Dim> x, double reach, double compression);
     /// Pairs without an outlook: of a list that does not hold.
     void assign(const BevelledSurface<Dim>& surface, std::span<const FacetPair> facets);
     [[nodiscard]] std::span<const NodalPair<Dim>> pairs() const { return pairs_; }
@@ -98,8 +97,8 @@ public:
 private:
     /// Lists nodes, bodies and pairs of bodies, and the indices of the pairs in these.
     void index(const BevelledSurface<Dim>& surface, std::span<const NodalPair<Dim>> watched = {});
-    /// Fills `outlooks_` for the step from x_0 to x_1, and for nodes that are not farther than `reach` from x_0.
-    void look_ahead(PointsView<Dim> x_0, PointsView<Dim> x_1, double reach);
+    /// Fills `outlooks_` for nodes that are not farther than `reach` from where x has them.
+    void look_ahead(PointsView<Dim> x, double reach);
     void prune(PointsView<Dim> x_0, PointsView<Dim> x_1, std::span<PairMemory> memory);
     [[nodiscard]] bool is_pruned_at(PointsView<Dim> x) const;
 

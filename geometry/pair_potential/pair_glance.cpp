@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include "abut/geometry/pair_potential/pair_normal.hpp"
 
@@ -18,6 +17,12 @@ std::array<Vector<2>, 2> weighed_normals(const PairCorners<2>& x, const PairLaw<
 std::array<Vector<3>, 2> weighed_normals(const PairCorners<3>& x, const PairLaw<3>&) {
     return {(x[1] - x[0]).cross(x[2] - x[0]).normalized(), (x[4] - x[3]).cross(x[5] - x[3]).normalized()};
 }
+
+/// n_1 . n_2 of these.
+double cosine_of(const std::array<Vector<2>, 2>& normals) {
+    return normals[0].dot(normals[1]) / (normals[0].norm() * normals[1].norm());
+}
+double cosine_of(const std::array<Vector<3>, 2>& normals) { return normals[0].dot(normals[1]); }
 
 /// From the highest corner of face 1 to the lowest one of face 2 along a direction, without the digits that a position far
 /// from the origin would cost.
@@ -39,30 +44,31 @@ Vector<Dim> between_middles(const PairCorners<Dim>& x) {
     return between;
 }
 
-/// Largest turn of the normal of a face while no corner moves by more than `reach` [rad]; pi / 2 where no bound is known.
-double largest_turn(const Vector<2>& edge, double reach) {
-    const double ratio = 2.0 * reach / edge.norm();
-    return ratio < 1.0 ? std::asin(ratio) : 0.5 * std::numbers::pi;
-}
-/// About the longest edge, and with it.
-double largest_turn(const Vector<3>& u, const Vector<3>& w, double reach) {
-    const double longest = std::sqrt(std::max({u.squaredNorm(), w.squaredNorm(), (w - u).squaredNorm()}));
-    const double height = u.cross(w).norm() / longest, ratio = 2.0 * reach / height;
-    return ratio < 1.0 ? std::asin(ratio) + std::asin(2.0 * reach / longest) : 0.5 * std::numbers::pi;
-}
-/// The larger one of both faces.
-double largest_turn(const PairCorners<2>& x, double reach) {
-    return std::max(largest_turn(x[1] - x[0], reach), largest_turn(x[3] - x[2], reach));
-}
-double largest_turn(const PairCorners<3>& x, double reach) {
-    return std::max(largest_turn(x[1] - x[0], x[2] - x[0], reach), largest_turn(x[4] - x[3], x[5] - x[3], reach));
+/// 1 - cos t of the sum t of two angles, whose sines have these squares.
+double turn_of_both(double square_1, double square_2) {
+    return (square_1 + square_2 - square_1 * square_2) / (1.0 + std::sqrt((1.0 - square_1) * (1.0 - square_2))) +
+           std::sqrt(square_1 * square_2);
 }
 
-/// Largest change of the difference of both normals in n.
-double largest_change(const PairCorners<2>&, const PairLaw<2>& law, double, double reach) {
+/// 1 - cos t of the largest turn t of the normal of a face while no corner moves by more than `reach`; 1 where no bound is
+/// known.
+double largest_turn(const Vector<2>* x, double reach) {
+    const double square = 4.0 * reach * reach / (x[1] - x[0]).squaredNorm();
+    return square < 1.0 ? turn_of_both(square, 0.0) : 1.0;
+}
+/// About the longest edge, and with it.
+double largest_turn(const Vector<3>* x, double reach) {
+    const Vector<3> u = x[1] - x[0], w = x[2] - x[0];
+    const double longest = std::max({u.squaredNorm(), w.squaredNorm(), (w - u).squaredNorm()}),
+                 with = 4.0 * reach * reach / longest, about = with * longest * longest / u.cross(w).squaredNorm();
+    return about < 1.0 ? turn_of_both(about, with) : 1.0;
+}
+
+/// Largest change of the difference of both normals in n, which turn by up to t, given as 1 - cos t.
+double largest_change(const PairLaw<2>& law, double, double reach) {
     return 2.0 * reach * (1.0 / law.length[0] + 1.0 / law.length[1]);
 }
-double largest_change(const PairCorners<3>&, const PairLaw<3>&, double turn, double) { return 4.0 * std::sin(0.5 * turn); }
+double largest_change(const PairLaw<3>&, double turn, double) { return std::sqrt(8.0 * turn); }
 
 /// Face 2 before face 1: its clearance along n is how far all of face 2 is behind face 1.
 template <int Dim>
@@ -80,18 +86,20 @@ PairCorners<Dim> behind(const PairCorners<Dim>& corners) {
 template <int Dim>
 PairOutlook<Dim> pair_outlook(const PairCorners<Dim>& corners, const PairLaw<Dim>& law, double reach, double depth) {
     PairOutlook<Dim> outlook;
-    const double facing = std::clamp(facing_cosine(corners), -1.0, 1.0), turn = largest_turn(corners, reach);
-    if (std::acos(facing) + 2.0 * turn < std::acos(law.facing.none)) {
+    const auto normals = weighed_normals(corners, law);
+    const double facing = cosine_of(normals),
+                 turn = std::max(largest_turn(&corners[0], reach), largest_turn(&corners[Dim], reach));
+    if (facing > law.facing.none &&
+        std::acos(std::min(facing, 1.0)) + 4.0 * std::asin(std::sqrt(0.5 * turn)) < std::acos(law.facing.none)) {
         outlook.may_act = false;
         return outlook;
     }
     if (facing > no_normal_cosine) return outlook;
-    // the sine of the angle by which n can turn; short of a right angle what is apart along n stays apart
-    const auto normals = weighed_normals(corners, law);
     const Vector<Dim> difference = normals[0] - normals[1];
-    const double sine = largest_change(corners, law, turn, reach) / difference.norm();
+    const double size = difference.norm(), sine = largest_change(law, turn, reach) / size;
+    // the sine of the angle by which n can turn; short of a right angle what is apart along n stays apart
     if (!(sine < 1.0)) return outlook;
-    const Vector<Dim> n = difference.normalized(), between = between_middles<Dim>(corners);
+    const Vector<Dim> n = difference / size, between = between_middles<Dim>(corners);
     const Vector<Dim> aside = between - between.dot(n) * n;
     outlook.normal = n;
     outlook.aside_allowance = depth * sine;
@@ -112,9 +120,7 @@ PairRest rests(const PairOutlook<Dim>& outlook, const PairCorners<Dim>& corners)
 template <int Dim>
 PairPlacement<Dim> pair_placement(const PairCorners<Dim>& corners, const PairLaw<Dim>& law) {
     const auto normals = weighed_normals(corners, law);
-    PairPlacement<Dim> found{
-        PairPlace::unclear, normals[0].dot(normals[1]), normals[0] - normals[1], 0.0, Vector<Dim>::Zero(), 0.0};
-    if constexpr (Dim == 2) found.facing /= normals[0].norm() * normals[1].norm();
+    PairPlacement<Dim> found{PairPlace::unclear, cosine_of(normals), normals[0] - normals[1], 0.0, Vector<Dim>::Zero(), 0.0};
     if (found.facing >= law.facing.none) {
         found.place = PairPlace::turned_away;
         return found;

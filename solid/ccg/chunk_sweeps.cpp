@@ -76,6 +76,11 @@ LaneTensor<Dim, Real> CcgSweeps<Dim, Real>::present_gradient(std::ptrdiff_t c) c
     return element_.present_gradient(c);
 }
 
+template <int Dim, class Real>
+LaneTensor<Dim, Real> CcgSweeps<Dim, Real>::region_gradient(std::ptrdiff_t c) const {
+    return element_.region_gradient(c);
+}
+
 /// 1/2 |c| eps:C:eps, and 1/2 k |[u]|^2 of the faces whose first side the cell is.
 template <int Dim, class Real>
 double CcgSweeps<Dim, Real>::energy(std::ptrdiff_t c) const {
@@ -202,6 +207,7 @@ void CcgSweeps<Dim, Real>::cell_gradients_of_chunk(std::int32_t k, std::span<Vec
 
 #define ABUT_INSTANTIATE(Dim, Real)                                                              \
     template LaneTensor<Dim, Real> CcgSweeps<Dim, Real>::present_gradient(std::ptrdiff_t) const; \
+    template LaneTensor<Dim, Real> CcgSweeps<Dim, Real>::region_gradient(std::ptrdiff_t) const;  \
     template Matrix<Dim> CcgSweeps<Dim, Real>::stress(std::int32_t) const;                       \
     template void CcgSweeps<Dim, Real>::reconstruct_chunk(std::int32_t);                         \
     template void CcgSweeps<Dim, Real>::displacement_gradients_of_chunk(std::int32_t);           \

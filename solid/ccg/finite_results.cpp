@@ -45,7 +45,7 @@ template <int Dim, class Real>
 std::pair<Vector<Dim>, Matrix<Dim>> CcgSweeps<Dim, Real>::tilted_face(BoundaryFace face) const {
     const std::int32_t c = arrays_.cell_of(face);
     const Vector<Dim> affine = face_displacement(face);
-    const Matrix<Dim> g = displacement_gradient(c);
+    const Matrix<Dim> g = unload(region_gradient(c));
     if (plastic_ && plastic_->moves_faces(c)) return {affine + plastic_->moved(c, face), g + plastic_->tilted(c)};
     const FreeCell<Dim>* free = finite_.condensed_behind(face, c);
     if (!free) return {affine, g};

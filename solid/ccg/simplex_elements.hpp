@@ -189,6 +189,13 @@ inline void SweepElements<V>::set_any_face_gradient(std::int32_t f) const {
     store(simplices ? interior_gradient_of_simplices(f) : interior_gradient(f), tables.of_face.data, f);
 }
 
+/// G_c in a region whose face displacements are as they have been reconstructed.
+template <class V>
+inline TensorOf<V> SweepElements<V>::region_gradient(std::ptrdiff_t c) const {
+    if (!tables.of_simplices(c)) return load_tensor<V>(tables.g.data, c);
+    return gradient_of(tables.u.data, c, [&](std::int32_t f) { return load<V>(tables.of_face.data, f); });
+}
+
 /// G_c of the state that was evaluated last; what interior faces had may be overwritten.
 template <class V>
 inline TensorOf<V> SweepElements<V>::present_gradient(std::ptrdiff_t c) const {

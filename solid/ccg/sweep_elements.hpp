@@ -88,6 +88,7 @@ public:
     ABUT_HOST_DEVICE void set_any_affine_gradients(const AffineCell& cell) const;
     ABUT_HOST_DEVICE void set_any_face_gradient(std::int32_t f) const;
     [[nodiscard]] Tensor present_gradient(std::ptrdiff_t c) const;
+    [[nodiscard]] Tensor region_gradient(std::ptrdiff_t c) const;
 
     SweepTables<Dim, Real> tables;
     SweepUnits<Dim, Real> units;  // of a size of its own even if empty: compilers of devices do not agree otherwise

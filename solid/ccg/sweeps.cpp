@@ -193,8 +193,9 @@ void CcgSweeps<Dim, Real>::evaluate_tilted_faces(const Region<Dim>& region, std:
     evaluate_to_displacement_gradients(region, u, boundary_load);
     looks_at_end_ = looked_at_end;
     advances_ = false;
-    for (std::size_t i = 0; i < region.faces.size(); ++i)
-        std::tie(displacement[i], gradient[i]) = tilted_face(region.faces[i]);
+    parallel_each(
+        std::ssize(region.faces),
+        [&](std::ptrdiff_t i) { std::tie(displacement[i], gradient[i]) = tilted_face(region.faces[i]); }, region_grain);
 }
 
 template <int Dim, class Real>

@@ -137,6 +137,7 @@ private:
 
     // One element
     [[nodiscard]] Tensor present_gradient(std::ptrdiff_t c) const;
+    [[nodiscard]] Tensor region_gradient(std::ptrdiff_t c) const;
     [[nodiscard]] double energy(std::ptrdiff_t c) const;
     [[nodiscard]] Vectors any_boundary_displacement(const double* u, BoundaryFace b) const;
     void set_any_displacement_gradient(std::int32_t c);

@@ -47,6 +47,7 @@ void CornerMotion<Dim>::begin(std::vector<std::int32_t> faces, std::vector<doubl
                               std::span<const BodyFrame<Dim>> frames) {
     faces_ = std::move(faces);
     arm_ = std::move(radius);
+    slack_.assign(faces_.size(), 0.0);
     in_space_.assign(faces_.size(), 0.0);
     in_frame_.assign(faces_.size(), 0.0);
     amplification_ = travelled_ = fastest_path_ = farthest_travelled_ = farthest_path_ = 0.0;
@@ -76,6 +77,12 @@ void CornerMotion<Dim>::begin(std::vector<std::int32_t> faces, std::vector<doubl
         }
         arm_sum_.push_back(sum);
     }
+}
+
+template <int Dim>
+void CornerMotion<Dim>::set_slack(std::vector<double> slack) {
+    for (std::size_t i = 0; i < slack.size(); ++i) in_space_[i] += slack_[i] - slack[i];
+    slack_ = std::move(slack);
 }
 
 template <int Dim>
@@ -144,7 +151,7 @@ void CornerMotion<Dim>::look(std::span<const std::int32_t> which, std::span<cons
         [&](std::ptrdiff_t k) {
             const std::int32_t i = which[k];
             const FarthestMotion found = of_face(i, q, frames);
-            in_space_[i] = found.in_space - since_start(i);
+            set_in_space(i, found.in_space);
             in_frame_[i] = found.in_frame - stretched(i);
         },
         256);
@@ -155,7 +162,7 @@ FarthestMotion CornerMotion<Dim>::until(std::span<const Vector<Dim>> q, std::spa
     FarthestMotion all;
     for (std::int32_t i = 0; i < std::ssize(faces_); ++i) {
         const auto [in_space, in_frame] = of_face(i, q, frames);
-        all.in_space = larger(all.in_space, in_space);
+        all.in_space = larger(all.in_space, in_space - slack_[i]);
         all.in_frame = larger(all.in_frame, in_frame);
     }
     return all;

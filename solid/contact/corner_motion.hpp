@@ -70,6 +70,8 @@ public:
     /// corner of each that is farthest from it (n) [m].
     void begin(std::vector<std::int32_t> faces, std::vector<double> radius, std::span<const Vector<Dim>> q,
                std::span<const BodyFrame<Dim>> frames);
+    /// Lets each face move that far in space before its bound counts, and takes it off all bounds (n) [m].
+    void set_slack(std::vector<double> slack);
     /// Goes on to where the bodies have these frames; no cell moves farther in its frame than `cell_motion` [m], infinity:
     /// not known.
     void advance(std::span<const BodyFrame<Dim>> frames, double cell_motion);
@@ -80,7 +82,7 @@ public:
     /// Lowers the bounds of some faces to those that their cells give; q and frames are where it has gone to.
     void look(std::span<const std::int32_t> which, std::span<const Vector<Dim>> q, std::span<const BodyFrame<Dim>> frames);
     /// Sets the motion of the farthest corner in space of a face, which is known [m].
-    void set_in_space(std::int32_t i, double motion) { in_space_[i] = motion - since_start(i); }
+    void set_in_space(std::int32_t i, double motion) { in_space_[i] = motion - slack_[i] - since_start(i); }
     /// Bound of all faces for any q with these frames; changes no bound.
     [[nodiscard]] FarthestMotion until(std::span<const Vector<Dim>> q, std::span<const BodyFrame<Dim>> frames) const;
 
@@ -103,6 +105,8 @@ private:
     std::vector<std::int32_t> body_;      // (n)
     std::vector<double> amplifications_;  // (n)
     double amplification_ = 0.0;          // the largest
+
+    std::vector<double> slack_;  // (n) [m]
 
     // Where it began
     std::vector<Vector<Dim>> q_;

@@ -213,8 +213,9 @@ void CornerSurface<Dim>::place_deformable(std::span<const std::int32_t> faces, c
                                           const BoundaryLoad<Dim>& load, Points& x, StepState state) {
     displacement_.resize(faces.size());
     tilt_.resize(faces.size());
-    frames_.displacement(region.input_cells, q, frames, u_);
-    ccg_.evaluate_tilted_faces(region, u_, load, displacement_, tilt_, state);
+    if (frames_.any()) frames_.displacement(region.input_cells, q, frames, u_);
+    const std::span<const Vector<Dim>> u = frames_.any() ? u_ : q.first(u_.size());
+    ccg_.evaluate_tilted_faces(region, u, load, displacement_, tilt_, state);
     parallel_each(
         std::ssize(faces),
         [&](std::ptrdiff_t i) {
@@ -283,8 +284,8 @@ template <int Dim>
 double CornerSurface<Dim>::motion(std::int32_t face, const Points& from, const Points& to) const {
     double farthest = 0.0;
     for (std::int32_t n = corner_offsets_[face]; n < corner_offsets_[face + 1]; ++n)
-        farthest = larger(farthest, (to[n] - from[n]).norm());
-    return farthest;
+        farthest = larger(farthest, (to[n] - from[n]).squaredNorm());
+    return std::sqrt(farthest);
 }
 
 /// Brings the nodes of all listed faces from where they are placed.

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <compare>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 #include "abut/base/disjoint_sets.hpp"
@@ -20,9 +21,6 @@
 
 namespace abut::solid {
 namespace {
-
-/// Skins that faces which are far from all other bodies may move before they must be looked at again.
-constexpr double far_skins = 4.0;
 
 /// In the order of the bodies that contact has. A rigid body never comes together with itself.
 template <int Dim>
@@ -155,7 +153,9 @@ PairPotentialDriver<Dim>::PairPotentialDriver(const Bodies<Dim>& bodies, Ccg<Dim
       x_1_(x_0_),
       x_state_(x_0_),
       near_watch_{.corners = corners_.motion(), .from = {}, .radius = {}, .places = {}},
-      far_watch_{near_watch_} {}
+      far_watch_{near_watch_} {
+    for (const double depth : contact_.surface().facets().cell_depth) deepest_ = std::max(deepest_, depth);
+}
 
 // The path of the listed faces ---------------------------------------------------------------------------------------
 
@@ -165,15 +165,15 @@ void PairPotentialDriver<Dim>::follow(std::span<const Vector<Dim>> q_0, std::spa
     end_time_ = time + dt;
     corners_.place_rigid(q_1);
     keep_end(q_1);
-    if (!is_surely_valid(cell_motion, time + dt)) {
+    if (is_valid_until(q_1, cell_motion, time + dt)) {
+        const Stopwatch watch(times_.contact);
+        corners_.place(listed_, q_1, frames_.end(), loads_.end(), time + dt, x_1_, StepState::end);
+        set_placed_motion();
+    } else {
         const Stopwatch watch(times_.search);
-        if (!is_valid_by_cells(q_1, time + dt)) {
-            if (!is_valid_at_all_nodes(q_1, time + dt)) search(q_0, q_1, cell_motion, time, dt);
-            return;
-        }
+        if (!is_valid_at_all_nodes(q_1, time + dt)) search(q_0, q_1, cell_motion, time, dt);
     }
-    const Stopwatch watch(times_.contact);
-    corners_.place(listed_, q_1, frames_.end(), loads_.end(), time + dt, x_1_, StepState::end);
+    has_stepped_ = false;  // until the step has ended well
 }
 
 /// Far faces stay where they were placed last as long as none of them can have come near another body: they are in no pair.
@@ -185,13 +185,12 @@ void PairPotentialDriver<Dim>::search(std::span<const Vector<Dim>> q_0, std::spa
     } else {
         search_placed(all_, q_0, q_1, time, dt);
         searched_at_ = x_0_;
+        placed_.clear();
         if (faces_leave_cells()) return;
-        far_reach_ = far_skins * contact_.skin();
-        near_ = corners_.list(near_nodes());
-        begin(far_watch_, all_, q_0, cell_motion, time + dt);
+        begin_far(q_0, cell_motion, time + dt);
     }
     searched_at_ = x_0_;
-    begin(near_watch_, near_, q_0, cell_motion, time + dt);
+    begin_near(q_0, cell_motion, time + dt);
 }
 
 template <int Dim>
@@ -203,27 +202,26 @@ void PairPotentialDriver<Dim>::search_placed(const Listed& placed, std::span<con
     listed_ = corners_.list(listed_nodes_ = contact_.last().nodes);
 }
 
-/// Nodes of faces that reach another body or obstacle when that grows by twice `far_reach_`, and by all that contact itself
-/// looks ahead and reaches beyond faces.
 template <int Dim>
-std::vector<std::int32_t> PairPotentialDriver<Dim>::near_nodes() const {
-    const contact::SurfaceView<Dim> facets = contact_.surface().facets().view();
-    std::vector<geometry::Box<Dim>> boxes(static_cast<std::size_t>(facets.size()));
-    double deepest = 0.0;
-    for (std::int32_t facet = 0; facet < facets.size(); ++facet) {
-        for (const std::int32_t n : facets.vertices_of(facet))
-            boxes[facet].extend(geometry::Box<Dim>{x_0_[n].cwiseMin(x_1_[n]), x_0_[n].cwiseMax(x_1_[n])});
-        deepest = std::max(deepest, facets.cell_depth[facet]);
-    }
-    const double margin =
-        2.0 * (contact_.bevel_stretch() * far_reach_ + contact_.bevel_width()) + contact_.skin() + 4.0 * deepest;
+std::vector<std::int32_t> PairPotentialDriver<Dim>::nodes_of(std::span<const std::int32_t> facets) const {
     std::vector<std::int32_t> nodes;
-    for (const std::int32_t facet : near_others<Dim>(boxes, facets.body, margin)) {
-        const auto corners = facets.vertices_of(facet);
+    for (const std::int32_t facet : facets) {
+        const auto corners = contact_.surface().facets().view().vertices_of(facet);
         nodes.insert(nodes.end(), corners.begin(), corners.end());
     }
     sort_unique(nodes);
     return nodes;
+}
+
+/// Boxes of some facets along the step that candidates are searched for.
+template <int Dim>
+std::vector<geometry::Box<Dim>> PairPotentialDriver<Dim>::swept_boxes(std::span<const std::int32_t> facets) const {
+    const contact::SurfaceView<Dim> of_all = contact_.surface().facets().view();
+    std::vector<geometry::Box<Dim>> boxes(facets.size());
+    for (std::size_t i = 0; i < facets.size(); ++i)
+        for (const std::int32_t n : of_all.vertices_of(facets[i]))
+            boxes[i].extend(geometry::Box<Dim>{x_0_[n].cwiseMin(x_1_[n]), x_0_[n].cwiseMax(x_1_[n])});
+    return boxes;
 }
 
 template <int Dim>
@@ -245,7 +243,6 @@ void PairPotentialDriver<Dim>::end_step() {
 template <int Dim>
 void PairPotentialDriver<Dim>::integrate(double dt) {
     const Stopwatch watch(times_.contact);
-    has_stepped_ = false;  // until the step has ended well
     contact_.step_listed(dt, x_0_, x_1_, contact::TakenForce::mean);
     collect(x_0_, x_1_);
     keep_touching_faces();
@@ -260,7 +257,6 @@ void PairPotentialDriver<Dim>::take_start() {
 template <int Dim>
 void PairPotentialDriver<Dim>::take_end(double dt) {
     const Stopwatch watch(times_.contact);
-    has_stepped_ = false;
     contact_.step_listed(dt, x_0_, x_1_, contact::TakenForce::end);
     collect(x_1_, x_1_);
     keep_touching_faces();
@@ -307,9 +303,10 @@ void PairPotentialDriver<Dim>::collect(const Points& x_0, const Points& x_1) {
     std::size_t at = 0;  // nodes and faces are in the same order
     for (std::size_t i = 0; i < step.nodes.size(); ++i) {
         const std::int32_t node = step.nodes[i];
+        const Vector<Dim>&p = step.gradient[i], rest = corners_.rest()[node];
+        if (p == Vector<Dim>::Zero()) continue;
         if (corners_.is_of_obstacle(node)) break;
         const std::size_t face = corners_.face_of(node);
-        const Vector<Dim>&p = step.gradient[i], rest = corners_.rest()[node];
         if (!corners_.is_deformable(face)) {
             const std::size_t rigid = corners_.rigid_of(face);
             rigid_pushes_[rigid].add(p, rest - bodies_.rigid().rest_centre(rigid));

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "abut/contact/nodal_contact.hpp"
+#include "abut/geometry/box.hpp"
 #include "abut/solid/body/bodies.hpp"
 #include "abut/solid/bond/bonds.hpp"
 #include "abut/solid/contact/contact_driver.hpp"
@@ -82,6 +83,12 @@ private:
         double time = 0.0;                    // of it [s]
     };
 
+    /// A face that is placed at the end of each step.
+    struct PlacedFace {
+        std::int32_t face;
+        std::int32_t near;  ///< its index in `near_.own`
+    };
+
     /// Whether faces may move farther than the motion of cells bounds: by loads that vary, by the stretch of free
     /// faces, and as cells flow.
     [[nodiscard]] bool faces_leave_cells() const { return loads_.vary() || bodies_.any_finite() || ccg_.flows_linearly(); }
@@ -94,6 +101,7 @@ private:
     [[nodiscard]] double given_motion(const Watch& watch, double time) const;
     [[nodiscard]] bool is_within(Watch& watch, const FarthestMotion& allowed, double time) const;
     [[nodiscard]] bool agree(bool here) const { return ranks_.largest(here ? 0.0 : 1.0) == 0.0; }
+    [[nodiscard]] bool is_valid_until(std::span<const Vector<Dim>> q_1, double cell_motion, double time);
     [[nodiscard]] bool is_surely_valid(double cell_motion, double time);
     [[nodiscard]] bool is_valid_by_cells(std::span<const Vector<Dim>> q_1, double time);
     void look(Watch& watch, const Listed& listed, const FarthestMotion& allowed, std::span<const Vector<Dim>> q_1,
@@ -108,7 +116,15 @@ private:
                 double dt);
     void search_placed(const Listed& placed, std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1, double time,
                        double dt);
-    [[nodiscard]] std::vector<std::int32_t> near_nodes() const;
+    [[nodiscard]] std::vector<std::int32_t> nodes_of(std::span<const std::int32_t> facets) const;
+    [[nodiscard]] std::vector<geometry::Box<Dim>> swept_boxes(std::span<const std::int32_t> facets) const;
+    void begin_far(std::span<const Vector<Dim>> q_0, double cell_motion, double time);
+    void begin_near(std::span<const Vector<Dim>> q_0, double cell_motion, double time);
+    [[nodiscard]] std::vector<double> slack_of(const Listed& listed, std::span<const std::int32_t> facets,
+                                               std::span<const double> distances, double beyond) const;
+    [[nodiscard]] std::vector<double> distances_of_near(double most) const;
+    void find_placed();
+    void set_placed_motion();
     /// The gradients of the last call of contact between these two placements of the nodes, face by face.
     void collect(const Points& x_0, const Points& x_1);
     void keep_touching_faces();
@@ -125,9 +141,12 @@ private:
     CornerSurface<Dim> corners_;
     contact::NodalContact<Dim> contact_;
     bool touches_itself_;
+    double deepest_ = 0.0;  // cell behind a facet [m]
 
     // All faces; those near enough to another body to touch it while no face moves farther than `far_reach_`; those listed.
     Listed all_, near_, listed_;
+    std::vector<std::int32_t> near_facets_;   // what `near_` is of
+    std::vector<PlacedFace> placed_;          // those of `listed_.own`
     std::vector<std::int32_t> listed_nodes_;  // what `listed_` is of
     Points x_0_, x_1_, x_state_;              // nodes at both ends of a step; between steps _0 is where the last one ended
     bool has_stepped_ = false;

@@ -2,12 +2,24 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "abut/base/parallel.hpp"
+#include "abut/base/stopwatch.hpp"
 #include "abut/solid/contact/frame_motion.hpp"
+#include "abut/solid/contact/near_faces.hpp"
 #include "abut/solid/contact/pair_potential_driver.hpp"
 
 namespace abut::solid {
+namespace {
+
+/// Skins that faces which are far from all other bodies may move before they must be placed again.
+constexpr double far_skins = 4.0;
+/// How far beyond what they must know of near and far faces look for others: skins, and what they may move. Those that are
+/// farther from all others have the slack of these.
+constexpr double near_looks = 4.0, far_looks = 4.0;
+
+}  // namespace
 
 template <int Dim>
 FarthestMotion PairPotentialDriver<Dim>::near_allowed() const {
@@ -35,6 +47,87 @@ void PairPotentialDriver<Dim>::begin(Watch& watch, const Listed& listed, std::sp
         watch.radius[body] = larger(watch.radius[body], (x_1_[n] - corners_.rigid_places()[body].centre).norm());
     }
     place_given(watch, listed, time, x_1_);
+}
+
+/// Near faces are those that reach another body or obstacle when that grows by twice `far_reach_`, and by all that contact
+/// itself looks ahead and reaches beyond faces.
+template <int Dim>
+void PairPotentialDriver<Dim>::begin_far(std::span<const Vector<Dim>> q_0, double cell_motion, double time) {
+    far_reach_ = far_skins * contact_.skin();
+    const contact::SurfaceView<Dim> facets = contact_.surface().facets().view();
+    std::vector<std::int32_t> all(static_cast<std::size_t>(facets.size()));
+    std::iota(all.begin(), all.end(), 0);
+    const double motion = 2.0 * contact_.bevel_stretch() * far_reach_,
+                 margin = motion + 2.0 * contact_.bevel_width() + contact_.skin() + 4.0 * deepest_;
+    const std::vector<double> distances =
+        distances_to_groups<Dim>(swept_boxes(all), facets.body, margin + far_looks * motion);
+    near_facets_.clear();
+    for (const std::int32_t facet : all)
+        if (distances[static_cast<std::size_t>(facet)] <= margin) near_facets_.push_back(facet);
+    near_ = corners_.list(nodes_of(near_facets_));
+    begin(far_watch_, all_, q_0, cell_motion, time);
+    far_watch_.corners.set_slack(slack_of(all_, all, distances, margin));
+}
+
+template <int Dim>
+void PairPotentialDriver<Dim>::begin_near(std::span<const Vector<Dim>> q_0, double cell_motion, double time) {
+    begin(near_watch_, near_, q_0, cell_motion, time);
+    const double beyond = contact_.skin() + 2.0 * contact_.bevel_width();
+    const std::vector<double> distances = distances_of_near(beyond + near_looks * contact_.skin());
+    near_watch_.corners.set_slack(slack_of(near_, near_facets_, distances, beyond));
+    find_placed();
+}
+
+/// How far each listed face may move beyond what all may, from the distances of facets: two faces may come nearer to each
+/// other by their distance less `beyond`, and each of them has half of what it knows of that. Faces of one body have none.
+template <int Dim>
+std::vector<double> PairPotentialDriver<Dim>::slack_of(const Listed& listed, std::span<const std::int32_t> facets,
+                                                       std::span<const double> distances, double beyond) const {
+    std::vector<double> slack(listed.own.size(), 0.0);
+    if (touches_itself_) return slack;
+    std::ranges::fill(slack, std::numeric_limits<double>::infinity());
+    std::size_t at = 0;  // facets and faces are in the same order
+    for (std::size_t i = 0; i < facets.size(); ++i) {
+        const auto face = static_cast<std::int32_t>(contact_.surface().face_of(contact::Facet{facets[i]}));
+        while (at < slack.size() && listed.own[at] < face) ++at;
+        if (at == slack.size()) break;
+        if (listed.own[at] == face) slack[at] = std::min(slack[at], std::max(0.0, distances[i] - beyond));
+    }
+    for (double& of_face : slack) of_face /= 2.0 * contact_.bevel_stretch();
+    return slack;
+}
+
+/// How much nearer each near facet may come to those of other bodies before they could meet, at most `most`.
+template <int Dim>
+std::vector<double> PairPotentialDriver<Dim>::distances_of_near(double most) const {
+    const contact::SurfaceView<Dim> facets = contact_.surface().facets().view();
+    const bool any_bevels = contact_.bevel_width() > 0.0;  // they have the depths of faces beside them
+    std::vector<geometry::Box<Dim>> boxes = swept_boxes(near_facets_);
+    std::vector<std::int32_t> bodies;
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+        const std::int32_t facet = near_facets_[i];
+        boxes[i] = boxes[i].grown(2.0 * (any_bevels ? deepest_ : facets.cell_depth[facet]));
+        bodies.push_back(facets.body[facet]);
+    }
+    return distances_to_others<Dim>(boxes, bodies, most);
+}
+
+template <int Dim>
+void PairPotentialDriver<Dim>::find_placed() {
+    placed_.clear();
+    auto at = near_.own.begin();
+    for (const std::int32_t face : listed_.own) {
+        at = std::lower_bound(at, near_.own.end(), face);
+        if (at != near_.own.end() && *at == face)
+            placed_.push_back({face, static_cast<std::int32_t>(at - near_.own.begin())});
+    }
+}
+
+/// The listed faces are where the step ends.
+template <int Dim>
+void PairPotentialDriver<Dim>::set_placed_motion() {
+    for (const auto& [face, near] : placed_)
+        near_watch_.corners.set_in_space(near, corners_.motion(face, searched_at_, x_1_));
 }
 
 /// Nodes of rigid bodies and obstacles know where they are.
@@ -69,6 +162,13 @@ double PairPotentialDriver<Dim>::given_motion(const Watch& watch, double time) c
 template <int Dim>
 bool PairPotentialDriver<Dim>::is_within(Watch& watch, const FarthestMotion& allowed, double time) const {
     return watch.corners.is_within(allowed) && given_motion(watch, time) <= allowed.in_space;
+}
+
+template <int Dim>
+bool PairPotentialDriver<Dim>::is_valid_until(std::span<const Vector<Dim>> q_1, double cell_motion, double time) {
+    if (is_surely_valid(cell_motion, time)) return true;
+    const Stopwatch watch(times_.search);
+    return is_valid_by_cells(q_1, time);
 }
 
 /// By what no cell and no frame exceeds in the step.
@@ -169,7 +269,10 @@ bool PairPotentialDriver<Dim>::is_valid_in(std::span<const Vector<Dim>> q, doubl
 
 #define ABUT_INSTANTIATE(Dim)                                                                                           \
     template void PairPotentialDriver<Dim>::begin(Watch&, const Listed&, std::span<const Vector<Dim>>, double, double); \
-    template bool PairPotentialDriver<Dim>::is_surely_valid(double, double);                                            \
+    template void PairPotentialDriver<Dim>::begin_far(std::span<const Vector<Dim>>, double, double);                    \
+    template void PairPotentialDriver<Dim>::begin_near(std::span<const Vector<Dim>>, double, double);                   \
+    template void PairPotentialDriver<Dim>::set_placed_motion();                                                        \
+    template bool PairPotentialDriver<Dim>::is_valid_until(std::span<const Vector<Dim>>, double, double);               \
     template bool PairPotentialDriver<Dim>::is_valid_by_cells(std::span<const Vector<Dim>>, double);                    \
     template bool PairPotentialDriver<Dim>::is_valid_at_all_nodes(std::span<const Vector<Dim>>, double);                \
     template bool PairPotentialDriver<Dim>::may_search_near() const;                                                    \

@@ -1,4 +1,5 @@
 // The bound on the motion of corners that tells how long a candidate list is valid: never below the motion, and close to it.
+#include <algorithm>
 #include <array>
 #include <catch2/catch.hpp>
 #include <limits>
@@ -10,6 +11,7 @@
 #include "abut/mesh/shapes/shapes.hpp"
 #include "abut/solid/body/bodies.hpp"
 #include "abut/solid/contact/corner_surface.hpp"
+#include "abut/solid/contact/near_faces.hpp"
 #include "abut/solid/part/rank_part.hpp"
 #include "solid/scenes.hpp"
 
@@ -214,6 +216,72 @@ TEMPLATE_TEST_CASE_SIG("the bound on the motion of corners is the motion where b
     const auto bound = motion.until(q_1, corners.frames->end());
     CHECK(bound.in_space == Approx(farthest<Dim>(x_0, x_1)).epsilon(1e-9));
     CHECK(bound.in_frame < 1e-9);
+}
+
+TEMPLATE_TEST_CASE_SIG("the bound of a face is that of its motion beyond its slack", "[solid][candidates]", ((int Dim), Dim),
+                       2, 3) {
+    constexpr double any = std::numeric_limits<double>::infinity();
+    Corners<Dim> corners;
+    const auto q_0 = corners.moved(0.4, 0.1, 0.0, 1), q_1 = corners.moved(0.5, 0.3, 0.01, 2);
+    const auto x_0 = corners.place(q_0);
+    auto motion = corners.motion_from(*corners.all, q_0, corners.frames->end(), x_0);
+    auto plain = motion;
+    std::vector<double> slack;
+    for (std::size_t i = 0; i < corners.all->own.size(); ++i) slack.push_back(0.01 * static_cast<double>(i % 7));
+    motion.set_slack(slack);
+    const auto x_1 = corners.place(q_1);
+    const auto u_0 = corners.in_frames(q_0), u_1 = corners.in_frames(q_1);
+    std::vector<std::int32_t> all(slack.size());
+    std::iota(all.begin(), all.end(), 0);
+    for (auto* const of : {&motion, &plain}) {
+        of->advance(corners.frames->end(), farthest<Dim>(u_0, u_1));
+        of->look(all, q_1, corners.frames->end());
+    }
+    for (const bool is_known : {false, true}) {
+        if (is_known)
+            for (const std::int32_t i : all)
+                for (auto* const of : {&motion, &plain})
+                    of->set_in_space(i, corners.surface->motion(corners.all->own[i], x_0, x_1));
+        for (const double allowed : {0.0, 0.05, 0.2, 0.3, 0.4}) {
+            std::vector<std::int32_t> beyond;
+            for (const std::int32_t i : all) {
+                const auto of_plain = plain.beyond({allowed + slack[i], any});
+                if (std::ranges::binary_search(of_plain, i)) beyond.push_back(i);
+            }
+            CHECK(motion.beyond({allowed, any}) == beyond);
+            CHECK(motion.is_within({allowed, any}) == beyond.empty());
+        }
+    }
+}
+
+TEMPLATE_TEST_CASE_SIG("boxes of other bodies are as far away as the nearest of them", "[solid][candidates]",
+                       ((int Dim), Dim), 2, 3) {
+    const double most = GENERATE(0.3, 1.0, 100.0);
+    std::mt19937 random(1);
+    std::uniform_real_distribution<double> any(0.0, 1.0);
+    std::vector<geometry::Box<Dim>> boxes;
+    std::vector<std::int32_t> body;
+    for (std::int32_t i = 0; i < 400; ++i) {  // body 2 has none
+        body.push_back(i % 5 == 0 ? 0 : i % 5 < 3 ? 1 : 3);
+        Vector<Dim> lower, size;
+        for (double& value : lower) value = 2.0 * body.back() + 3.0 * any(random);
+        for (double& value : size) value = 0.1 * any(random);
+        boxes.push_back({lower, lower + size});
+    }
+    std::vector<double> expected(boxes.size(), most);
+    for (std::size_t i = 0; i < boxes.size(); ++i)
+        for (std::size_t j = 0; j < boxes.size(); ++j) {
+            if (body[i] == body[j]) continue;
+            double apart = 0.0;
+            for (int k = 0; k < Dim; ++k)
+                apart = std::max({apart, boxes[i].lower[k] - boxes[j].upper[k], boxes[j].lower[k] - boxes[i].upper[k]});
+            expected[i] = std::min(expected[i], apart);
+        }
+    CHECK(solid::distances_to_others<Dim>(boxes, body, most) == expected);
+    const std::vector<double> to_groups = solid::distances_to_groups<Dim>(boxes, body, most);
+    REQUIRE(to_groups.size() == expected.size());
+    for (std::size_t i = 0; i < expected.size(); ++i) CHECK(to_groups[i] <= expected[i]);
+    CHECK(std::ranges::max(to_groups) > 0.5 * std::ranges::max(expected));  // they tell something
 }
 
 TEMPLATE_TEST_CASE_SIG("a position that is not finite is farther than any bound allows", "[solid][candidates]",
