@@ -44,6 +44,7 @@ public:
         solid::Bond& bond = scene_.solid.bonds.emplace_back(solid::Bond{.sides = sides});
         const FractureSettings* fracture = fracture_of(sides[0]);
         if (!fracture) return;
+        bond.of_grains = true;
         bond.strength = fracture->strength;
         bond.fracture_energy = fracture->fracture_energy;
         bond.weibull_modulus = fracture->weibull;

@@ -268,6 +268,7 @@ Json bond_json(const Scene<Dim>& scene, const RunResult<Dim>& result) {
     }
     Json bonds = {{"made", std::move(made)}};
     if (result.dissipated.in_bonds != 0.0) bonds["dissipated"] = result.dissipated.in_bonds;
+    if (result.dissipated.at_splits != 0.0) bonds["dissipated_at_splits"] = result.dissipated.at_splits;
     if (!result.fragments.empty()) bonds["broken_share"] = result.broken_bonds;
     return {{"bonds", std::move(bonds)}};
 }

@@ -207,6 +207,7 @@ public:
         in_mesh_ = bodies_.boundary_in_mesh();
         for (std::size_t i = 0; i < options_.bonds.size(); ++i) append_places(i);
         find_joined();
+        find_glued();
         return std::move(found_);
     }
 
@@ -319,6 +320,15 @@ private:
                 if (bodies_.is_finite(place.bodies[side]) && here_[place.numbers[side]] != no_face)
                     found_.joined.push_back(here_[place.numbers[side]]);
         sort_unique(found_.joined);
+    }
+
+    void find_glued() {
+        for (const BondPlace<Dim>& place : found_.places) {
+            if (!bodies_.have_one_frame(place)) continue;
+            for (const std::size_t face : place.numbers)
+                if (here_[face] != no_face) found_.glued.push_back(here_[face]);
+        }
+        sort_unique(found_.glued);
     }
 
     const Bodies<Dim>& bodies_;
