@@ -180,6 +180,8 @@ TEST_CASE("a body that may break is cut into grains, whose bonds have its streng
     const WrittenScene small(plate(fracture));
     CHECK(input::text_of(input::check_scene(small.path()).faults).find("may break, and pieces that come off turn") !=
           std::string::npos);
+    CHECK(is_piece_refused(plate("kinematics = \"floating\"\n" + fracture) + "[contact]\nenabled = false\n",
+                           "body 'plate' may break, and with contact.enabled = false its pieces pass through each other"));
     CHECK(is_piece_refused(plate("kinematics = \"floating\"\nfracture = {grain = 4, strength = 1}\n"),
                            "leave each body whole"));
     CHECK(is_piece_refused(plate("kinematics = \"rigid\"\n" + fracture), "fracture"));
