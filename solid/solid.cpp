@@ -103,7 +103,7 @@ Solid<Dim>::Solid(const mesh::Mesh<Dim>& mesh, SolidOptions<Dim> options, const 
       rigid_force_(bodies_->rigid_forces()),
       rigid_stiffness_(bodies_->rigid_stiffness()) {
     std::iota(all_cells_.begin(), all_cells_.end(), 0);
-    check_erosion(mesh_.name, options_.erosion, mesh_.body_names.size());
+    check_erosion(mesh_.name, options_.erosion, mesh_.body_names);
     if (any_erosion(options_.erosion)) ccg_.watch_strains();
     bodies_->rigid().constrain_only(part_->own_rigid());
     if (!part_->is_whole()) meet_other_ranks();
