@@ -12,7 +12,8 @@ struct Losses {
     double by_damping = 0.0;    ///< Rayleigh's: >= 0
     double by_viscosity = 0.0;  ///< of shocks: >= 0
     double lagged = 0.0;  ///< what damping has taken and may give back in the next step, as it acts on the mean of two rates
-    double in_bonds = 0.0;  ///< what bonds had that broke: >= 0
+    double in_bonds = 0.0;   ///< what bonds had that broke: >= 0
+    double at_splits = 0.0;  ///< as parts of what came apart took frames of their own: small, without a sign
 
     [[nodiscard]] double total() const;
     Losses& operator+=(const Losses& other);
@@ -32,7 +33,8 @@ inline constexpr std::array all_losses{Loss{"dissipated_by_friction", &Losses::b
                                        Loss{"dissipated_by_damping", &Losses::by_damping},
                                        Loss{"dissipated_by_viscosity", &Losses::by_viscosity},
                                        Loss{"damping_lagged", &Losses::lagged},
-                                       Loss{"dissipated_in_bonds", &Losses::in_bonds}};
+                                       Loss{"dissipated_in_bonds", &Losses::in_bonds},
+                                       Loss{"dissipated_at_splits", &Losses::at_splits}};
 
 inline double Losses::total() const {
     double sum = 0.0;

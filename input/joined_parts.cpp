@@ -44,6 +44,7 @@ public:
         solid::Bond& bond = scene_.solid.bonds.emplace_back(solid::Bond{.sides = sides});
         const FractureSettings* fracture = fracture_of(sides[0]);
         if (!fracture) return;
+        bond.of_grains = true;
         bond.strength = fracture->strength;
         bond.fracture_energy = fracture->fracture_energy;
         bond.weibull_modulus = fracture->weibull;
@@ -66,7 +67,7 @@ private:
     void check(const std::vector<std::int32_t>& piece) {
         const auto first = static_cast<std::size_t>(piece.front());
         if (const BodySettings* body = table_of(name_of(piece.front()), settings_.bodies); body && body->fracture)
-            return check_that_turns(*body, scene_.solid.kinematics[first]);
+            return check_that_breaks(*body, scene_.solid.kinematics[first]);
         const auto fault = [&](std::int32_t body, const std::string& what) {
             faults_.push_back(
                 {settings_.file.string(), fmt::format("bodies '{}' and '{}' have faces in common and are one piece, but {}.",
@@ -83,7 +84,12 @@ private:
             if (moves_otherwise) fault(body, "their velocity or spin differs. Give it to the piece");
         }
     }
-    void check_that_turns(const BodySettings& body, solid::Kinematics of_scene) const {
+    void check_that_breaks(const BodySettings& body, solid::Kinematics of_scene) const {
+        if (!settings_.contact)
+            faults_.push_back(
+                {body.where, fmt::format("body '{}' may break, and with contact.enabled = false its pieces pass "
+                                         "through each other. Leave contact.enabled out, or fracture.",
+                                         body.name)});
         const auto kinematics = run::kinematics_of_all(settings_.options.kinematics).value_or(of_scene);
         if (settings_.options.kinematics == run::BodyKinematics::automatic || !solid::properties_of(kinematics).turns)
             faults_.push_back(

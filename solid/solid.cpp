@@ -75,7 +75,7 @@ std::unique_ptr<RankPart<Dim>> part_of_rank(const dynamics::Ranks& ranks, Bodies
     part->take_rest(bodies.rest());
     bodies.take_part(*part);
     FoundBonds<Dim> bonds = find_bond_places(bodies, *part);
-    bodies.take_bonds(std::move(bonds.places), std::move(bonds.coverage), bonds.joined);
+    bodies.take_bonds(std::move(bonds.places), std::move(bonds.coverage), bonds.joined, bonds.glued);
     if (free_faces_of(bodies) == FreeFaces::are_pushed) bodies.take_thick_cells(thick_cells(bodies, *part));
     return part;
 }
@@ -103,7 +103,7 @@ Solid<Dim>::Solid(const mesh::Mesh<Dim>& mesh, SolidOptions<Dim> options, const 
       rigid_force_(bodies_->rigid_forces()),
       rigid_stiffness_(bodies_->rigid_stiffness()) {
     std::iota(all_cells_.begin(), all_cells_.end(), 0);
-    check_erosion(mesh_.name, options_.erosion, mesh_.body_names.size());
+    check_erosion(mesh_.name, options_.erosion, mesh_.body_names);
     if (any_erosion(options_.erosion)) ccg_.watch_strains();
     bodies_->rigid().constrain_only(part_->own_rigid());
     if (!part_->is_whole()) meet_other_ranks();
@@ -120,6 +120,7 @@ Solid<Dim>::Solid(const mesh::Mesh<Dim>& mesh, SolidOptions<Dim> options, const 
     if (bodies_->any_finite() && (mean_force == MeanForce::closed_trapezoid || mean_force == MeanForce::automatic))
         closure_ = std::make_unique<TrapezoidClosure<Dim>>(*bodies_, *part_, ccg_);
     bonds_ = std::make_unique<Bonds<Dim>>(*bodies_, ccg_, *frames_, *part_);
+    unite_frames();
     if (!options_.contact) return;
     const ContactLaw law = acting_law(options_.law);
     refuse_choices_of_other_law(law, options_);
@@ -132,6 +133,15 @@ Solid<Dim>::Solid(const mesh::Mesh<Dim>& mesh, SolidOptions<Dim> options, const 
 
 template <int Dim>
 Solid<Dim>::~Solid() = default;
+
+/// Bodies have the frames of what bonds hold together.
+template <int Dim>
+void Solid<Dim>::unite_frames() {
+    std::vector<std::int32_t> groups = bonds_->frame_groups();
+    if (groups == frames_->united()) return;
+    frames_->unite(std::move(groups));
+    if (frame_loads_->any()) frame_loads_->take(loads_->end());
+}
 
 /// What is brought from them and computed here is what forces on own cells depend on.
 template <int Dim>

@@ -226,6 +226,8 @@ private:
     void take_result(std::span<double> of_points) const;
     [[nodiscard]] double potential_here(std::span<const Vector<Dim>> u);
     [[nodiscard]] double stored_energy(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load);
+    void unite_frames();
+    void part_frames(std::span<const Vector<Dim>> q);
     void meet_other_ranks();
 
     [[nodiscard]] std::span<const Vector<Dim>> of_cells(std::span<const Vector<Dim>> q) const;

@@ -164,6 +164,7 @@ dynamics::IntegratorState Solid<Dim>::take_over(const Solid& before, const dynam
     bodies_->rigid().take_over(before.bodies_->rigid());
     ccg_.take_memory(before.ccg_, cells, cell_faces);
     bonds_->take_over(*before.bonds_, boundary);
+    unite_frames();
     if ((contact_ != nullptr) != (before.contact_ != nullptr) ||
         (contact_ && contact_->contact().index() != before.contact_->contact().index()))
         refuse_change(mesh_.name, "contact is by another law than before, or by none. Keep the law of contact.");

@@ -17,7 +17,7 @@
 namespace abut::solid {
 namespace {
 
-constexpr std::uint32_t version = 7;
+constexpr std::uint32_t version = 8;
 
 template <int Dim>
 std::string kind() {
@@ -65,6 +65,7 @@ std::vector<std::byte> Solid<Dim>::state() const {
     save_memory(state);
     if (bonds_->any()) {
         state.put(dissipated_.in_bonds);
+        state.put(dissipated_.at_splits);
         bonds_->save(state);
     }
     state.put(static_cast<std::uint8_t>(contact_ != nullptr));
@@ -106,7 +107,9 @@ void Solid<Dim>::restore(std::span<const std::byte> bytes, std::span<const doubl
     restore_memory(state);
     if (bonds_->any()) {
         dissipated_.in_bonds = state.get<double>();
+        dissipated_.at_splits = state.get<double>();
         bonds_->restore(state);
+        unite_frames();
     }
     if ((state.get<std::uint8_t>() != 0) != (contact_ != nullptr))
         throw BadInput(mesh_.name + ": the saved state is of a solid " + (contact_ ? "without" : "with") +

@@ -95,6 +95,17 @@ void Solid<Dim>::mean_force(std::span<const double> q_0, std::span<const double>
     bonds_->set_shares(changes, Bonds<Dim>::When::end);
     const bool any_breaks = std::ranges::any_of(changes, [](const BondChange& change) { return change.end == 0.0; });
     if (contact_ && any_breaks) contact_->jumped(u_1, time + dt);  // more faces may touch than in its list
+    if (any_breaks) part_frames(u_1);
+}
+
+/// Each part of what has come apart in a step that ended at q takes a frame of its own. What V loses by that is booked.
+template <int Dim>
+void Solid<Dim>::part_frames(std::span<const Vector<Dim>> q) {
+    if (bonds_->frame_groups() == frames_->united()) return;
+    const double before = potential_here(q);
+    unite_frames();
+    frames_->end_at(of_cells(q));
+    dissipated_.at_splits += before - potential_here(q);
 }
 
 template <int Dim>
@@ -353,6 +364,7 @@ void Solid<Dim>::add_contact_impulse(const dynamics::FreeFlight& flight, double 
                                          std::span<double>);                                               \
     template void Solid<Dim>::end_force(std::span<const double>, std::span<const double>, double, double,  \
                                         std::span<double>);                                                \
+    template void Solid<Dim>::part_frames(std::span<const Vector<Dim>>);                                   \
     template bool Solid<Dim>::is_autonomous() const;                                                       \
     template void Solid<Dim>::set_levels(std::int32_t, std::span<const std::int32_t>);                     \
     template void Solid<Dim>::add_impulse(std::int32_t, const dynamics::FreeFlight&, double, double, std::span<double>);

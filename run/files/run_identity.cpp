@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cstdint>
 #include <span>
+#include <utility>
 
 #include "abut/base/error.hpp"
 #include "abut/base/state_bytes.hpp"
@@ -21,6 +23,35 @@ std::string checksum(const mesh::Mesh<Dim>& mesh) {
     return fmt::format("{:016x}", sum.value());
 }
 
+/// Checksum of what bonds are made of: states remember which broke, and the strengths that were drawn.
+template <int Dim>
+std::string checksum_of_bonds(const solid::SolidOptions<Dim>& solid) {
+    Checksum sum;
+    for (const solid::Bond& bond : solid.bonds) {
+        sum.add_values<std::int32_t>(bond.sides);
+        const std::array values{bond.strength, bond.fracture_energy, bond.weibull_modulus};
+        sum.add_values<double>(values);
+        sum.add_values<std::uint32_t>(std::span(&bond.seed, 1));
+    }
+    return fmt::format("{:016x}", sum.value());
+}
+
+/// By bodies that have any.
+template <int Dim>
+Json erosion_limits(const Scene<Dim>& scene) {
+    Json limits = Json::object();
+    for (std::size_t body = 0; body < scene.solid.erosion.size(); ++body) {
+        const solid::ErosionLimits& of_body = scene.solid.erosion[body];
+        const auto add = [&](const char* name, double limit) {
+            if (limit < solid::ErosionLimits::none) limits[scene.mesh.body_names[body]][name] = limit;
+        };
+        add("strain", of_body.strain);
+        add("plastic_strain", of_body.plastic_strain);
+        add("stress", of_body.stress);
+    }
+    return limits;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -31,6 +62,8 @@ std::string identity(const Scene<Dim>& scene, const RunResult<Dim>& result) {
                    {"checksum of the meshes", checksum(scene.mesh)},
                    {"step [s]", result.dt},
                    {"steps", result.steps}};
+    if (!scene.solid.bonds.empty()) of_run["checksum of the bonds"] = checksum_of_bonds<Dim>(scene.solid);
+    if (Json limits = erosion_limits(scene); !limits.empty()) of_run["limits of erosion"] = std::move(limits);
     of_run.update(to_json(scene.options));
     of_run.update(to_json(named_values(result.options)));
     for (const Option<RunOptions>& option : run_options())

@@ -96,14 +96,16 @@ Markup energies_part(const Figures& figures, const RunResult<Dim>& result) {
     return section("Energies", energy_pictures(result) + numbers);
 }
 
+template <int Dim>
 Markup erosion_part(const Figures& figures) {
+    const char *mass = Dim == 2 ? "kg/m" : "kg", *energy = Dim == 2 ? "J/m" : "J";
     if (!figures.summary().contains("erosion")) return {};
     return section("Erosion",
                    table({"", ""}, {figure_row(figures, "cells that left", "erosion.cells", ""),
-                                    figure_row(figures, "their mass", "erosion.mass", "kg"),
+                                    figure_row(figures, "their mass", "erosion.mass", mass),
                                     figure_row(figures, "share of the mass at the start", "erosion.mass_share", ""),
-                                    figure_row(figures, "kinetic energy that they took along", "erosion.kinetic", "J"),
-                                    figure_row(figures, "change of V as they left", "erosion.potential", "J"),
+                                    figure_row(figures, "kinetic energy that they took along", "erosion.kinetic", energy),
+                                    figure_row(figures, "change of V as they left", "erosion.potential", energy),
                                     figure_row(figures, "share of the energy in play", "erosion.energy_share", ""),
                                     figure_row(figures, "the first left at", "erosion.first_time", "s"),
                                     figure_row(figures, "the last left at", "erosion.last_time", "s")}));
@@ -119,9 +121,9 @@ Markup bodies_part(const Figures& figures, const Scene<Dim>& scene, const RunRes
                             at("velocity_initial"), at("velocity_final"), at("spin_initial"), at("spin_final"),
                             at("rotation_final"), at("inertia_share")}));
     }
-    return section("Bodies", table({"body", "moves as", "cells", "mass [kg]", "velocity at the start [m/s]",
-                                    "at the end [m/s]", "spin at the start [rad/s]", "at the end [rad/s]", "turned by [rad]",
-                                    "I of its points over I, least"},
+    return section("Bodies", table({"body", "moves as", "cells", Dim == 2 ? "mass [kg/m]" : "mass [kg]",
+                                    "velocity at the start [m/s]", "at the end [m/s]", "spin at the start [rad/s]",
+                                    "at the end [rad/s]", "turned by [rad]", "I of its points over I, least"},
                                    rows));
 }
 
@@ -388,7 +390,7 @@ std::string report_html(const std::string& program, const Scene<Dim>& scene, con
                         energies_part(figures, result) + bodies_part(figures, scene, result) +
                         materials_part(scene, result) + contact_part(figures, scene, result, sources) +
                         friction_part(figures, scene, result) + plasticity_part(figures) + damping_part(figures) +
-                        erosion_part(figures) + bonds_part(figures, scene) + fragments_part(figures, result) +
+                        erosion_part<Dim>(figures) + bonds_part(figures, scene) + fragments_part(figures, result) +
                         probes_part(scene, sources) + findings_part(figures, result.findings) +
                         settings_part(figures, scene, result) + seconds_part(figures) + files_part(files);
     return "<!DOCTYPE html>\n" + page((scene.title.empty() ? program : scene.title) + ": report of a run", body).html() +

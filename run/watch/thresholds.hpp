@@ -17,6 +17,9 @@ inline constexpr double far_rotation = 0.1;
 /// docs/limits.md.
 inline constexpr double enough_inertia = 0.98;
 
+/// E G/strength^2 over the size of a cell below which a bond opens within about one cell [-]. docs/limits.md.
+inline constexpr double enough_cohesive_length = 1.0;
+
 /// |E| above which the strain of a finite body is worth a word [-]: its material is one of small strains. docs/limits.md.
 inline constexpr double large_strain = 0.2;
 

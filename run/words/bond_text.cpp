@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace abut::run {
 
@@ -16,9 +18,17 @@ std::string bonded_text(std::span<const solid::BondCoverage> bonds) {
         opposite += bond.opposite;
         gap = std::max(gap, bond.largest_gap);
     }
-    return fmt::format("{:.3g} of {:.4g} {}, {:.3g} of the smaller side, largest gap {:.2g} m{}", share, opposite,
+    const double cohesive = cohesive_length(bonds);
+    return fmt::format("{:.3g} of {:.4g} {}, {:.3g} of the smaller side, largest gap {:.2g} m{}{}", share, opposite,
                        Dim == 2 ? "m" : "m^2", of_side, gap,
+                       std::isfinite(cohesive) ? fmt::format(", cohesive length {:.3g} cells", cohesive) : "",
                        bonds.size() > 1 ? fmt::format("; the least of {} bonds", bonds.size()) : "");
+}
+
+double cohesive_length(std::span<const solid::BondCoverage> bonds) {
+    double least = std::numeric_limits<double>::infinity();
+    for (const solid::BondCoverage& bond : bonds) least = std::min(least, bond.cohesive_length);
+    return least;
 }
 
 template std::string bonded_text<2>(std::span<const solid::BondCoverage>);

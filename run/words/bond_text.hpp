@@ -6,9 +6,13 @@
 
 namespace abut::run {
 
-/// How much of some bonds is bonded, in words: "1 of 0.6 m, 0.6 of the smaller side, largest gap 0 m". Of several it
-/// has the least shares, the area of all and the largest gap. Empty without bonds.
+/// How much of some bonds is bonded, in words: "1 of 0.6 m, 0.6 of the smaller side, largest gap 0 m", and the
+/// cohesive length of those that take a fracture energy. Of several it has the least shares and the least cohesive
+/// length, the area of all and the largest gap. Empty without bonds.
 template <int Dim>
 [[nodiscard]] std::string bonded_text(std::span<const solid::BondCoverage> bonds);
+
+/// Least BondCoverage::cohesive_length of some bonds [-]; infinity where none takes a fracture energy.
+[[nodiscard]] double cohesive_length(std::span<const solid::BondCoverage> bonds);
 
 }  // namespace abut::run

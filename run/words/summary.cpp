@@ -18,6 +18,7 @@
 #include "abut/run/option_table.hpp"
 #include "abut/run/result.hpp"
 #include "abut/run/scene.hpp"
+#include "abut/run/words/bond_text.hpp"
 #include "abut/run/words/erosion_text.hpp"
 #include "abut/run/words/table_line.hpp"
 #include "abut/run/words/verdict.hpp"
@@ -268,6 +269,8 @@ Json bond_json(const Scene<Dim>& scene, const RunResult<Dim>& result) {
     }
     Json bonds = {{"made", std::move(made)}};
     if (result.dissipated.in_bonds != 0.0) bonds["dissipated"] = result.dissipated.in_bonds;
+    if (result.dissipated.at_splits != 0.0) bonds["dissipated_at_splits"] = result.dissipated.at_splits;
+    if (const double least = cohesive_length(result.bonds); std::isfinite(least)) bonds["cohesive_length"] = least;
     if (!result.fragments.empty()) bonds["broken_share"] = result.broken_bonds;
     return {{"bonds", std::move(bonds)}};
 }
@@ -389,9 +392,11 @@ std::string fragment_line(const RunResult<Dim>& result) {
         all += fragment.mass;
         largest = std::max(largest, fragment.mass);
     }
+    const double cohesive = cohesive_length(result.bonds);
     return table_line("fragments",
                       fmt::format("{} of {} bonded bodies, the largest {:.3g} of their mass; {:.3g} of the bonds broken",
-                                  result.fragments.size(), bodies, largest / all, result.broken_bonds));
+                                  result.fragments.size(), bodies, largest / all, result.broken_bonds)) +
+           (std::isfinite(cohesive) ? table_line("cohesive length of bonds", fmt::format("{:.3g} cells", cohesive)) : "");
 }
 
 /// Bodies that were never bonded come first: those of fragments are many, and have their table in the summary.

@@ -14,18 +14,19 @@ enum class Severity {
 
 /// Subject of a warning, with what its `value` counts; what is counted has the threshold 0.
 enum class WarningKind {
-    mesh_file,            ///< the reader of a file warned; no value
-    unused_vertices,      ///< note: vertices that belong to no cell
-    ignored_elements,     ///< note: elements of a file that are neither cells nor named faces
-    turned_cells,         ///< note: cells that were given inside out, and are turned
-    cut_cells,            ///< note: cells that were cut because of faces that are not planar
-    coincident_vertices,  ///< note: vertices at the place of one of another body
-    unjoined_faces,       ///< faces that lie on others of their body and are not joined to them
-    missing_bond,         ///< BondCoverage::share of a bond [-]; threshold: enough_bond
-    slow_cell,            ///< SlowCell::share of the cell that decides the step [-]; threshold: slow_cell_share
-    missing_inertia,      ///< BodyInertia::least of a body that may turn [-]; threshold: enough_inertia
-    extrapolated_faces,   ///< note: faces that extrapolate from the cells around them: the stable step is shorter
-    blind_corners,        ///< corners too sharp for contact to see
+    mesh_file,              ///< the reader of a file warned; no value
+    unused_vertices,        ///< note: vertices that belong to no cell
+    ignored_elements,       ///< note: elements of a file that are neither cells nor named faces
+    turned_cells,           ///< note: cells that were given inside out, and are turned
+    cut_cells,              ///< note: cells that were cut because of faces that are not planar
+    coincident_vertices,    ///< note: vertices at the place of one of another body
+    unjoined_faces,         ///< faces that lie on others of their body and are not joined to them
+    missing_bond,           ///< BondCoverage::share of a bond [-]; threshold: enough_bond
+    short_cohesive_length,  ///< BondCoverage::cohesive_length [-]; threshold: enough_cohesive_length
+    slow_cell,              ///< SlowCell::share of the cell that decides the step [-]; threshold: slow_cell_share
+    missing_inertia,        ///< BodyInertia::least of a body that may turn [-]; threshold: enough_inertia
+    extrapolated_faces,     ///< note: faces that extrapolate from the cells around them: the stable step is shorter
+    blind_corners,          ///< corners too sharp for contact to see
     unseen_edges,     ///< how much crossing edges look at each other [-]; threshold: below it the law that acts misses them
     behind_obstacle,  ///< a body, or all of them, behind an obstacle at the start; no value
     hidden_mode,     ///< RunOptions::interval where every record comes right after a restart; threshold: RunOptions::restart
@@ -63,7 +64,7 @@ struct Warning {
     std::string text;  ///< a sentence without its full stop: what, how much, how much is safe, what to do
     double value;      ///< see WarningKind; NaN: none
     double
-        threshold;  ///< above which (unseen_edges, missing_bond, slow_cell, missing_inertia, alternating_slip: below which) `value` is worth a word
+        threshold;  ///< above which (unseen_edges, missing_bond, short_cohesive_length, slow_cell, missing_inertia, alternating_slip: below which) `value` is worth a word
 };
 
 /// Known once all is set up, before the first step: of the mesh, the reconstruction, the surface. For Observer::begin.

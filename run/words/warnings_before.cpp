@@ -17,6 +17,7 @@
 #include "abut/run/result.hpp"
 #include "abut/run/watch/obstacle_watch.hpp"
 #include "abut/run/watch/slow_cell.hpp"
+#include "abut/run/words/bond_text.hpp"
 #include "abut/run/words/counts.hpp"
 #include "abut/run/words/warnings.hpp"
 #include "abut/solid/kinematics/properties.hpp"
@@ -143,6 +144,23 @@ void add_bonds(Counts& counts, const Scene<Dim>& scene, const RunResult<Dim>& re
     }
 }
 
+/// Warns that bonds open within less than a cell: of the one that does most.
+template <int Dim>
+void add_cohesive_length(Counts& counts, const Scene<Dim>& scene, const RunResult<Dim>& result) {
+    if (!(cohesive_length(result.bonds) < enough_cohesive_length)) return;
+    const auto worst = std::ranges::min_element(result.bonds, {}, &solid::BondCoverage::cohesive_length);
+    const solid::Bond& bond = scene.solid.bonds[static_cast<std::size_t>(worst - result.bonds.begin())];
+    counts.warnings.push_back(
+        {WarningKind::short_cohesive_length, Severity::warning,
+         fmt::format(
+             "the bond of {} and {} opens over a length of {:.3g} cells (young fracture_energy/strength^2), {:g} is "
+             "needed: stress at its cracks is not resolved, and what it bears depends on the mesh. Take cells {:.2g} "
+             "times smaller, a lower strength or more fracture_energy",
+             quoted_side(scene, bond.sides[0]), quoted_side(scene, bond.sides[1]), worst->cohesive_length,
+             enough_cohesive_length, std::ceil(10.0 * enough_cohesive_length / worst->cohesive_length) / 10.0),
+         worst->cohesive_length, enough_cohesive_length});
+}
+
 /// Warns that the mass of cells at their centroids leaves out a part of the inertia of bodies that turn: of the one that
 /// lacks most, and of how many more.
 template <int Dim>
@@ -189,6 +207,7 @@ std::vector<Warning> warnings_before(const Scene<Dim>& scene, const RunResult<Di
     add_mesh(counts, scene.mesh.report, scene.contact);
     add_unjoined(counts, result);
     add_bonds(counts, scene, result);
+    add_cohesive_length(counts, scene, result);
     add_slow_cell(counts, scene, result);
     add_inertia(counts, scene, result);
     const auto& stencils = result.stencils;

@@ -161,10 +161,21 @@ SolidPoints<Dim> Bodies<Dim>::points() const {
 
 template <int Dim>
 void Bodies<Dim>::take_bonds(std::vector<BondPlace<Dim>> places, std::vector<BondCoverage> coverage,
-                             std::span<const BoundaryFace> joined) {
+                             std::span<const BoundaryFace> joined, std::span<const BoundaryFace> glued) {
     bond_places_ = std::move(places);
     bond_coverage_ = std::move(coverage);
     for (const BoundaryFace b : joined) part_options_.boundary.joined_faces.push_back(mesh_face(deformable(), b));
+    for (const BoundaryFace b : glued) part_options_.boundary.glued_faces.push_back(mesh_face(deformable(), b));
+}
+
+/// Metal behind a joint would flow by its cells alone, as if nothing pulled.
+template <int Dim>
+bool Bodies<Dim>::have_one_frame(const BondPlace<Dim>& place) const {
+    const auto fits = [&](std::int32_t body) {
+        const bool is_metal = options_.materials[static_cast<std::size_t>(body)].law == MaterialLaw::j2;
+        return properties(body).has_frame && !is_metal;
+    };
+    return options_.bonds[place.bond].of_grains && std::ranges::all_of(place.bodies, fits);
 }
 
 template <int Dim>

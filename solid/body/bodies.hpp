@@ -35,10 +35,10 @@ public:
     void place_cell_points(const RankPart<Dim>& part);
     /// Who brings ranks together from then on, in what is said to be a call of all; to be called before any of that.
     void take_part(const RankPart<Dim>& part) { rank_part_ = &part; }
-    /// Takes the places of bonds and the boundary faces of `deformable` that they join; to be called before anything is
-    /// made of `deformable`.
+    /// Takes the places of bonds and the boundary faces of `deformable` that they join or glue; to be called before
+    /// anything is made of `deformable`.
     void take_bonds(std::vector<BondPlace<Dim>> places, std::vector<BondCoverage> coverage,
-                    std::span<const BoundaryFace> joined);
+                    std::span<const BoundaryFace> joined, std::span<const BoundaryFace> glued);
     /// BoundaryConditions::thick_cells of `deformable`, increasing; the same.
     void take_thick_cells(std::vector<std::int32_t> cells) { part_options_.boundary.thick_cells = std::move(cells); }
 
@@ -55,6 +55,12 @@ public:
     [[nodiscard]] bool is_finite(std::int32_t body) const { return properties(body).finite_strains; }
     [[nodiscard]] bool any_finite() const { return any_finite_; }
     [[nodiscard]] bool any_turns() const { return any_turns_; }
+    /// Whether both bodies of a place have one frame as long as bonds hold them: floating ones, with Bond::of_grains.
+    [[nodiscard]] bool have_one_frame(const BondPlace<Dim>& place) const;
+    /// Whether a place joins half cells in one frame; else it is a spring in space.
+    [[nodiscard]] bool is_joint(const BondPlace<Dim>& place) const {
+        return have_one_frame(place) || (!turns(place.bodies[0]) && !turns(place.bodies[1]));
+    }
     /// How a traction of `options` is held.
     [[nodiscard]] TractionHold traction_hold(std::size_t condition) const { return traction_holds_[condition]; }
     /// Its points are [first, second).

@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <numeric>
 #include <string>
 #include <utility>
 
@@ -108,7 +109,9 @@ template <int Dim>
 BodyFrames<Dim>::BodyFrames(std::span<const Vector<Dim>> rest, std::span<const double> masses,
                             std::vector<std::int32_t> begin, std::vector<bool> turns, std::span<const std::string> names,
                             const RankPart<Dim>& part)
-    : part_(part),
+    : rest_points_(rest),
+      masses_(masses),
+      part_(part),
       begin_(std::move(begin)),
       turns_(std::move(turns)),
       any_turns_(std::ranges::find(turns_, true) != turns_.end()),
@@ -120,32 +123,63 @@ BodyFrames<Dim>::BodyFrames(std::span<const Vector<Dim>> rest, std::span<const d
     mass_.resize(turns_.size());
     for (std::size_t body = 0; body < turns_.size(); ++body)
         body_.resize(static_cast<std::size_t>(begin_[body + 1]), static_cast<std::int32_t>(body));
-    set_rest(rest, masses);
+    std::vector<std::int32_t> alone(turns_.size());
+    std::iota(alone.begin(), alone.end(), 0);
+    unite(std::move(alone));
     for (std::size_t body = 0; body < turns_.size(); ++body)
         if (turns_[body]) require_width<Dim>(rest_[body].moment, names[body]);
-    start_ = end_ = state_ = rest_;
 }
 
 template <int Dim>
-void BodyFrames<Dim>::set_rest(std::span<const Vector<Dim>> rest, std::span<const double> masses) {
-    const std::vector<Vector<Dim>> origins = part_.of_first_cells(rest);
-    for (std::size_t body = 0; body < turns_.size(); ++body) {
-        BodyFrame<Dim>& frame = rest_[body];
-        mass_[body] = sum_of(body, 0.0, [&](std::ptrdiff_t i) { return masses[i]; });
-        const Vector<Dim> moment = sum_of(body, Vector<Dim>::Zero(), [&](std::ptrdiff_t i) -> Vector<Dim> {
-            return masses[i] * (rest[i] - origins[body]);
-        });
-        frame.centre = origins[body] + moment / mass_[body];
-        for (std::int32_t i = begin_[body]; i < begin_[body + 1]; ++i) {
-            const Vector<Dim> arm = rest[i] - frame.centre;
-            store(load_packed<Dim>(arm), arm_, i);
-            for (int k = 0; k < Dim; ++k) weighted_arm_[4 * i + k] = masses[i] * arm[k];
-            weighted_arm_[4 * i + Dim] = masses[i];
+void BodyFrames<Dim>::unite(std::vector<std::int32_t> first) {
+    first_ = std::move(first);
+    groups_.clear();
+    std::vector<std::size_t> group_of(first_.size());
+    for (std::size_t body = 0; body < first_.size(); ++body) {
+        const auto leader = static_cast<std::size_t>(first_[body]);
+        if (leader == body) {
+            group_of[body] = groups_.size();
+            groups_.emplace_back();
         }
-        frame.moment = sum_of(body, Matrix<Dim>::Zero(), [&](std::ptrdiff_t i) -> Matrix<Dim> {
-            const Vector<Dim> arm = rest[i] - frame.centre;
-            return masses[i] * arm * arm.transpose();
-        });
+        groups_[group_of[leader]].push_back(body);
+    }
+    set_rest();
+    start_ = end_ = state_ = rest_;
+    has_stepped_ = false;
+}
+
+template <int Dim>
+void BodyFrames<Dim>::set_rest() {
+    const std::vector<Vector<Dim>> origins = part_.of_first_cells(rest_points_);
+    for (const std::vector<std::size_t>& group : groups_) {
+        const Vector<Dim>& origin = origins[group.front()];
+        double mass = 0.0;
+        Vector<Dim> moment = Vector<Dim>::Zero();
+        for (const std::size_t body : group) {
+            mass += sum_of(body, 0.0, [&](std::ptrdiff_t i) { return masses_[i]; });
+            moment += sum_of(body, Vector<Dim>::Zero(), [&](std::ptrdiff_t i) -> Vector<Dim> {
+                return masses_[i] * (rest_points_[i] - origin);
+            });
+        }
+        BodyFrame<Dim> frame;
+        frame.centre = origin + moment / mass;
+        frame.moment.setZero();
+        for (const std::size_t body : group) {
+            for (std::int32_t i = begin_[body]; i < begin_[body + 1]; ++i) {
+                const Vector<Dim> arm = rest_points_[i] - frame.centre;
+                store(load_packed<Dim>(arm), arm_, i);
+                for (int k = 0; k < Dim; ++k) weighted_arm_[4 * i + k] = masses_[i] * arm[k];
+                weighted_arm_[4 * i + Dim] = masses_[i];
+            }
+            frame.moment += sum_of(body, Matrix<Dim>::Zero(), [&](std::ptrdiff_t i) -> Matrix<Dim> {
+                const Vector<Dim> arm = rest_points_[i] - frame.centre;
+                return masses_[i] * arm * arm.transpose();
+            });
+        }
+        for (const std::size_t body : group) {
+            rest_[body] = frame;
+            mass_[body] = mass;
+        }
     }
 }
 
@@ -158,11 +192,17 @@ Value BodyFrames<Dim>::sum_of(std::size_t body, const Value& zero, const Term& t
     return part_.sum_of_body(body, zero, term);
 }
 
-/// add(sum, point) adds what a point of the body has.
+/// add(sum, point) adds what a point of these bodies has.
 template <int Dim>
 template <class Add>
-auto BodyFrames<Dim>::moments(std::size_t body, const Add& add) const {
-    return part_.is_whole() ? sum_moments<Dim>(begin_[body], begin_[body + 1], add) : sum_moments<Dim>(part_, body, add);
+auto BodyFrames<Dim>::moments(std::span<const std::size_t> group, const Add& add) const {
+    const auto of_body = [&](std::size_t body) {
+        return part_.is_whole() ? sum_moments<Dim>(begin_[body], begin_[body + 1], add)
+                                : sum_moments<Dim>(part_, body, add);
+    };
+    auto sums = of_body(group.front());
+    for (const std::size_t body : group.subspan(1)) sums += of_body(body);
+    return sums;
 }
 
 // Places of the frames -----------------------------------------------------------------------------------------------
@@ -171,16 +211,28 @@ auto BodyFrames<Dim>::moments(std::size_t body, const Add& add) const {
 template <int Dim>
 void BodyFrames<Dim>::place(std::span<const Vector<Dim>> q, std::vector<BodyFrame<Dim>>& frames) const {
     const std::vector<Vector<Dim>> origins = part_.of_first_cells(q);
-    for (std::size_t body = 0; body < turns_.size(); ++body) {
-        if (!turns_[body]) continue;
-        const Lanes<Dim> origin = load_packed<Dim>(origins[body]);
-        const auto sums = moments(body, [&](Moments<Dim>& sum, std::ptrdiff_t i) {
+    for (const std::vector<std::size_t>& group : groups_) {
+        const std::size_t first = group.front();
+        if (!turns_[first]) continue;
+        const Lanes<Dim> origin = load_packed<Dim>(origins[first]);
+        const auto sums = moments(group, [&](Moments<Dim>& sum, std::ptrdiff_t i) {
             sum.add(load_packed<Dim>(q[i]) - origin, load_four(weighted_arm_, i));
         });
-        frames[body].centre = rest_[body].centre + origins[body] + sums.col(Dim) / mass_[body];
-        frames[body].moment = rest_[body].moment + sums.template leftCols<Dim>();
-        frames[body].turn = nearest_rotation(frames[body].moment);
+        frames[first].centre = rest_[first].centre + origins[first] + sums.col(Dim) / mass_[first];
+        frames[first].moment = rest_[first].moment + sums.template leftCols<Dim>();
+        frames[first].turn = nearest_rotation(frames[first].moment);
+        for (const std::size_t body : group) frames[body] = frames[first];
     }
+}
+
+template <int Dim>
+void BodyFrames<Dim>::end_at(std::span<const Vector<Dim>> q) {
+    is_standing_ = false;
+    if (!any_turns_) return;
+    place(q, end_);
+    start_ = end_;
+    set_steps();
+    has_stepped_ = true;
 }
 
 template <int Dim>
@@ -274,32 +326,43 @@ template <int Dim>
 void BodyFrames<Dim>::to_force(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1,
                                std::span<const BodyPush<Dim>> pushes, std::span<const Vector<Dim>> force,
                                std::span<Vector<Dim>> gradient) {
-    for (std::size_t body = 0; body < turns_.size(); ++body) {
-        if (!turns_[body]) {
-            part_.each_cell_of_body(body, [&](std::ptrdiff_t i) {
-                gradient[i] = force.empty() ? Vector<Dim>(-gradient[i]) : Vector<Dim>(force[i] - gradient[i]);
-            });
+    for (const std::vector<std::size_t>& group : groups_) {
+        const std::size_t first = group.front();
+        if (!turns_[first]) {
+            for (const std::size_t body : group)
+                part_.each_cell_of_body(body, [&](std::ptrdiff_t i) {
+                    gradient[i] = force.empty() ? Vector<Dim>(-gradient[i]) : Vector<Dim>(force[i] - gradient[i]);
+                });
             continue;
         }
-        const BodyPush<Dim> push = pushes.empty() ? BodyPush<Dim>{} : pushes[body];
-        const Matrix<Dim>& turn = steps_[body].mean_turn();
-        const Vector<Dim> mean_centre = 0.5 * (start()[body].centre + this->end()[body].centre);
-        const Lanes<Dim> shift = load_packed<Dim>(Vector<Dim>(mean_centre - rest_[body].centre));
-        const auto sums = moments(body, [&](Moments<Dim>& sum, std::ptrdiff_t i) {
+        BodyPush<Dim> push;
+        for (const std::size_t body : group) {
+            if (pushes.empty()) break;
+            push.gradient += pushes[body].gradient;
+            push.moment += pushes[body].moment;
+        }
+        const Matrix<Dim>& turn = steps_[first].mean_turn();
+        const Vector<Dim> mean_centre = 0.5 * (start()[first].centre + this->end()[first].centre);
+        const Lanes<Dim> shift = load_packed<Dim>(Vector<Dim>(mean_centre - rest_[first].centre));
+        const auto sums = moments(group, [&](Moments<Dim>& sum, std::ptrdiff_t i) {
             const Lanes<Dim> moved = 0.5 * (load_packed<Dim>(q_0[i]) + load_packed<Dim>(q_1[i])) - shift;
             sum.add(load_packed<Dim>(gradient[i]), with_one(rest_arm(i) + moved));
         });
-        lambda_[body] = steps_[body].carry(axial<Dim>(Matrix<Dim>(push.moment - turn * sums.template leftCols<Dim>())));
+        const AxialVector<Dim> lambda =
+            steps_[first].carry(axial<Dim>(Matrix<Dim>(push.moment - turn * sums.template leftCols<Dim>())));
         // dV/dx = turn f + (turn hat(lambda)) m X' + m missing
         const LaneTensor<Dim> turning = load_packed<Dim>(turn);
-        const LaneTensor<Dim> carrying = load_packed<Dim>(Matrix<Dim>(turn * hat<Dim>(lambda_[body])));
-        const Lanes<Dim> missing = load_packed<Dim>(Vector<Dim>((push.gradient - turn * sums.col(Dim)) / mass_[body]));
-        part_.each_cell_of_body(body, [&](std::ptrdiff_t i) {
-            const Register4 weighted = load_four(weighted_arm_, i);
-            Lanes<Dim> sum = turning * load_packed<Dim>(gradient[i]) + weighted[Dim] * missing;
-            for (int k = 0; k < Dim; ++k) sum += weighted[k] * carrying.col[k];
-            gradient[i] = unload<Dim>(force.empty() ? -sum : load_packed<Dim>(force[i]) - sum);
-        });
+        const LaneTensor<Dim> carrying = load_packed<Dim>(Matrix<Dim>(turn * hat<Dim>(lambda)));
+        const Lanes<Dim> missing = load_packed<Dim>(Vector<Dim>((push.gradient - turn * sums.col(Dim)) / mass_[first]));
+        for (const std::size_t body : group) {
+            lambda_[body] = lambda;
+            part_.each_cell_of_body(body, [&](std::ptrdiff_t i) {
+                const Register4 weighted = load_four(weighted_arm_, i);
+                Lanes<Dim> sum = turning * load_packed<Dim>(gradient[i]) + weighted[Dim] * missing;
+                for (int k = 0; k < Dim; ++k) sum += weighted[k] * carrying.col[k];
+                gradient[i] = unload<Dim>(force.empty() ? -sum : load_packed<Dim>(force[i]) - sum);
+            });
+        }
     }
 }
 

@@ -34,11 +34,17 @@ template <int Dim>
 class BodyFrames {
 public:
     /// Points of body b are [begin[b], begin[b + 1]); `turns`: whether its frame moves. Throws BadInput for a body
-    /// that turns in space while its points lie on a line, or in a point. `part`: of whose cells these points are; it must
-    /// outlive this. All that places the frames and `take_midpoints` and `to_force` are calls of all ranks, and only the
-    /// gradients of own cells become forces.
+    /// that turns in space while its points lie on a line, or in a point. `part`: of whose cells these points are. It,
+    /// `rest` and `masses` must outlive this. All that places frames, `take_midpoints` and `to_force` are calls of all
+    /// ranks, and only the gradients of own cells become forces.
     BodyFrames(std::span<const Vector<Dim>> rest, std::span<const double> masses, std::vector<std::int32_t> begin,
                std::vector<bool> turns, std::span<const std::string> names, const RankPart<Dim>& part);
+
+    /// From now on bodies with the same number in `first`, that of the first of them, have one frame (n_bodies): all of them
+    /// turn or none does. The values of each are those of all. Bodies are at rest until they are placed.
+    void unite(std::vector<std::int32_t> first);
+    /// Number of the first body with the same frame, of each.
+    [[nodiscard]] const std::vector<std::int32_t>& united() const { return first_; }
 
     [[nodiscard]] std::size_t n_bodies() const { return turns_.size(); }
     [[nodiscard]] bool any() const { return any_turns_; }  ///< whether a body has a frame that turns
@@ -51,6 +57,8 @@ public:
     void follow(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1);
     /// The next step begins where this one ends.
     void end_step() { has_stepped_ = true; }
+    /// A step has ended at q.
+    void end_at(std::span<const Vector<Dim>> q);
     /// In one state, which is both ends.
     void stand_at(std::span<const Vector<Dim>> q);
     /// In that at an end of the last `follow`.
@@ -80,22 +88,26 @@ private:
     void place(std::span<const Vector<Dim>> q, std::vector<BodyFrame<Dim>>& frames) const;
     void stand_in(const std::vector<BodyFrame<Dim>>& frames);
     void set_steps();
-    void set_rest(std::span<const Vector<Dim>> rest, std::span<const double> masses);
+    void set_rest();
     template <class Value, class Term>
     [[nodiscard]] Value sum_of(std::size_t body, const Value& zero, const Term& term) const;
     template <class Add>
-    [[nodiscard]] auto moments(std::size_t body, const Add& add) const;
+    [[nodiscard]] auto moments(std::span<const std::size_t> group, const Add& add) const;
     [[nodiscard]] Lanes<Dim> rest_arm(std::ptrdiff_t point) const { return load_packed<Dim>(arm_, point); }
     class IntoFrame;
 
     LargeArray<double> arm_;           // X', packed, by point
     LargeArray<double> weighted_arm_;  // (m X', m), four numbers per point
+    std::span<const Vector<Dim>> rest_points_;
+    std::span<const double> masses_;
     const RankPart<Dim>& part_;
     std::vector<std::int32_t> begin_;
     std::vector<bool> turns_;
     bool any_turns_ = false;
+    std::vector<std::int32_t> first_;               // body with the same frame, of each
+    std::vector<std::vector<std::size_t>> groups_;  // bodies with one frame, in the order of the first ones
     std::vector<BodyFrame<Dim>> rest_;
-    LargeArray<double> mass_;         // of each body [kg]
+    LargeArray<double> mass_;         // of all with the frame of each body [kg]
     std::vector<std::int32_t> body_;  // of each point
     std::vector<BodyFrame<Dim>> start_, end_, state_;
     std::vector<FrameStep<Dim>> steps_;

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "abut/base/decompositions.hpp"
+#include "abut/base/disjoint_sets.hpp"
 #include "abut/base/error.hpp"
 #include "abut/base/sort_unique.hpp"
 #include "abut/solid/material/orthotropic.hpp"
@@ -44,13 +45,15 @@ void require_bondable(const Bodies<Dim>& bodies, std::int32_t body, Feature bond
 
 template <int Dim>
 Bonds<Dim>::Bonds(const Bodies<Dim>& bodies, Ccg<Dim>& ccg, const BodyFrames<Dim>& frames, const RankPart<Dim>& part)
-    : bodies_(bodies), mesh_(bodies.deformable()), ccg_(ccg), places_(bodies.bond_places()), share_(places_.size(), 1.0) {
+    : bodies_(bodies),
+      mesh_(bodies.deformable()),
+      ccg_(ccg),
+      frames_(frames),
+      places_(bodies.bond_places()),
+      share_(places_.size(), 1.0) {
     check_bodies();
     std::vector<std::size_t> of_springs, of_joints;
-    for (std::size_t p = 0; p < places_.size(); ++p) {
-        const auto turns = [&](std::int32_t body) { return bodies.turns(body); };
-        (std::ranges::any_of(places_[p].bodies, turns) ? of_springs : of_joints).push_back(p);
-    }
+    for (std::size_t p = 0; p < places_.size(); ++p) (bodies.is_joint(places_[p]) ? of_joints : of_springs).push_back(p);
     check_metal(of_joints);
     springs_ = std::make_unique<BondSprings<Dim>>(bodies, ccg, frames, part, places_, of_springs, share_);
     faces_.emplace(mesh_, part, places_, of_joints);
@@ -60,6 +63,7 @@ Bonds<Dim>::Bonds(const Bodies<Dim>& bodies, Ccg<Dim>& ccg, const BodyFrames<Dim
     });
     if (!of_joints.empty()) take_faces();
     for (const std::size_t p : of_joints) append_joint(p);
+    take_cells();
     std::vector<std::size_t> own_sides;
     for (std::size_t j = 0; j < joints_.size(); ++j)
         for (std::size_t side = 0; side < 2; ++side)
@@ -193,16 +197,47 @@ void Bonds<Dim>::append_slope(std::size_t face, const Vector<Dim>& arm) {
     for (const std::int32_t c : cells) slope_.push_back({c, slope.dot(mesh_.cell_centroid[c] - centre)});
 }
 
+/// Cells that own sides depend on.
+template <int Dim>
+void Bonds<Dim>::take_cells() {
+    for (const std::size_t face : faces_->own()) {
+        const auto of_row = ccg_.cells_of((*faces_)[face]);
+        cells_.insert(cells_.end(), of_row.begin(), of_row.end());
+        cells_.push_back(of_faces_[face].cell);
+    }
+    sort_unique(cells_);
+    if (frames_.any()) in_frames_.resize(static_cast<std::size_t>(mesh_.n_cells()));
+}
+
+/// Number of the first body that has a frame in common with each of those that deform.
+template <int Dim>
+std::vector<std::int32_t> Bonds<Dim>::frame_groups() const {
+    DisjointSets held(static_cast<std::size_t>(mesh_.n_bodies()));
+    for (std::size_t p = 0; p < places_.size(); ++p)
+        if (!is_broken(p) && bodies_.have_one_frame(places_[p]))
+            held.join(bodies_.deformable_body(places_[p].bodies[0]), bodies_.deformable_body(places_[p].bodies[1]));
+    std::vector<std::int32_t> groups;
+    for (std::int32_t body = 0; body < mesh_.n_bodies(); ++body) groups.push_back(held.find(body));
+    return groups;
+}
+
 // In one state, or along a step --------------------------------------------------------------------------------------
 
 template <int Dim>
 void Bonds<Dim>::stand_at(std::span<const Vector<Dim>> q, const BoundaryLoad<Dim>& load) {
     if (!any()) return;
-    stand_linear(q, load);
+    stand_linear(of_cells(q, frames_.end()), load);
     springs_->stand_at(q, load);
 }
 
-/// Cells of small bodies move as their points do.
+/// Displacements in these frames of the cells that joints depend on; those of small bodies move as their points do.
+template <int Dim>
+std::span<const Vector<Dim>> Bonds<Dim>::of_cells(std::span<const Vector<Dim>> q, std::span<const BodyFrame<Dim>> frames) {
+    if (!frames_.any() || cells_.empty()) return q;
+    frames_.displacement(cells_, q, frames, in_frames_);
+    return in_frames_;
+}
+
 template <int Dim>
 void Bonds<Dim>::stand_linear(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load) {
     take_own_sides(u, load, of_side_1_);
@@ -227,8 +262,8 @@ template <int Dim>
 void Bonds<Dim>::follow(std::span<const Vector<Dim>> q_0, const BoundaryLoad<Dim>& load_0, std::span<const Vector<Dim>> q_1,
                         const BoundaryLoad<Dim>& load_1) {
     if (!any()) return;
-    take_own_sides(q_0, load_0, of_side_0_);
-    take_own_sides(q_1, load_1, of_side_1_);
+    take_own_sides(of_cells(q_0, frames_.start()), load_0, of_side_0_);
+    take_own_sides(of_cells(q_1, frames_.end()), load_1, of_side_1_);
     sides_.bring({{as_values<Dim>(of_side_0_), Dim}, {as_values<Dim>(of_side_1_), Dim}});
     take_jumps(of_side_0_, jump_0_);
     take_jumps(of_side_1_, jump_1_);
@@ -365,6 +400,9 @@ double Bonds<Dim>::work_of_loads(const BoundaryLoad<Dim>& start, const BoundaryL
 template <int Dim>
 void Bonds<Dim>::save(StateWriter& state) const {
     state.put_all(std::span<const double>(share_));
+    std::vector<double> strengths;
+    for (const BondPlace<Dim>& place : places_) strengths.push_back(place.strength);
+    state.put_all(std::span<const double>(strengths));
 }
 
 template <int Dim>
@@ -375,7 +413,11 @@ void Bonds<Dim>::restore(StateReader& state) {
                            " places that are bonded, and here are " + std::to_string(share_.size()) +
                            ". Restore it where bonds are the same.",
                        {.value = static_cast<double>(share.size()), .allowed = static_cast<double>(share_.size())});
+    const std::vector<double> strengths = state.get_all<double>();
+    if (strengths.size() != share.size())
+        throw BadInput(mesh_.name + ": the saved state of its bonds is damaged. Take another checkpoint.");
     share_ = share;
+    for (std::size_t p = 0; p < places_.size(); ++p) places_[p].strength = strengths[p];  // drawn once
 }
 
 template class Bonds<2>;

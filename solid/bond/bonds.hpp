@@ -103,6 +103,9 @@ public:
     enum class When { start, middle, end };
     void set_shares(std::span<const BondChange> changes, When when);
     [[nodiscard]] double share(std::size_t place) const { return share_[place]; }
+    /// Number of the first body that has the same frame, of each that deforms (n_bodies): as places of Bond::of_grains
+    /// hold now.
+    [[nodiscard]] std::vector<std::int32_t> frame_groups() const;
 
     void save(StateWriter& state) const;
     void restore(StateReader& state);
@@ -140,6 +143,9 @@ private:
     void take_faces();
     void append_joint(std::size_t place);
     void append_slope(std::size_t face, const Vector<Dim>& arm);
+    void take_cells();
+    [[nodiscard]] std::span<const Vector<Dim>> of_cells(std::span<const Vector<Dim>> q,
+                                                        std::span<const BodyFrame<Dim>> frames);
     void stand_linear(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load);
     void take_own_sides(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load, std::vector<Vector<Dim>>& of_sides);
     void take_jumps(std::span<const Vector<Dim>> of_sides, std::vector<Vector<Dim>>& jump) const;
@@ -157,6 +163,7 @@ private:
     const Bodies<Dim>& bodies_;
     const mesh::Mesh<Dim>& mesh_;  // of the bodies that deform
     const Ccg<Dim>& ccg_;
+    const BodyFrames<Dim>& frames_;
     std::vector<BondPlace<Dim>> places_;
     std::vector<double> share_;          // by place, from 1, whole, to 0, broken
     std::vector<BondChange> in_middle_;  // whose share is the mean of both ends of a step
@@ -165,6 +172,8 @@ private:
     std::vector<BondedFace> of_faces_;     // of each
     std::vector<Joint> joints_;
     std::vector<Slope> slope_;
+    std::vector<std::int32_t> cells_;     // that own sides of joints depend on, increasing
+    std::vector<Vector<Dim>> in_frames_;  // displacements of these (n_cells) [m]; empty where no body turns
     RankItems sides_;                                  // of joints: 2 joint + side
     std::vector<Vector<Dim>> of_side_0_, of_side_1_;   // y at the place, by side [m]
     std::vector<Vector<Dim>> jump_, jump_0_, jump_1_;  // Delta, by joint: as it counts, and at both ends of a step [m]

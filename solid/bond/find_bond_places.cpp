@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <string>
 
 #include "abut/base/error.hpp"
@@ -49,7 +50,8 @@ struct Side {
     std::size_t number;  // among all boundary faces of the bodies that deform, of all ranks; of a rigid body behind these
     std::int32_t body;   // in the mesh
     double depth, measure;
-    bool is_simplex;  // of a triangle or tetrahedron
+    double cell_size;  // edge of a square or cube as large as the cell [m]
+    bool is_simplex;   // of a triangle or tetrahedron
     std::vector<Vector<Dim>> corners;
     std::vector<double> sides;  // 2 bond + side, increasing
 };
@@ -77,6 +79,7 @@ public:
             face.body = reader.next_as<std::int32_t>();
             face.depth = reader.next();
             face.measure = reader.next();
+            face.cell_size = reader.next();
             face.is_simplex = reader.next() != 0.0;
             face.corners.resize(reader.next_as<std::size_t>());
             face.sides.resize(reader.next_as<std::size_t>());
@@ -100,8 +103,9 @@ private:
         const auto corners = mesh_.face_vertices[face];
         mine_.insert(mine_.end(),
                      {static_cast<double>(number), static_cast<double>(mesh_.cell_body[cell]), cell_depth(mesh_, face),
-                      mesh_.face_measure[face], mesh_.cell_faces[cell].size() == Dim + 1 ? 1.0 : 0.0,
-                      static_cast<double>(corners.size()), static_cast<double>(sides.size())});
+                      mesh_.face_measure[face], std::pow(mesh_.cell_measure[cell], 1.0 / Dim),
+                      mesh_.cell_faces[cell].size() == Dim + 1 ? 1.0 : 0.0, static_cast<double>(corners.size()),
+                      static_cast<double>(sides.size())});
         for (const std::int32_t v : corners) mine_.insert(mine_.end(), mesh_.vertices[v].begin(), mesh_.vertices[v].end());
         mine_.insert(mine_.end(), sides.begin(), sides.end());
     }
@@ -207,6 +211,7 @@ public:
         in_mesh_ = bodies_.boundary_in_mesh();
         for (std::size_t i = 0; i < options_.bonds.size(); ++i) append_places(i);
         find_joined();
+        find_glued();
         return std::move(found_);
     }
 
@@ -255,6 +260,9 @@ private:
                                      overlap.normal,
                                      drawn_strength(bond, {face_1.number, face_2.number})});
         }
+        if (bond.fracture_energy > 0.0)
+            for (std::size_t p = before; p < found_.places.size(); ++p)
+                coverage.cohesive_length = std::min(coverage.cohesive_length, cohesive_length(bond, found_.places[p]));
         if (found_.places.size() == before)
             throw BadInput(
                 mesh_.name + ": " + side_in_words(mesh_, bond.sides[0], options_.obstacles.size()) + " and " +
@@ -271,6 +279,16 @@ private:
             coverage.opposite += std::min({overlap.area, left(overlap.face_1), left(overlap.face_2)});
         }
         coverage.smaller_side = std::min(asked_of_side(sides, 0, before), asked_of_side(sides, 1, before));
+    }
+
+    /// E G/strength^2 of a place, of the softer body, over the size of the larger cell [-].
+    [[nodiscard]] double cohesive_length(const Bond& bond, const BondPlace<Dim>& place) const {
+        double young = std::numeric_limits<double>::infinity(), size = 0.0;
+        for (std::size_t side = 0; side < 2; ++side) {
+            young = std::min(young, options_.materials[static_cast<std::size_t>(place.bodies[side])].mean_young());
+            size = std::max(size, std::ranges::lower_bound(all_, place.numbers[side], {}, &Side<Dim>::number)->cell_size);
+        }
+        return young * bond.fracture_energy / (place.strength * place.strength) / size;
     }
 
     /// The area of a side that may be bonded: of a group all of it, of a body what looks along the bond as its faces
@@ -319,6 +337,15 @@ private:
                 if (bodies_.is_finite(place.bodies[side]) && here_[place.numbers[side]] != no_face)
                     found_.joined.push_back(here_[place.numbers[side]]);
         sort_unique(found_.joined);
+    }
+
+    void find_glued() {
+        for (const BondPlace<Dim>& place : found_.places) {
+            if (!bodies_.have_one_frame(place)) continue;
+            for (const std::size_t face : place.numbers)
+                if (here_[face] != no_face) found_.glued.push_back(here_[face]);
+        }
+        sort_unique(found_.glued);
     }
 
     const Bodies<Dim>& bodies_;

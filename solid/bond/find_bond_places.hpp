@@ -16,6 +16,7 @@ struct FoundBonds {
     /// Boundary faces here of bodies that deform, increasing, which are small, not of triangles or tetrahedra, and lie
     /// on one face alone, all of it, without being able to part from it.
     std::vector<BoundaryFace> joined;
+    std::vector<BoundaryFace> glued;  ///< those that hold grains in one frame (Bodies::have_one_frame), increasing
 };
 
 /// Throws BadInput for sides that do not exist, are the same or do not lie on each other anywhere, and for a strength

@@ -2,6 +2,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 
 #include "abut/base/vector.hpp"
 #include "abut/solid/boundary/boundary_face.hpp"
@@ -30,6 +31,9 @@ struct BondCoverage {
     double opposite = 0.0;  ///< where faces of both sides lie opposite each other, not farther than the larger one is wide
     double smaller_side = 0.0;  ///< of the side that has less: of a group all of it, of a body what looks at the other side
     double largest_gap = 0.0;   ///< of a place, apart or inside each other, >= 0 [m]
+    /// Least E G/strength^2 of a place over the size of the larger cell beside it [-]; infinity where the bond takes no
+    /// fracture energy
+    double cohesive_length = std::numeric_limits<double>::infinity();
 
     /// Bonded area over what was asked for, which is where the sides lie opposite each other [-].
     [[nodiscard]] double share() const { return opposite > 0.0 ? area / opposite : 1.0; }

@@ -42,10 +42,15 @@ template <int Dim>
 FaceConditions<Dim> sort_to_faces(const mesh::Mesh<Dim>& mesh, const BoundaryConditions<Dim>& conditions) {
     FaceConditions<Dim> sorted;
     sorted.prescribed.assign(mesh.boundary_faces.size(), Matrix<Dim>::Zero());
-    sorted.joined.assign(mesh.boundary_faces.size(), 0);
-    for (const std::int32_t face : conditions.joined_faces)
-        sorted.joined[static_cast<BoundaryFace>(std::ranges::lower_bound(mesh.boundary_faces, face) -
-                                                mesh.boundary_faces.begin())] = 1;
+    const auto marked = [&](std::span<const std::int32_t> faces) {
+        IdVector<BoundaryFace, char> of_faces(mesh.boundary_faces.size(), 0);
+        for (const std::int32_t face : faces)
+            of_faces[static_cast<BoundaryFace>(std::ranges::lower_bound(mesh.boundary_faces, face) -
+                                               mesh.boundary_faces.begin())] = 1;
+        return of_faces;
+    };
+    sorted.joined = marked(conditions.joined_faces);
+    sorted.glued = marked(conditions.glued_faces);
     if (!conditions.thick_cells.empty()) sorted.is_thick.assign(static_cast<std::size_t>(mesh.n_cells()), 0);
     for (const std::int32_t cell : conditions.thick_cells) sorted.is_thick[static_cast<std::size_t>(cell)] = 1;
     for (const DirichletCondition<Dim>& condition : conditions.dirichlet) {

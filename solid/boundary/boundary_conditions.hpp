@@ -79,6 +79,9 @@ struct BoundaryConditions {
     /// the cells around: they are bonded face to face for ever, or a traction pulls at their extrapolated centroids (a
     /// dead one on a floating body). Read by operators alone: a solid finds them by itself
     std::vector<std::int32_t> joined_faces = {};
+    /// Boundary faces of the mesh that bonds move to where tractions balance, from where each would be without its
+    /// traction while the other ones of its cell stay where the cells around point. Read by operators alone
+    std::vector<std::int32_t> glued_faces = {};
     /// Cells of thick parts, increasing, where contact pushes free faces by the pair potential: their traces do without
     /// the balance of these (BoundaryReconstruction::affine). Read by operators alone: a solid finds them by itself
     std::vector<std::int32_t> thick_cells = {};
@@ -89,6 +92,7 @@ template <int Dim>
 struct FaceConditions {
     IdVector<BoundaryFace, Matrix<Dim>> prescribed;  ///< P_f, projector onto all prescribed directions (n_boundary)
     IdVector<BoundaryFace, char> joined;             ///< BoundaryConditions::joined_faces (n_boundary)
+    IdVector<BoundaryFace, char> glued;              ///< BoundaryConditions::glued_faces (n_boundary)
     std::vector<char> is_thick;                      ///< BoundaryConditions::thick_cells (n_cells); empty: none is
     /// A boundary face of a Dirichlet condition and the directions that this condition prescribes there.
     struct Prescribed {

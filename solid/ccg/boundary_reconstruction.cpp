@@ -43,6 +43,12 @@ struct Row {
     void add_stencil(const FaceStencil<Dim>& stencil, const Matrix<Dim>& weight) {
         for (int j = 0; j <= Dim; ++j) add(cells, stencil.cells[j], stencil.weights[j] * weight);
     }
+    /// Adds the displacement of another face, without its answers.
+    void add_row(const Row& other, const Matrix<Dim>& weight) {
+        for (const auto& term : other.cells) add(cells, term.index, weight * term.weight);
+        for (const auto& term : other.displacement) add(displacement, term.index, weight * term.weight);
+        for (const auto& term : other.traction) add(traction, term.index, weight * term.weight);
+    }
 };
 
 template <int Dim>
@@ -86,6 +92,7 @@ private:
     static Eigen::Index first_row(std::size_t face) { return static_cast<Eigen::Index>(face) * Dim; }
 
     bool is_joined(BoundaryFace b) const { return conditions_.joined[b] != 0; }
+    bool is_glued(BoundaryFace b) const { return conditions_.glued[b] != 0; }
     bool is_free(BoundaryFace b) const { return !conditions_.prescribed[b].isIdentity(1e-12); }
     /// The part of a unit displacement along the normal that is not prescribed, in the direction of the normal.
     double free_along_normal(BoundaryFace b) const { return normal_of(b).dot(free_part(b) * normal_of(b)); }
@@ -133,8 +140,8 @@ private:
             const auto others = boundary_of(cell_of(mesh_, b));
             const auto n_free =
                 std::count_if(others.begin(), others.end(), [&](BoundaryFace other) { return is_free(other); });
-            if (rule == FreeFaceRule::extrapolate || is_joined(b) || n_free > 1 || !conditions_.prescribed[b].isZero(0.0) ||
-                has_affine_traces(cell_of(mesh_, b)))
+            if (rule == FreeFaceRule::extrapolate || is_joined(b) || is_glued(b) || n_free > 1 ||
+                !conditions_.prescribed[b].isZero(0.0) || has_affine_traces(cell_of(mesh_, b)))
                 wanted.push_back(b);
         }
         std::vector<std::int32_t> faces;
@@ -154,6 +161,8 @@ private:
         }
         const FreeFaceRule rule = rule_of(cell);
         if (rule == FreeFaceRule::local_equilibrium) {
+            if (std::ranges::any_of(boundary, [&](BoundaryFace b) { return is_glued(b); }))
+                return stand_beside_glue(cell, boundary);
             auto alone = boundary;
             std::erase_if(alone, [&](BoundaryFace b) { return is_joined(b); });
             if (!alone.empty()) balance(cell, alone);
@@ -255,8 +264,45 @@ private:
         rows_[b].normal_stiffness = left;
     }
 
-    /// Minimum of the cell's energy over the balancing combinations of these boundary faces, joined ones standing where
-    /// they are extrapolated, as what is free of these faces does in all other combinations:
+    /// Faces of a cell that bonds glue to others: each is where it has no traction while all others that nothing holds are
+    /// extrapolated, which those that are not glued stay,
+    ///   û_f = û_affine - A_ff^-1 (sum over all faces of A_fg û_g - |f| t)
+    /// In a uniform stress the cell has it, whatever its other faces bear, and its glued faces are as far from where they
+    /// are extrapolated as their half cells give way.
+    void stand_beside_glue(std::int32_t cell, const std::vector<BoundaryFace>& boundary) {
+        auto held = boundary;
+        std::erase_if(held, [&](BoundaryFace b) { return conditions_.prescribed[b].isZero(0.0); });
+        if (!held.empty()) balance(cell, held);
+        for (const BoundaryFace b : boundary) {
+            if (!conditions_.prescribed[b].isZero(0.0)) continue;
+            rows_[b].add_stencil(affine_[b], Matrix<Dim>::Identity());
+            if (is_glued(b)) take_traction_off(cell, b, held);
+        }
+        for (const BoundaryFace b : boundary)  // loads of both kinds have the same faces
+            for (const BoundaryFace other : boundary) {
+                Row<Dim>::add(rows_[b].displacement, other, Matrix<Dim>::Zero());
+                Row<Dim>::add(rows_[b].traction, other, Matrix<Dim>::Zero());
+            }
+    }
+
+    void take_traction_off(std::int32_t cell, BoundaryFace b, const std::vector<BoundaryFace>& held) {
+        const std::int32_t face = mesh_face(mesh_, b);
+        const Matrix<Dim> compliance = stiffness(cell, face, face).inverse();
+        Row<Dim>& row = rows_[b];
+        Row<Dim>::add(row.traction, b, mesh_.face_measure[face] * compliance);
+        for (const std::int32_t g : mesh_.cell_faces[cell]) {
+            const Matrix<Dim> weight = -compliance * stiffness(cell, face, g);
+            if (index_[g] == no_face)
+                row.add_stencil(interior_[g], weight);
+            else if (std::ranges::find(held, index_[g]) != held.end())
+                row.add_row(rows_[index_[g]], weight);
+            else
+                row.add_stencil(affine_[index_[g]], weight);
+        }
+    }
+
+    /// Minimum of the cell's energy over the balancing combinations of these boundary faces, joined and glued ones
+    /// standing where they are extrapolated, as what is free of these faces does in all other combinations:
     ///   û = K (|f| t - A_interior u_g - A P u_D) + (N - K A N) û_affine,  K the compliance of these combinations
     void balance(std::int32_t cell, const std::vector<BoundaryFace>& boundary) {
         const auto n = static_cast<Eigen::Index>(boundary.size()) * Dim;
@@ -286,7 +332,7 @@ private:
                 for (const std::int32_t g : mesh_.cell_faces[cell])
                     if (index_[g] == no_face)
                         row.add_stencil(interior_[g], -answer * stiffness(cell, face, g));
-                    else if (is_joined(index_[g]))
+                    else if (std::ranges::find(boundary, index_[g]) == boundary.end())
                         row.add_stencil(affine_[index_[g]], -answer * stiffness(cell, face, g));
             }
         }

@@ -47,6 +47,9 @@ struct Bond {
     /// 1 - exp(-(s/strength)^m) of them has one below s; infinity: all have `strength`
     double weibull_modulus = std::numeric_limits<double>::infinity();
     std::uint32_t seed = 0;  ///< of the draws
+    /// It holds grains together, pieces of what was one body: floating ones have one frame as long as bonds of this kind
+    /// hold them, so that they bear what the body in one piece does. Between metal it is as any other bond
+    bool of_grains = false;
 };
 
 /// A moment on a body as a whole, as of a drive or a brake: a given part and one against its spin. Its work is booked.

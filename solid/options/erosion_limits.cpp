@@ -9,15 +9,15 @@ namespace abut::solid {
 
 bool any_erosion(std::span<const ErosionLimits> limits) { return std::ranges::any_of(limits, &ErosionLimits::any); }
 
-void check_erosion(const std::string& mesh, std::span<const ErosionLimits> limits, std::size_t n_bodies) {
-    if (!limits.empty() && limits.size() != n_bodies)
+void check_erosion(const std::string& mesh, std::span<const ErosionLimits> limits, std::span<const std::string> bodies) {
+    if (!limits.empty() && limits.size() != bodies.size())
         throw BadInput(mesh + ": limits of erosion are given for " + std::to_string(limits.size()) + " bodies of " +
-                           std::to_string(n_bodies) + ". Give one set per body, or none.",
-                       {.value = static_cast<double>(limits.size()), .allowed = static_cast<double>(n_bodies)});
+                           std::to_string(bodies.size()) + ". Give one set per body, or none.",
+                       {.value = static_cast<double>(limits.size()), .allowed = static_cast<double>(bodies.size())});
     for (std::size_t body = 0; body < limits.size(); ++body)
         for (const double limit : {limits[body].strain, limits[body].plastic_strain, limits[body].stress})
             if (!(limit > 0.0))
-                throw BadInput(mesh + ": a limit of erosion of body " + std::to_string(body) + " is " + number(limit) +
+                throw BadInput(mesh + ": a limit of erosion of body '" + bodies[body] + "' is " + number(limit) +
                                    "; above 0 is allowed. Leave it out where cells stay.",
                                {.value = limit, .allowed = 0.0});
 }

@@ -18,8 +18,8 @@ struct ErosionLimits {
 
 /// Whether any body has limits.
 [[nodiscard]] bool any_erosion(std::span<const ErosionLimits> limits);
-/// Throws BadInput with `mesh` in front for another number of them than bodies, unless there are none, and for a limit
-/// that is not > 0.
-void check_erosion(const std::string& mesh, std::span<const ErosionLimits> limits, std::size_t n_bodies);
+/// Throws BadInput with `mesh` in front for another number of them than bodies, of which it has the names, unless there
+/// are none, and for a limit that is not > 0.
+void check_erosion(const std::string& mesh, std::span<const ErosionLimits> limits, std::span<const std::string> bodies);
 
 }  // namespace abut::solid

@@ -5,10 +5,13 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "abut/run/steps/simulation.hpp"
+#include "abut/run/words/summary.hpp"
+#include "abut/run/words/warnings.hpp"
 #include "input/scenes.hpp"
 
 namespace {
@@ -167,6 +170,7 @@ TEST_CASE("a body that may break is cut into grains, whose bonds have its streng
         CHECK(bond.fracture_energy == 90.0);
         CHECK(bond.weibull_modulus == 8.0);
         CHECK(bond.seed == 5);
+        CHECK(bond.of_grains);
     }
     CHECK(scene.solid.ignored_pairs.empty());  // what comes off may touch the rest
     Vector<2> momentum = Vector<2>::Zero();    // they fly and turn as one
@@ -176,11 +180,37 @@ TEST_CASE("a body that may break is cut into grains, whose bonds have its streng
     const WrittenScene small(plate(fracture));
     CHECK(input::text_of(input::check_scene(small.path()).faults).find("may break, and pieces that come off turn") !=
           std::string::npos);
+    CHECK(is_piece_refused(plate("kinematics = \"floating\"\n" + fracture) + "[contact]\nenabled = false\n",
+                           "body 'plate' may break, and with contact.enabled = false its pieces pass through each other"));
     CHECK(is_piece_refused(plate("kinematics = \"floating\"\nfracture = {grain = 4, strength = 1}\n"),
                            "leave each body whole"));
     CHECK(is_piece_refused(plate("kinematics = \"rigid\"\n" + fracture), "fracture"));
     CHECK(is_piece_refused(plate("kinematics = \"floating\"\n" + fracture + "[bodies.plate.hub]\nregion = \"x < 0.5\"\n"),
                            "the body has 2 parts, and one that breaks is made of one"));
+}
+
+TEST_CASE("a body whose bonds open over less than a cell is warned of, with E G/strength^2 over the size of its cells",
+          "[input][pieces][fracture]") {
+    const auto warned = [](double energy) {
+        const std::string text =
+            "dim = 2\n[bodies.plate]\nshape = \"structured_box\"\nlower = [0, 0]\nupper = [1, 1]\ncounts = "
+            "[10, 10]\nyoung = 1e6\ndensity = 1e3\nkinematics = \"floating\"\nfracture = {grain = 0.4, "
+            "strength = 1e4, fracture_energy = " +
+            std::to_string(energy) + "}\n[run]\nsteps = 1\n";
+        const WrittenScene written(text);
+        const input::SceneFile file(written.path());
+        const run::Scene<2> scene = file.scene<2>();
+        const run::RunResult<2> result = run::simulate<2>(scene, file.options());
+        std::vector<double> values;
+        for (const run::Warning& warning : run::warnings_before(scene, result))
+            if (warning.kind == run::WarningKind::short_cohesive_length) values.push_back(warning.value);
+        CHECK(nlohmann::json::parse(run::summary_json("test", scene, result))["bonds"]["cohesive_length"].get<double>() ==
+              Approx(1e6 * energy / (1e4 * 1e4) / 0.1).epsilon(1e-9));
+        return values;
+    };
+    CHECK(warned(11.0).empty());  // 1.1 cells
+    REQUIRE(warned(9.0).size() == 1);
+    CHECK(warned(9.0).front() == Approx(0.9).epsilon(1e-9));
 }
 
 TEST_CASE("parts of a piece that cannot be are refused with the reason", "[input][pieces]") {

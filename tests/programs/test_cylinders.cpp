@@ -132,6 +132,7 @@ TEST_CASE("energy.csv holds a row for every record and what the summary says", "
                                                     "dissipated_by_viscosity",
                                                     "damping_lagged",
                                                     "dissipated_in_bonds",
+                                                    "dissipated_at_splits",
                                                     "eroded_cells",
                                                     "eroded_mass",
                                                     "eroded_kinetic",

@@ -1,9 +1,13 @@
 // Bonds on several ranks.
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <array>
+#include <cstdint>
+#include <string>
 #include <vector>
 
+#include "abut/mesh/grains.hpp"
 #include "abut/mesh/shapes/shapes.hpp"
 #include "abut/mesh/split_body.hpp"
 #include "ranks/shared_solid.hpp"
@@ -84,6 +88,34 @@ TEST_CASE("bonds that open and break, and let bodies touch, have the bits of one
     options.acceleration = {Vector<2>::Zero(), -0.02 * Vector<2>::Unit(0)};  // brings the right one back
     const std::vector<Vector<2>> velocity{-0.03 * Vector<2>::Unit(0), 0.03 * Vector<2>::Unit(0)};
     const auto report = check_same_bits<2>(all, mesh, options, velocity, 400, parts(all, mesh), {.waves = 0.002});
+    CHECK(report.active_pairs_max > 0);  // which it is only where a bond is broken
+}
+
+TEMPLATE_TEST_CASE_SIG("a body that breaks into fragments has the bits of one rank", "[ranks][solid][bonds][fracture]",
+                       ((int Dim), Dim), 2, 3) {
+    const ranks::Communicator all = test::world();
+    std::array<int, Dim> counts;
+    counts.fill(Dim == 2 ? 12 : 4);
+    counts[0] *= 2;
+    Vector<Dim> upper = Vector<Dim>::Ones();
+    upper[0] = 2.0;
+    const auto whole = mesh::structured_box<Dim>(Vector<Dim>::Zero(), upper, counts,
+                                                 Dim == 2 ? mesh::CellShape::triangle : mesh::CellShape::hexahedron);
+    const auto grains = mesh::grains_of<Dim>(whole, {.size = Dim == 2 ? 0.5 : 0.8});
+    std::vector<std::string> names;
+    for (std::int32_t i = 0; i <= *std::ranges::max_element(grains); ++i) names.push_back(std::to_string(i));
+    const auto mesh = mesh::split_body<Dim>(whole, grains, names);
+    solid::SolidOptions<Dim> options;
+    options.materials.assign(names.size(), {.young = 1.0, .poisson = 0.25, .density = 1.0});
+    options.kinematics.assign(names.size(), solid::Kinematics::floating);
+    for (const auto& sides : mesh.report.joined_bodies)
+        options.bonds.push_back({.sides = sides, .strength = 0.02, .weibull_modulus = 9.0, .of_grains = true});
+    options.contact = contact::ContactOptions{};
+    std::vector<Vector<Dim>> velocity;
+    for (std::size_t body = 0; body < names.size(); ++body)
+        velocity.push_back((body % 2 == 0 ? 0.05 : -0.05) * Vector<Dim>::Unit(0));
+    const auto report =
+        check_same_bits<Dim>(all, mesh, options, velocity, 60, parts(all, mesh), {.waves = 0.002, .spin = 0.1});
     CHECK(report.active_pairs_max > 0);  // which it is only where a bond is broken
 }
 

@@ -9,6 +9,7 @@
 #include "abut/base/error.hpp"
 #include "abut/mesh/shapes/shapes.hpp"
 #include "abut/run/files/probes.hpp"
+#include "abut/run/files/run_identity.hpp"
 #include "abut/run/report/result_files.hpp"
 #include "abut/run/steps/simulation.hpp"
 #include "abut/run/words/summary.hpp"
@@ -430,4 +431,20 @@ TEST_CASE("frames show the cells that are left, with their numbers in the scene"
         CHECK_THAT(last, Catch::Contains("\"cell of the scene\""));
     }
     CHECK_THAT(test::read_text(folder.path() / "report.html"), Catch::Contains("cells that left"));
+}
+
+TEST_CASE("a checkpoint is of a run with its limits of erosion and its bonds: another one is refused by what differs",
+          "[run][erosion][restart]") {
+    run::Scene<2> scene = bar<2>(8, Kinematics::floating);
+    const run::RunResult<2> result{};
+    const auto identity_with = [&](double strain, double strength) {
+        scene.solid.erosion = {{.strain = strain}};
+        scene.solid.bonds = {{.sides = {0, 1}, .strength = strength}};
+        return run::identity<2>(scene, result);
+    };
+    const std::string saved = identity_with(0.3, 1.0);
+    CHECK_NOTHROW(run::require_same_run(saved, identity_with(0.3, 1.0), false));
+    CHECK_THROWS_WITH(run::require_same_run(saved, identity_with(0.4, 1.0), false),
+                      Catch::Contains("limits of erosion") && Catch::Contains("0.3") && Catch::Contains("0.4"));
+    CHECK_THROWS_WITH(run::require_same_run(saved, identity_with(0.3, 2.0), false), Catch::Contains("bonds"));
 }
