@@ -116,7 +116,8 @@ std::vector<double> distances_to_groups(Boxes<Dim> boxes, std::span<const std::i
         others.clear();
         for (const BodyBoxes<Dim>& other : bodies)
             if (&other != &of_body && distance(other.all, of_body.all) < most)
-                for (const Group<Dim>& group : other.groups) others.push_back(group.box);
+                for (const Group<Dim>& group : other.groups)
+                    if (distance(group.box, of_body.all) < most) others.push_back(group.box);
         for (const std::int32_t i : of_body.which)
             for (const geometry::Box<Dim>& group : others) distances[i] = std::min(distances[i], distance(boxes[i], group));
     }
