@@ -38,7 +38,9 @@ public:
     [[nodiscard]] std::int32_t size() const { return size_; }
     [[nodiscard]] Vector<Dim> operator[](std::ptrdiff_t i) const {
         const Double* const first = data_ + i * item_;
-        if constexpr (Dim == 2)
+        if constexpr (Dim == 1)
+            return Vector<Dim>::Constant(*first);
+        else if constexpr (Dim == 2)
             return {first[0], first[component_]};
         else
             return {first[0], first[component_], first[2 * component_]};
