@@ -23,6 +23,7 @@ enum class WarningKind {
     unjoined_faces,         ///< faces that lie on others of their body and are not joined to them
     missing_bond,           ///< BondCoverage::share of a bond [-]; threshold: enough_bond
     short_cohesive_length,  ///< BondCoverage::cohesive_length [-]; threshold: enough_cohesive_length
+    scattered_grains,       ///< bonds between grains that are springs
     slow_cell,              ///< SlowCell::share of the cell that decides the step [-]; threshold: slow_cell_share
     missing_inertia,        ///< BodyInertia::least of a body that may turn [-]; threshold: enough_inertia
     extrapolated_faces,     ///< note: faces that extrapolate from the cells around them: the stable step is shorter

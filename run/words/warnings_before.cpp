@@ -161,6 +161,25 @@ void add_cohesive_length(Counts& counts, const Scene<Dim>& scene, const RunResul
          worst->cohesive_length, enough_cohesive_length});
 }
 
+/// Warns of grains that bonds hold as springs, beside which stress scatters: of the first, and of how many more.
+template <int Dim>
+void add_scattered_grains(Counts& counts, const Scene<Dim>& scene, const RunResult<Dim>& result) {
+    std::size_t n = 0;
+    const solid::Bond* first = nullptr;
+    for (const solid::Bond& bond : scene.solid.bonds) {
+        const auto body = static_cast<std::size_t>(bond.sides[0]);
+        const bool has_frame = solid::properties_of(kinematics_of(scene, result, body)).has_frame;
+        if (!bond.of_grains || (has_frame && scene.solid.materials[body].law != solid::MaterialLaw::j2)) continue;
+        if (n++ == 0) first = &bond;
+    }
+    if (n == 0) return;
+    counts.add(WarningKind::scattered_grains, Severity::warning, static_cast<std::int64_t>(n),
+               fmt::format("springs hold the grains {} and {} together, and those of {} bonds more: stress of cells beside "
+                           "them is off by a fifth while they hold, its mean is right. Grains of elastic bodies that are "
+                           "floating have it right",
+                           quoted_side(scene, first->sides[0]), quoted_side(scene, first->sides[1]), n - 1));
+}
+
 /// Warns that the mass of cells at their centroids leaves out a part of the inertia of bodies that turn: of the one that
 /// lacks most, and of how many more.
 template <int Dim>
@@ -208,6 +227,7 @@ std::vector<Warning> warnings_before(const Scene<Dim>& scene, const RunResult<Di
     add_unjoined(counts, result);
     add_bonds(counts, scene, result);
     add_cohesive_length(counts, scene, result);
+    add_scattered_grains(counts, scene, result);
     add_slow_cell(counts, scene, result);
     add_inertia(counts, scene, result);
     const auto& stencils = result.stencils;

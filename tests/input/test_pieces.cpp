@@ -213,6 +213,26 @@ TEST_CASE("a body whose bonds open over less than a cell is warned of, with E G/
     CHECK(warned(9.0).front() == Approx(0.9).epsilon(1e-9));
 }
 
+TEST_CASE("grains that springs hold together are warned of: finite ones and those of metal, and no others",
+          "[input][pieces][fracture]") {
+    const auto bonds_warned_of = [](const std::string& keys) {
+        const WrittenScene written(
+            "dim = 2\n[bodies.plate]\nshape = \"structured_box\"\nlower = [0, 0]\nupper = [1, 1]\ncounts = "
+            "[10, 10]\nyoung = 1e6\ndensity = 1e3\nfracture = {grain = 0.4, strength = 1e4}\n" +
+            keys + "[run]\nsteps = 1\n");
+        const input::SceneFile file(written.path());
+        const run::Scene<2> scene = file.scene<2>();
+        const run::RunResult<2> result = run::simulate<2>(scene, file.options());
+        double n = 0.0;
+        for (const run::Warning& warning : run::warnings_before(scene, result))
+            if (warning.kind == run::WarningKind::scattered_grains) n += warning.value;
+        return n / static_cast<double>(scene.solid.bonds.size());
+    };
+    CHECK(bonds_warned_of("kinematics = \"floating\"\n") == 0.0);
+    CHECK(bonds_warned_of("kinematics = \"finite\"\n") == 1.0);
+    CHECK(bonds_warned_of("kinematics = \"floating\"\nlaw = \"j2\"\nyield_stress = 1e5\n") == 1.0);
+}
+
 TEST_CASE("parts of a piece that cannot be are refused with the reason", "[input][pieces]") {
     CHECK(is_piece_refused(wheel("", "[bodies.wheel.rest]\nvelocity = [1, 0]\n"), "velocity or spin differs"));
     CHECK(is_piece_refused(wheel("", "[bodies.wheel.rest]\nkinematics = \"rigid\"\n"), "'wheel.rest' is rigid"));
