@@ -167,9 +167,10 @@ void add_scattered_grains(Counts& counts, const Scene<Dim>& scene, const RunResu
     std::size_t n = 0;
     const solid::Bond* first = nullptr;
     for (const solid::Bond& bond : scene.solid.bonds) {
+        if (!bond.of_grains) continue;  // one of its sides may be an obstacle
         const auto body = static_cast<std::size_t>(bond.sides[0]);
         const bool has_frame = solid::properties_of(kinematics_of(scene, result, body)).has_frame;
-        if (!bond.of_grains || (has_frame && scene.solid.materials[body].law != solid::MaterialLaw::j2)) continue;
+        if (has_frame && scene.solid.materials[body].law != solid::MaterialLaw::j2) continue;
         if (n++ == 0) first = &bond;
     }
     if (n == 0) return;
