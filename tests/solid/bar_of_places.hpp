@@ -59,7 +59,7 @@ private:
         }
     }
 
-    /// Of the element behind node i.
+    /// Stress of the element behind node i, in which all nodes move apart at `rate`.
     [[nodiscard]] double stress(std::size_t i, double time) const {
         return (left_[(i + 1) % n_].u - right_[i].u) / h_ + rate_ * time;
     }

@@ -164,7 +164,7 @@ std::size_t n_fragments_of_ring(double rate, double energy, double strength) {
 
 TEST_CASE(
     "an expanding ring breaks into as many fragments as a bar of springs with its places, more than Grady's energy makes",
-    "[solid][fracture][long]") {
+    "[solid][fracture]") {
     // D. E. Grady (1982): a length s takes its fracture energy from the kinetic energy of its expansion about its middle,
     // s^3 = 24 G/(rho rate^2).
     const double energy = 3.3e-6, strength = 5.8e-3;  // E G/strength^2 is ten cells
