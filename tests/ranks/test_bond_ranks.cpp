@@ -10,6 +10,7 @@
 #include "abut/mesh/grains.hpp"
 #include "abut/mesh/shapes/shapes.hpp"
 #include "abut/mesh/split_body.hpp"
+#include "ranks/beside_one.hpp"
 #include "ranks/shared_solid.hpp"
 #include "ranks/solid_scenes.hpp"
 

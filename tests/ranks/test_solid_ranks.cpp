@@ -7,6 +7,7 @@
 #include "abut/base/error.hpp"
 #include "abut/dynamics/leapfrog.hpp"
 #include "abut/mesh/shapes/shapes.hpp"
+#include "ranks/beside_one.hpp"
 #include "ranks/shared_solid.hpp"
 #include "ranks/solid_scenes.hpp"
 

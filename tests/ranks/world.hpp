@@ -3,6 +3,7 @@
 #include <mpi.h>
 
 #include <cstdint>
+#include <exception>
 #include <vector>
 
 #include "abut/ranks/communicator.hpp"
@@ -14,6 +15,32 @@ inline ranks::Communicator world() { return ranks::Communicator(MPI_Comm_c2f(MPI
 /// Whether it is so on all ranks: a test that ends on one of them would leave the others waiting.
 [[nodiscard]] inline bool everywhere(const ranks::Communicator& all, bool here) {
     return all.largest(here ? 0.0 : 1.0) == 0.0;
+}
+
+/// Does it on the first rank alone; what it throws there is thrown on all.
+template <class Do>
+void on_first(const ranks::Communicator& all, Do&& what) {
+    std::exception_ptr error;
+    if (all.rank() == 0) {
+        try {
+            what();
+        } catch (...) {
+            error = std::current_exception();
+        }
+    }
+    all.agree(error);
+}
+
+/// What the first rank computes, a vector of plain values, on all of them; it throws nothing.
+template <class Values, class Compute>
+[[nodiscard]] Values of_first(const ranks::Communicator& all, Compute&& compute) {
+    Values values;
+    if (all.rank() == 0) values = compute();
+    std::uint64_t n = values.size();
+    MPI_Bcast(&n, 1, MPI_UINT64_T, 0, MPI_COMM_WORLD);
+    values.resize(n);
+    MPI_Bcast(values.data(), static_cast<int>(n * sizeof values[0]), MPI_BYTE, 0, MPI_COMM_WORLD);
+    return values;
 }
 
 /// Numbers 0 .. n-1 scattered over the ranks without any order; a rank may be given none.
