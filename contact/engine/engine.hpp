@@ -17,6 +17,7 @@
 #include "abut/contact/engine/report_counters.hpp"
 #include "abut/contact/engine/saved_contact.hpp"
 #include "abut/contact/host_checks.hpp"
+#include "abut/contact/law/engine_law.hpp"
 #include "abut/contact/pair_store.hpp"
 #include "abut/contact/pairs/admission.hpp"
 #include "abut/contact/search/candidate_search.hpp"
@@ -47,27 +48,7 @@ template <int Dim>
 /// All that contact has in common, whatever the law: how long a candidate list is valid, the search, which pairs stay listed
 /// and what they remember, their first admission, memory of facets, limits, the report, saving and restoring, and another
 /// surface.
-///
-/// A law is a value that knows the surface and the listed pairs; FaceLaw and NodeLaw are those of Contact and NodalContact.
-/// It has
-/// - types: State, where all that moves is at one time; Path, one step; Step, the result;
-/// - `name`, `facets`, `face_name`: for messages and saved states, for the search;
-/// - `facet_memory`: numbers that it wants to keep per facet;
-/// - `n_watched`, `position`: points whose motion bounds how long a list is valid;
-/// - `search`: candidates for a step between two states;
-/// - `is_wanted`: whether a pair of facets may touch;
-/// - `list`: takes on the pairs of a new list, and may leave out those that cannot act while no point is farther than a
-///   reach from where it is; `list_remembered`: takes on pairs to
-///   ask about, of a list that is not valid; `drop_list`;
-/// - `is_pressed_in`, `decide_first`: of a pair of the list, by its index;
-/// - `sees_from_outside`: whether a pair that was no contact, since it lay inside of its body, has come out at the end of a
-///   step: the list does not have it; `seen_from_outside`, `set_seen_from_outside`: all that have come out; `lies_inside`;
-/// - `end_step`: the last step has happened; `saved_interference`, `set_interference`: what it remembers of overlaps at
-///   the start;
-/// - `stored_energy`: what the memory of facets holds [J];
-/// - `clear`: a result without a step; `step`: admission and forces of a step, gives the number of pairs that are pressed in
-///   without being contacts; `evaluate`: forces of one state.
-template <class Law>
+template <EngineLaw Law>
 class Engine {
 public:
     using State = typename Law::State;
@@ -104,7 +85,7 @@ public:
     [[nodiscard]] bool is_valid_at(const State& state) const {
         return list_is_valid_ && candidates_.is_valid_for(std::sqrt(largest(law_.n_watched(), [&](std::ptrdiff_t i) {
             return (law_.position(state, i) - searched_at_[static_cast<std::size_t>(i)]).squaredNorm();
-        }))) && !law_.has_turned(state);
+        }))) && !has_turned(state);
     }
     void require_list() const {
         if (!list_is_valid_)
@@ -148,8 +129,10 @@ public:
         if (step_.report.compression > limits_.limit) refuse_depth();
         count_friction(report_, step_.report.friction, dt);
         facets_.end_step();
-        law_.end_step(dt);
-        if (law_.sees_from_outside(path)) list_is_valid_ = false;
+        if constexpr (LawWithMemory<Law>) {
+            law_.end_step(dt);
+            if (law_.sees_from_outside(path)) list_is_valid_ = false;
+        }
         return step_;
     }
 
@@ -167,12 +150,12 @@ public:
         const ContactReport report = report_;
         const double next_skin = candidates_.next_skin();
         const std::vector<Facet> new_facets = new_facets_;
-        const std::vector<FacetPair> seen = law_.seen_from_outside();
+        const LawMemory memory = law_memory();
         const auto take_back = [&] {
             list_is_valid_ = false;
             pairs_ = pairs;
             new_facets_ = new_facets;
-            law_.set_seen_from_outside(seen);
+            set_law_memory(memory);
             report_ = report;
             candidates_.restore_skin(next_skin);
         };
@@ -193,14 +176,13 @@ public:
     void clear_report() { report_ = {}; }
 
     [[nodiscard]] std::vector<std::byte> state() const {
-        return saved(state_key(), {has_searched_, candidates_.next_skin(), report_, pairs_, facets_, new_facets_,
-                                   law_.seen_from_outside(), law_.saved_interference()});
+        return saved(state_key(),
+                     {has_searched_, candidates_.next_skin(), report_, pairs_, facets_, new_facets_, law_memory()});
     }
 
     void restore(std::span<const std::byte> bytes) {
         SavedContact from = read_saved(state_key(), bytes);
-        law_.set_seen_from_outside(from.seen);
-        law_.set_interference(from.interference);
+        set_law_memory(from.law);
         candidates_.restore_skin(from.next_skin);
         pairs_ = std::move(from.pairs);
         facets_ = std::move(from.facets);
@@ -224,11 +206,7 @@ public:
         std::vector<Facet> new_facets;
         for (std::size_t i = 0; i < old_of_new.size(); ++i)
             if (old_of_new[i] < 0 || before.is_new(Facet{old_of_new[i]})) new_facets.push_back(Facet(i));
-        PairStore seen;
-        seen.follow(before.law_.seen_from_outside(), [](std::size_t) { return PairMemory{}; });
-        law_.set_interference(before.law_.saved_interference());
-        law_.set_seen_from_outside(
-            seen.carried_over(old_of_new, [&](FacetPair pair) { return law_.lies_inside(pair); }).pairs());
+        take_over_law_memory(before, old_of_new);
         candidates_.restore_skin(before.candidates_.next_skin());
         report_ = before.report_;
         report_.friction_dissipated += before.law_.stored_energy(before.facets_) - law_.stored_energy(facets);
@@ -254,6 +232,29 @@ public:
     }
 
 private:
+    [[nodiscard]] bool has_turned(const State& state) const {
+        if constexpr (LawWithMemory<Law>) return law_.has_turned(state);
+        return false;
+    }
+    [[nodiscard]] LawMemory law_memory() const {
+        if constexpr (LawWithMemory<Law>) return law_.memory();
+        return {};
+    }
+    void set_law_memory([[maybe_unused]] const LawMemory& memory) {
+        if constexpr (LawWithMemory<Law>) law_.set_memory(memory);
+    }
+    /// Pairs that were seen from outside keep that where they lie inside of a body of this surface, too.
+    void take_over_law_memory(const Engine& before, std::span<const std::int32_t> old_of_new) {
+        if constexpr (LawWithMemory<Law>) {
+            LawMemory memory = before.law_.memory();
+            PairStore seen;
+            seen.follow(memory.seen, [](std::size_t) { return PairMemory{}; });
+            seen = seen.carried_over(old_of_new, [&](FacetPair pair) { return law_.lies_inside(pair); });
+            memory.seen.assign(seen.pairs().begin(), seen.pairs().end());
+            law_.set_memory(memory);
+        }
+    }
+
     /// Pairs in contact stay in the list however deep they are.
     void keep_contacts(const State& start) {
         in_contact_.clear();

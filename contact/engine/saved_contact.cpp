@@ -29,13 +29,13 @@ std::vector<std::byte> saved(const StateKey& key, const SavedContact& contact) {
     for (const Facet facet : contact.new_facets) state.put(number_of(facet));
     contact.pairs.save(state);
     contact.facets.save(state);
-    state.put(static_cast<std::uint64_t>(contact.seen.size()));
-    for (const FacetPair& pair : contact.seen) {
+    state.put(static_cast<std::uint64_t>(contact.law.seen.size()));
+    for (const FacetPair& pair : contact.law.seen) {
         state.put(number_of(pair.facet_1));
         state.put(number_of(pair.facet_2));
     }
-    state.put(static_cast<std::uint64_t>(contact.interference.size()));
-    for (const double value : contact.interference) state.put(value);
+    state.put(static_cast<std::uint64_t>(contact.law.interference.size()));
+    for (const double value : contact.law.interference) state.put(value);
     return std::move(state).finish();
 }
 
@@ -58,15 +58,15 @@ SavedContact read_saved(const StateKey& key, std::span<const std::byte> bytes) {
     contact.facets = FacetStore::restored(state, key.n_facets, key.facet_memory);
     const auto n_seen = state.get<std::uint64_t>();
     for (std::uint64_t i = 0; i < n_seen; ++i) {  // `get` refuses to read past the end, whatever n_seen claims
-        contact.seen.push_back({Facet{state.get<std::int32_t>()}, Facet{state.get<std::int32_t>()}});
-        const auto [facet_1, facet_2] = contact.seen.back();
+        contact.law.seen.push_back({Facet{state.get<std::int32_t>()}, Facet{state.get<std::int32_t>()}});
+        const auto [facet_1, facet_2] = contact.law.seen.back();
         if (number_of(facet_1) < 0 || !(facet_1 < facet_2) || number_of(facet_2) >= key.n_facets)
             throw BadInput("state of " + key.kind + ": facets " + std::to_string(number_of(facet_1)) + " and " +
                            std::to_string(number_of(facet_2)) + " of " + std::to_string(key.n_facets) +
                            " are no pair. It is damaged.");
     }
     const auto n_interference = state.get<std::uint64_t>();
-    for (std::uint64_t i = 0; i < n_interference; ++i) contact.interference.push_back(state.get<double>());
+    for (std::uint64_t i = 0; i < n_interference; ++i) contact.law.interference.push_back(state.get<double>());
     state.finish();
     return contact;
 }

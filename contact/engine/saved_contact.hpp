@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "abut/contact/law/law_memory.hpp"
 #include "abut/contact/pair_store.hpp"
 #include "abut/contact/report.hpp"
 #include "abut/contact/surface/facet_store.hpp"
@@ -27,9 +28,8 @@ struct SavedContact {
     ContactReport report;
     PairStore pairs;
     FacetStore facets;
-    std::vector<Facet> new_facets;     ///< that no search has seen yet, increasing
-    std::vector<FacetPair> seen;       ///< that lay inside of their body at rest and have come out, increasing
-    std::vector<double> interference;  ///< InterferenceRamps::saved
+    std::vector<Facet> new_facets;  ///< that no search has seen yet, increasing
+    LawMemory law;
 };
 
 [[nodiscard]] std::vector<std::byte> saved(const StateKey& key, const SavedContact& contact);

@@ -4,9 +4,12 @@
 
 #include "abut/base/ids.hpp"
 #include "abut/contact/host_checks.hpp"
+#include "abut/contact/law/engine_law.hpp"
 #include "abut/contact/law/finite_forces.hpp"
 
 namespace abut::contact {
+
+static_assert(EngineLaw<FaceLaw<2>> && EngineLaw<FaceLaw<3>>);
 
 template <int Dim>
 FaceLaw<Dim>::FaceLaw(const SurfaceView<Dim>& surface, const ContactOptions& options, Sharing* sharing)

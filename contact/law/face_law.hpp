@@ -45,21 +45,12 @@ public:
     }
 
     void search(CandidateSearch<Dim>& candidates, State u_0, State u_1) const { candidates.search(u_0, u_1); }
-    [[nodiscard]] bool has_turned(State) const { return false; }  // its lists do not ask how faces look
     [[nodiscard]] bool is_wanted(FacetPair) const { return true; }
     void list(std::span<const FacetPair> pairs, std::span<const FacetPair> in_contact, State u_0, double reach);
     void list_remembered(std::span<const FacetPair> pairs);
     void drop_list() { faces_.clear(); }
     [[nodiscard]] bool is_pressed_in(std::size_t pair, State u) const;
     [[nodiscard]] FirstAdmission decide_first(std::size_t pair, State u, bool run_begins) const;
-    // Of one body, faces that share a corner or are near on the surface are left out instead.
-    [[nodiscard]] std::vector<FacetPair> seen_from_outside() const { return {}; }
-    [[nodiscard]] bool lies_inside(FacetPair) const { return false; }
-    void set_seen_from_outside(std::span<const FacetPair>) {}
-    [[nodiscard]] bool sees_from_outside(const Path&) { return false; }
-    [[nodiscard]] std::vector<double> saved_interference() const { return {}; }
-    void set_interference(std::span<const double>) {}
-    void end_step(double) {}
 
     void clear(ContactStep<Dim>& step) const;
     std::int64_t step(double dt, const Path& path, std::span<PairMemory> memory, FacetStore& facets, ContactStep<Dim>& step);

@@ -7,10 +7,14 @@
 #include "abut/base/ids.hpp"
 #include "abut/base/messages.hpp"
 #include "abut/base/parallel.hpp"
+#include "abut/contact/law/engine_law.hpp"
 #include "abut/contact/pairs/pair.hpp"
 #include "abut/contact/surface/face_name.hpp"
 
 namespace abut::contact {
+
+static_assert(LawWithMemory<NodeLaw<2>> && LawWithMemory<NodeLaw<3>>);
+
 namespace {
 
 // Of two facets of one body: by how much n_1 . n_2 changes while a list is valid, and by how much n turns [rad].
@@ -219,8 +223,9 @@ void NodeLaw<Dim>::set_offsets(double dt) {
 }
 
 template <int Dim>
-void NodeLaw<Dim>::set_interference(std::span<const double> saved) {
-    ramps_.restore(saved);
+void NodeLaw<Dim>::set_memory(const LawMemory& memory) {
+    inside_.restore(memory.seen);
+    ramps_.restore(memory.interference);
     if (!ramps_.has_begun()) {
         const std::vector<double> none(options_.interference.times.size(), 0.0);
         pairs_.set_offsets(none, none);

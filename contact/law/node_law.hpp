@@ -9,6 +9,7 @@
 
 #include "abut/base/ids.hpp"
 #include "abut/contact/law/interference_ramps.hpp"
+#include "abut/contact/law/law_memory.hpp"
 #include "abut/contact/law/pair_potential.hpp"
 #include "abut/contact/nodal_contact.hpp"
 #include "abut/contact/pair_store.hpp"
@@ -64,13 +65,11 @@ public:
     }
     [[nodiscard]] bool is_pressed_in(std::size_t pair, State x) const;
     [[nodiscard]] FirstAdmission decide_first(std::size_t pair, State x, bool run_begins) const;
-    [[nodiscard]] std::vector<FacetPair> seen_from_outside() const { return inside_.seen(); }
     [[nodiscard]] bool lies_inside(FacetPair pair) const { return inside_.has(pair); }
-    void set_seen_from_outside(std::span<const FacetPair> pairs) { inside_.restore(pairs); }
     [[nodiscard]] bool sees_from_outside(const Path& path);
     [[nodiscard]] std::span<const double> interference() const { return ramps_.overlaps(); }
-    [[nodiscard]] std::vector<double> saved_interference() const { return ramps_.saved(); }
-    void set_interference(std::span<const double> saved);
+    [[nodiscard]] LawMemory memory() const { return {inside_.seen(), ramps_.saved()}; }
+    void set_memory(const LawMemory& memory);
     void end_step(double dt) { ramps_.advance(dt); }
 
     void clear(NodalStep<Dim>& step) const;
