@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <tuple>
 
 namespace abut::contact {
 
@@ -29,6 +30,15 @@ struct ContactReport {
     std::int64_t sliding_faces = 0;
     std::int64_t sticking_faces_max = 0;  ///< the most in a step
     std::int64_t sliding_faces_max = 0;
+
+    static auto fields(auto& self) {
+        return std::tie(self.candidates, self.candidates_max, self.active_pairs, self.active_pairs_max, self.events,
+                        self.rebuilds, self.missed_contacts, self.inadmissible_overlaps, self.compressed_steps,
+                        self.compression_max, self.sliding_ratio_max, self.slipped_pairs, self.slipped_compression_max,
+                        self.tilted_pairs_max, self.correction_max, self.friction_dissipated, self.least_dissipated,
+                        self.friction_ratio_max, self.sliding_force, self.sliding_limit, self.sticking_faces,
+                        self.sliding_faces, self.sticking_faces_max, self.sliding_faces_max);
+    }
 };
 
 /// Figures of a search, for the reader of a run.

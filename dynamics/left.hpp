@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <tuple>
 
 #include "abut/base/vector.hpp"
 #include "abut/dynamics/point_system.hpp"
@@ -20,6 +21,10 @@ struct Left {
     /// friction books it as dissipated [J]
     double potential = 0.0;
 
+    static auto fields(auto& self) {
+        return std::tie(self.cells, self.mass, self.momentum, self.rest_angular_momentum, self.pseudo_angular_momentum,
+                        self.kinetic, self.potential);
+    }
     [[nodiscard]] double energy() const { return kinetic + potential; }  ///< of H~ + D - W [J]
     Left& operator+=(const Left& other) {
         cells += other.cells;

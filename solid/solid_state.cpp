@@ -1,9 +1,11 @@
 // What a solid and its parts remember from one step to the next, as bytes.
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "abut/base/error.hpp"
 #include "abut/base/state_bytes.hpp"
+#include "abut/base/state_fields.hpp"
 #include "abut/solid/body/bodies.hpp"
 #include "abut/solid/bond/bonds.hpp"
 #include "abut/solid/contact/contact_driver.hpp"
@@ -11,13 +13,12 @@
 #include "abut/solid/load/loads.hpp"
 #include "abut/solid/load/outside_loads.hpp"
 #include "abut/solid/load/point_loads.hpp"
-#include "abut/solid/part/state_of_matrix.hpp"
 #include "abut/solid/solid.hpp"
 
 namespace abut::solid {
 namespace {
 
-constexpr std::uint32_t version = 8;
+constexpr std::uint32_t version = 9;
 
 template <int Dim>
 std::string kind() {
@@ -55,9 +56,7 @@ std::vector<std::byte> Solid<Dim>::state() const {
     state.put(time_);
     state.put(work_);
     state.put(evaluations_);
-    for (const double extreme : {finite_extremes_.strain, finite_extremes_.determinant, finite_extremes_.plastic_strain})
-        state.put(extreme);
-    state.put(finite_extremes_.cell);
+    put_value(state, finite_extremes_);
     loads_->save(state);
     point_loads_->save(state);
     outside_->save(state);
@@ -71,18 +70,8 @@ std::vector<std::byte> Solid<Dim>::state() const {
     state.put(static_cast<std::uint8_t>(contact_ != nullptr));
     if (!contact_) return std::move(state).finish();
     state.put_all(std::span<const std::byte>(contact_->state()));
-    state.put(static_cast<std::int32_t>(contact_->impulses().size()));
-    for (const BodyImpulse<Dim>& pair : contact_->impulses()) {
-        state.put(pair.body_1);
-        state.put(pair.body_2);
-        put(state, pair.impulse);
-        state.put(pair.normal_impulse);
-        put(state, pair.friction);
-        state.put(pair.rubbing_impulse);
-        put(state, pair.slip);
-        state.put(pair.compression);
-        state.put(pair.compressed_steps);
-    }
+    const auto impulses = contact_->impulses();
+    put_value(state, std::vector(impulses.begin(), impulses.end()));
     return std::move(state).finish();
 }
 
@@ -96,9 +85,7 @@ void Solid<Dim>::restore(std::span<const std::byte> bytes, std::span<const doubl
     time_ = state.get<double>();
     work_ = state.get<double>();
     evaluations_ = state.get<std::int64_t>();
-    for (double* extreme : {&finite_extremes_.strain, &finite_extremes_.determinant, &finite_extremes_.plastic_strain})
-        *extreme = state.get<double>();
-    finite_extremes_.cell = state.get<std::int32_t>();
+    get_value(state, finite_extremes_);
     loads_->restore(state);
     if (frame_loads_->any()) frame_loads_->take(loads_->end());
     point_loads_->restore(state);
@@ -119,18 +106,7 @@ void Solid<Dim>::restore(std::span<const std::byte> bytes, std::span<const doubl
         frames_->stand_at(of_cells(u));
         contact_->restore(state.get_all<std::byte>(), u, time_);
         std::vector<BodyImpulse<Dim>> impulses;
-        for (auto n = state.get<std::int32_t>(); n > 0; --n) {  // `get` refuses to read past the end, whatever n claims
-            BodyImpulse<Dim>& pair = impulses.emplace_back();
-            pair.body_1 = state.get<std::int32_t>();
-            pair.body_2 = state.get<std::int32_t>();
-            take(state, pair.impulse);
-            pair.normal_impulse = state.get<double>();
-            take(state, pair.friction);
-            pair.rubbing_impulse = state.get<double>();
-            take(state, pair.slip);
-            pair.compression = state.get<double>();
-            pair.compressed_steps = state.get<std::int64_t>();
-        }
+        get_value(state, impulses);
         contact_->restore_impulses(std::move(impulses));
     }
     state.finish();

@@ -8,20 +8,6 @@
 
 namespace abut::contact {
 
-/// Every counter of a report in a fixed order, for saving and restoring.
-template <class Report, class Visit>
-void for_each_counter(Report& report, const Visit& visit) {
-    visit(report.candidates), visit(report.candidates_max), visit(report.active_pairs), visit(report.active_pairs_max);
-    visit(report.events), visit(report.rebuilds), visit(report.missed_contacts), visit(report.inadmissible_overlaps);
-    visit(report.compressed_steps), visit(report.compression_max), visit(report.sliding_ratio_max);
-    visit(report.slipped_pairs), visit(report.slipped_compression_max);
-    visit(report.tilted_pairs_max), visit(report.correction_max);
-    visit(report.friction_dissipated), visit(report.least_dissipated), visit(report.friction_ratio_max);
-    visit(report.sliding_force), visit(report.sliding_limit);
-    visit(report.sticking_faces), visit(report.sliding_faces);
-    visit(report.sticking_faces_max), visit(report.sliding_faces_max);
-}
-
 /// Adds what a step did, friction apart.
 template <class Step>
 void count_step(ContactReport& report, const Step& step, double compression_warning) {

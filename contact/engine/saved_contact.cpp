@@ -7,6 +7,7 @@
 #include "abut/base/error.hpp"
 #include "abut/base/ids.hpp"
 #include "abut/base/state_bytes.hpp"
+#include "abut/base/state_fields.hpp"
 #include "abut/contact/engine/report_counters.hpp"
 
 namespace abut::contact {
@@ -14,7 +15,7 @@ namespace {
 
 constexpr std::uint32_t state_version = 9;
 
-/// A new counter needs its line in `for_each_counter`, or it is lost where a state is saved; then a new version, too.
+/// A new counter needs its place in `ContactReport::fields`, or it is lost where a state is saved; then a new version, too.
 static_assert(sizeof(ContactReport) == 24 * sizeof(double));
 
 }  // namespace
@@ -24,7 +25,7 @@ std::vector<std::byte> saved(const StateKey& key, const SavedContact& contact) {
     state.put(key.fingerprint);
     state.put(static_cast<std::uint8_t>(contact.has_searched));
     state.put(contact.next_skin);
-    for_each_counter(contact.report, [&](const auto& counter) { state.put(counter); });
+    put_value(state, contact.report);
     state.put(static_cast<std::int32_t>(contact.new_facets.size()));
     for (const Facet facet : contact.new_facets) state.put(number_of(facet));
     contact.pairs.save(state);
@@ -47,8 +48,7 @@ SavedContact read_saved(const StateKey& key, std::span<const std::byte> bytes) {
     SavedContact contact;
     contact.has_searched = state.get<std::uint8_t>() != 0;
     contact.next_skin = state.get<double>();
-    for_each_counter(contact.report,
-                     [&](auto& counter) { counter = state.get<std::remove_reference_t<decltype(counter)>>(); });
+    get_value(state, contact.report);
     const auto n_new = state.get<std::int32_t>();
     if (n_new < 0 || n_new > key.n_facets)
         throw BadInput("state of " + key.kind + ": it has " + std::to_string(n_new) + " new facets of " +

@@ -51,37 +51,6 @@ std::vector<ForceRow<Dim>> ContactForces<Dim>::rows(const dynamics::RunView<Dim>
     return rows;
 }
 
-template <int Dim>
-void ContactForces<Dim>::save(StateWriter& state) const {
-    state.put(time_);
-    state.put(static_cast<std::int32_t>(last_.size()));
-    for (const auto& [bodies, pair] : last_) {
-        state.put(bodies.first);
-        state.put(bodies.second);
-        for (const double value : pair.impulse) state.put(value);
-        state.put(pair.normal_impulse);
-        for (const double value : pair.friction) state.put(value);
-        state.put(pair.rubbing_impulse);
-        for (const double value : pair.slip) state.put(value);
-    }
-}
-
-template <int Dim>
-void ContactForces<Dim>::restore(StateReader& state) {
-    time_ = state.get<double>();
-    for (auto n = state.get<std::int32_t>(); n > 0; --n) {
-        solid::BodyImpulse<Dim> pair{};
-        pair.body_1 = state.get<std::int32_t>();
-        pair.body_2 = state.get<std::int32_t>();
-        for (double& value : pair.impulse) value = state.get<double>();
-        pair.normal_impulse = state.get<double>();
-        for (double& value : pair.friction) value = state.get<double>();
-        pair.rubbing_impulse = state.get<double>();
-        for (double& value : pair.slip) value = state.get<double>();
-        last_.emplace(std::pair(pair.body_1, pair.body_2), pair);
-    }
-}
-
 template class ContactForces<2>;
 template class ContactForces<3>;
 

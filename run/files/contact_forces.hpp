@@ -2,10 +2,10 @@
 #include <cstdint>
 #include <limits>
 #include <map>
+#include <tuple>
 #include <utility>
 #include <vector>
 
-#include "abut/base/state_bytes.hpp"
 #include "abut/base/vector.hpp"
 #include "abut/run/values/forward.hpp"
 #include "abut/solid/contact/contact_results.hpp"
@@ -40,8 +40,8 @@ public:
     [[nodiscard]] bool wants_look(std::int64_t step) const;
     /// To be called at the start, too, where there are no rows.
     [[nodiscard]] std::vector<ForceRow<Dim>> rows(const dynamics::RunView<Dim>& run, const solid::Solid<Dim>& solid);
-    void save(StateWriter& state) const;
-    void restore(StateReader& state);
+    /// Memory of a checkpoint.
+    static auto fields(auto& self) { return std::tie(self.time_, self.last_); }
 
 private:
     std::int64_t interval_ = 1;

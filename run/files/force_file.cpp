@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "abut/base/state_fields.hpp"
+#include "abut/dynamics/ledger.hpp"
 #include "abut/run/body_names.hpp"
 #include "abut/run/files/column_units.hpp"
 #include "abut/run/files/files.hpp"
@@ -64,14 +66,14 @@ void ForceFile<Dim>::look(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& 
 template <int Dim>
 void ForceFile<Dim>::save(StateWriter& state) {
     state.put(static_cast<std::uint64_t>(file_.size()));
-    forces_.save(state);
+    put_value(state, forces_);
 }
 
 template <int Dim>
 void ForceFile<Dim>::resume(const Scene<Dim>& scene, const RunResult<Dim>& result, StateReader& state) {
     look_up(scene, result);
     file_.go_on_after(state.get<std::uint64_t>());
-    forces_.restore(state);
+    get_value(state, forces_);
 }
 
 template <int Dim>

@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "abut/base/state_fields.hpp"
 #include "abut/run/files/column_units.hpp"
 #include "abut/run/files/files.hpp"
 #include "abut/run/result.hpp"
@@ -48,14 +49,14 @@ void ProbeFile<Dim>::cells_left(const solid::Solid<Dim>&, std::span<const std::i
 template <int Dim>
 void ProbeFile<Dim>::save(StateWriter& state) {
     state.put(static_cast<std::uint64_t>(file_.size()));
-    probes_.save(state);
+    put_value(state, probes_);
 }
 
 template <int Dim>
 void ProbeFile<Dim>::resume(const Scene<Dim>& scene, const RunResult<Dim>& result, StateReader& state) {
     probes_ = Probes<Dim>(scene, result);
     file_.go_on_after(state.get<std::uint64_t>());
-    probes_.restore(state);
+    get_value(state, probes_);
 }
 
 template <int Dim>

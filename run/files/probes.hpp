@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "abut/base/vector.hpp"
@@ -34,8 +35,8 @@ public:
     /// Numbers that the cells have in the scene's mesh, of a run that some have left: means are those of cells that are
     /// there, and a place whose cell has left is at rest no more: all that is seen there is NaN.
     void take_cells(std::span<const std::int32_t> first_cells);
-    void save(StateWriter& state) const { forces_.save(state); }
-    void restore(StateReader& state) { forces_.restore(state); }
+    /// Memory of a checkpoint.
+    static auto fields(auto& self) { return std::tie(self.forces_); }
 
 private:
     /// The cells that a probe looks at, and their shares.

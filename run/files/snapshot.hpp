@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "abut/base/vector.hpp"
@@ -22,6 +23,10 @@ struct Snapshot {
     std::vector<double> value;       ///< by polygon; NaN: none, as of a rigid body
     std::vector<std::vector<Position>>
         obstacles;  ///< their faces; in 2D the outside is on the right of a segment, in 3D seen counter-clockwise
+
+    static auto fields(auto& self) {
+        return std::tie(self.what, self.time, self.force, self.position, self.value, self.obstacles);
+    }
 };
 
 /// Style in which an edge of a polygon is drawn.

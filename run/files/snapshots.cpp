@@ -12,8 +12,6 @@
 namespace abut::run {
 namespace {
 
-using Position = Snapshot::Position;
-
 constexpr std::int64_t looks_per_run = 60;
 constexpr double worth_another = 1.05;  // times the force of the snapshot before
 
@@ -22,37 +20,6 @@ double normal_impulse(const solid::Solid<Dim>& solid) {
     double sum = 0.0;
     for (const solid::BodyImpulse<Dim>& pair : solid.contact().impulses()) sum += pair.normal_impulse;
     return sum;
-}
-
-std::span<const double> numbers(const std::vector<Position>& positions) {
-    return positions.empty() ? std::span<const double>() : std::span(positions.front().data(), 3 * positions.size());
-}
-
-std::vector<Position> positions(const std::vector<double>& numbers) {
-    std::vector<Position> result(numbers.size() / 3);
-    for (std::size_t i = 0; i < result.size(); ++i) result[i] = {numbers[3 * i], numbers[3 * i + 1], numbers[3 * i + 2]};
-    return result;
-}
-
-void put(StateWriter& state, const std::optional<Snapshot>& snapshot) {
-    state.put(static_cast<std::uint8_t>(snapshot.has_value()));
-    if (!snapshot) return;
-    state.put(snapshot->what);
-    state.put(snapshot->time);
-    state.put(snapshot->force);
-    state.put_all(numbers(snapshot->position));
-    state.put_all(std::span<const double>(snapshot->value));
-    state.put(static_cast<std::uint64_t>(snapshot->obstacles.size()));
-    for (const auto& face : snapshot->obstacles) state.put_all(numbers(face));
-}
-
-std::optional<Snapshot> get_snapshot(StateReader& state) {
-    if (state.get<std::uint8_t>() == 0) return {};
-    Snapshot snapshot{.what = state.get_text(), .time = state.get<double>(), .force = state.get<double>()};
-    snapshot.position = positions(state.get_all<double>());
-    snapshot.value = state.get_all<double>();
-    for (auto n = state.get<std::uint64_t>(); n > 0; --n) snapshot.obstacles.push_back(positions(state.get_all<double>()));
-    return snapshot;
 }
 
 }  // namespace
@@ -111,25 +78,6 @@ void Snapshots<Dim>::fail(const Failure& failure, solid::Solid<Dim>& solid) {
     solid.restore(solid.state(), failure.sound.q);  // contact was last searched where the run was lost
     static_cast<void>(solid.potential(failure.sound.q));
     end_ = maker_->taken("The last sound state", dynamics::RunView<Dim>(failure.sound), solid);
-}
-
-template <int Dim>
-void Snapshots<Dim>::save(StateWriter& state) const {
-    state.put(last_impulse_);
-    state.put(last_time_);
-    put(state, start_);
-    put(state, middle_);
-    put(state, largest_);
-}
-
-template <int Dim>
-void Snapshots<Dim>::resume(const Scene<Dim>& scene, const RunResult<Dim>& result, StateReader& state) {
-    begin(scene, result);
-    last_impulse_ = state.get<double>();
-    last_time_ = state.get<double>();
-    start_ = get_snapshot(state);
-    middle_ = get_snapshot(state);
-    largest_ = get_snapshot(state);
 }
 
 template <int Dim>

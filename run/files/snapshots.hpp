@@ -2,9 +2,9 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <tuple>
 #include <vector>
 
-#include "abut/base/state_bytes.hpp"
 #include "abut/run/files/snapshot.hpp"
 #include "abut/run/values/forward.hpp"
 
@@ -32,8 +32,10 @@ public:
     void end(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid);
     /// The last sound state of a run that has failed, which this evaluates, stands for the end.
     void fail(const Failure& failure, solid::Solid<Dim>& solid);
-    void save(StateWriter& state) const;
-    void resume(const Scene<Dim>& scene, const RunResult<Dim>& result, StateReader& state);
+    /// Memory of a checkpoint: `begin` comes first.
+    static auto fields(auto& self) {
+        return std::tie(self.last_impulse_, self.last_time_, self.start_, self.middle_, self.largest_);
+    }
 
     /// Pictures taken so far.
     [[nodiscard]] BodyPictures pictures() const;

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "abut/base/error.hpp"
+#include "abut/base/state_fields.hpp"
 #include "abut/base/stopwatch.hpp"
 #include "abut/run/files/failure_files.hpp"
 #include "abut/run/files/files.hpp"
@@ -178,7 +179,7 @@ void ResultFiles<Dim>::save(StateWriter& state) {
     if (forces_) forces_->save(state);
     if (frames_) frames_->save(state);
     if (animation_) animation_->save(state);
-    snapshots_.save(state);
+    put_value(state, snapshots_);
 }
 
 /// Results of the run that was stopped are written over; what it left at its stop goes.
@@ -195,7 +196,8 @@ void ResultFiles<Dim>::resume(const Scene<Dim>& scene, const RunResult<Dim>& res
     if (result.options.frames == 0 && result.options.times.empty()) frames_.reset();
     if (frames_) frames_->resume(scene, result, state);
     if (animation_) animation_->resume(scene, result, state);
-    snapshots_.resume(scene, result, state);
+    snapshots_.begin(scene, result);
+    get_value(state, snapshots_);
 }
 
 template <int Dim>

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "abut/base/error.hpp"
+#include "abut/base/state_fields.hpp"
 #include "abut/base/stopwatch.hpp"
 #include "abut/base/throw_again.hpp"
 #include "abut/contact/nodal_contact.hpp"
@@ -39,9 +40,9 @@ namespace abut::run {
 namespace {
 
 const std::string observers_kind = "observers of a run";
-constexpr int observers_version = 5;
+constexpr int observers_version = 6;
 const std::string looks_kind = "looks at surfaces";
-constexpr int looks_version = 8;
+constexpr int looks_version = 9;
 
 /// One run, from the first step to the last.
 template <int Dim, class Integrator>
@@ -269,8 +270,8 @@ private:
     }
     void keep_looks(Checkpoint& checkpoint) const {
         StateWriter looks(looks_kind, looks_version);
-        result_.erosion.save(looks);
-        watches_.save(looks);
+        put_value(looks, result_.erosion);
+        put_value(looks, watches_);
         checkpoint.looks = std::move(looks).finish();
         StateWriter state(observers_kind, observers_version);
         observer_.save(state);
@@ -281,10 +282,10 @@ private:
         require_same_run(from.run, identity(scene_, result_), options_.other_end);
         require_later_end(from.motion);
         StateReader looks(from.looks, looks_kind, looks_version);
-        result_.erosion.restore(looks);
+        get_value(looks, result_.erosion);
         go_on_from(from);
         record_rows(from.ledger, result_.ledger);
-        watches_.restore(looks);
+        get_value(looks, watches_);
         looks.finish();
         result_.scale = known_scale<Dim>(scene_.energy_scale, result_);
         result_.inadmissible_overlaps_max = from.inadmissible_overlaps_max;

@@ -12,7 +12,6 @@
 namespace abut::run {
 namespace {
 
-const std::string looks_kind = "looks at surfaces of a rest";
 constexpr std::int64_t sightings_per_run = 40;  // looks for bodies past a rim and together with themselves, about
 
 }  // namespace
@@ -30,12 +29,9 @@ template <int Dim>
 void Watches<Dim>::take_rest() {
     fine_motion_.reset();
     self_.emplace(start_.present(), whole_.seen());
-    StateWriter looked(looks_kind, 1);
-    surfaces_->save(looked);
-    const std::vector<std::byte> looks = std::move(looked).finish();
+    const SurfaceWatch<Dim> before = *surfaces_;
     surfaces_.emplace(start_.present());
-    StateReader known(looks, looks_kind, 1);
-    surfaces_->restore(known);
+    SurfaceWatch<Dim>::fields(*surfaces_) = SurfaceWatch<Dim>::fields(before);
 }
 
 template <int Dim>
@@ -99,32 +95,6 @@ template <int Dim>
 void Watches<Dim>::take_figures() const {
     start_.result.looks = surfaces_->looks();
     start_.result.weak_friction = friction_.weakest();
-}
-
-template <int Dim>
-void Watches<Dim>::save(StateWriter& state) const {
-    const RunResult<Dim>& result = start_.result;
-    result.accounts.save(state);
-    result.sliding.save(state);
-    surfaces_->save(state);
-    result.sightings.save(state);
-    state.put(result.turned.name);
-    state.put(result.turned.angle);
-    friction_.save(state);
-    state.put(result.fine_energy_max);
-}
-
-template <int Dim>
-void Watches<Dim>::restore(StateReader& state) {
-    RunResult<Dim>& result = start_.result;
-    result.accounts.restore(state);
-    result.sliding.restore(state);
-    surfaces_->restore(state);
-    result.sightings.restore(state);
-    result.turned.name = state.get_text();
-    result.turned.angle = state.get<double>();
-    friction_.restore(state);
-    result.fine_energy_max = state.get<double>();
 }
 
 template class Watches<2>;

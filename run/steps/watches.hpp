@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <tuple>
 
 #include "abut/base/state_bytes.hpp"
 #include "abut/base/stopwatch.hpp"
@@ -54,9 +55,12 @@ public:
     /// After the run.
     void take_figures() const;
 
-    /// Memory of all watches and of the accounts of the result.
-    void save(StateWriter& state) const;
-    void restore(StateReader& state);
+    /// Memory of all watches and of the accounts of the result: that of a checkpoint.
+    static auto fields(auto& self) {
+        auto& result = self.start_.result;
+        return std::tie(result.accounts, result.sliding, *self.surfaces_, result.sightings, result.turned, self.friction_,
+                        result.fine_energy_max);
+    }
 
 private:
     [[nodiscard]] bool is_sighting_due(std::int64_t step) const;

@@ -1,8 +1,8 @@
 #pragma once
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
-#include "abut/base/state_bytes.hpp"
 #include "abut/base/vector.hpp"
 #include "abut/dynamics/ledger.hpp"
 
@@ -35,21 +35,13 @@ struct Accounts {
             std::max(momentum_drift, (entry.linear_momentum + entry.eroded.momentum - given - first_momentum).norm());
     }
 
-    void save(StateWriter& state) const {
-        for_each(*this, [&](const auto& value) { state.put(value); });
-    }
-    void restore(StateReader& state) {
-        for_each(*this, [&](auto& value) { value = state.get<double>(); });
-        is_first = false;
+    /// Memory of a checkpoint.
+    static auto fields(auto& self) {
+        return std::tie(self.energy_in_play, self.speed, self.momentum_drift, self.first_energy, self.first_momentum,
+                        self.is_first);
     }
 
 private:
-    template <class Self, class Visit>
-    static void for_each(Self& self, const Visit& visit) {
-        visit(self.energy_in_play), visit(self.speed), visit(self.momentum_drift), visit(self.first_energy);
-        for (auto& component : self.first_momentum) visit(component);
-    }
-
     double first_energy = 0.0;  // H~0 less work [J]
     Vector<Dim> first_momentum = Vector<Dim>::Zero();
     bool is_first = true;

@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 #include <string>
+#include <tuple>
 
 namespace abut::run {
 
@@ -8,6 +9,8 @@ namespace abut::run {
 struct TurnedBody {
     std::string name{};  ///< as in messages; empty: none has turned
     double angle = 0.0;  ///< [rad]
+
+    static auto fields(auto& self) { return std::tie(self.name, self.angle); }
 };
 
 /// Two bodies, or a body and an obstacle, that slid past each other with less friction than belongs to their normal force.

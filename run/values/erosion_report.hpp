@@ -1,8 +1,8 @@
 #pragma once
 #include <cstdint>
+#include <tuple>
 #include <vector>
 
-#include "abut/base/state_bytes.hpp"
 #include "abut/base/vector.hpp"
 #include "abut/dynamics/left.hpp"
 #include "abut/solid/erosion.hpp"
@@ -15,6 +15,8 @@ struct ErodedCell {
     std::int64_t step;  ///< after which it left
     double time;        ///< of that [s]
     solid::LeavingReason reason;
+
+    static auto fields(auto& self) { return std::tie(self.cell, self.step, self.time, self.reason); }
 };
 
 /// Cells that have left a run so far, and what they took along.
@@ -24,8 +26,7 @@ struct ErosionReport {
     dynamics::Left<Dim> left;
     Vector<Dim> impulse_of_weight = Vector<Dim>::Zero();  ///< that gravity had given to them [N s]
 
-    void save(StateWriter& state) const;
-    void restore(StateReader& state);
+    static auto fields(auto& self) { return std::tie(self.cells, self.left, self.impulse_of_weight); }
 };
 
 }  // namespace abut::run

@@ -2,10 +2,9 @@
 #include <algorithm>
 #include <cstdint>
 #include <limits>
-#include <span>
+#include <tuple>
 #include <vector>
 
-#include "abut/base/state_bytes.hpp"
 #include "abut/contact/report.hpp"
 
 namespace abut::run {
@@ -47,19 +46,9 @@ public:
         return least;
     }
 
-    void save(StateWriter& state) const {
-        state.put_all(std::span<const double>(force_));
-        state.put_all(std::span<const double>(limit_));
-        state.put(n_records_);
-        state.put(last_force_);
-        state.put(last_limit_);
-    }
-    void restore(StateReader& state) {
-        force_ = state.get_all<double>();
-        limit_ = state.get_all<double>();
-        n_records_ = state.get<std::int64_t>();
-        last_force_ = state.get<double>();
-        last_limit_ = state.get<double>();
+    /// Memory of a checkpoint.
+    static auto fields(auto& self) {
+        return std::tie(self.force_, self.limit_, self.n_records_, self.last_force_, self.last_limit_);
     }
 
 private:

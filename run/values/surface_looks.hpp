@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 #include <string>
+#include <tuple>
 
 namespace abut::run {
 
@@ -11,6 +12,8 @@ struct Encounter {
     double distance = 0.0;  ///< [m]
     double ratio = 0.0;     ///< [-]
     double time = 0.0;      ///< when that was [s]
+
+    static auto fields(auto& self) { return std::tie(self.body_1, self.body_2, self.distance, self.ratio, self.time); }
 };
 
 /// Findings about the surfaces of the bodies where they are, whatever contact knows of them: at the end, and before that at
@@ -27,6 +30,8 @@ struct SurfaceLooks {
     /// Surfaces nearest to each other at the end, where nothing has touched. Without names: nothing could touch, or
     /// some lie on each other without a force.
     Encounter nearest{};
+
+    static auto fields(auto& self) { return std::tie(self.looks, self.deepest, self.remote, self.pressed, self.nearest); }
 };
 
 }  // namespace abut::run

@@ -18,11 +18,6 @@ double least_coefficient(const contact::Friction& law) {
     return std::isnan(law.sliding_coefficient) ? law.coefficient : std::min(law.coefficient, law.sliding_coefficient);
 }
 
-template <class Part, class Visit>
-void visit_part(Part& part, const Visit& visit) {
-    visit(part.work), visit(part.seconds), visit(part.found), visit(part.limit);
-}
-
 }  // namespace
 
 template <int Dim>
@@ -96,51 +91,6 @@ WeakFriction FrictionWatch<Dim>::weakest() const {
             weakest = {quoted_name(scene_, bodies[0]), quoted_name(scene_, bodies[1]), sum.seconds, sum.found / sum.limit};
     }
     return weakest;
-}
-
-template <int Dim>
-template <class Self, class Visit>
-void FrictionWatch<Dim>::for_each(Self& pair, const Visit& visit) {
-    for (auto* vector : {&pair.friction, &pair.slip, &pair.part_slip, &pair.last_slip})
-        for (auto& component : *vector) visit(component);
-    visit(pair.rubbing), visit(pair.work);
-    visit_part(pair.part, visit);
-}
-
-template <int Dim>
-void FrictionWatch<Dim>::save(StateWriter& state) const {
-    state.put(records_);
-    state.put(began_);
-    state.put(dissipated_);
-    state.put(work_);
-    state.put(stretched_);
-    std::vector<std::int32_t> bodies;
-    for (const auto& [both, pair] : pairs_) bodies.insert(bodies.end(), both.begin(), both.end());
-    state.put_all(std::span<const std::int32_t>(bodies));
-    for (const auto& [both, pair] : pairs_) {
-        for_each(pair, [&](double value) { state.put(value); });
-        std::vector<double> weak;
-        for (const Part& part : pair.weak) visit_part(part, [&](double value) { weak.push_back(value); });
-        state.put_all(std::span<const double>(weak));
-    }
-}
-
-template <int Dim>
-void FrictionWatch<Dim>::restore(StateReader& state) {
-    records_ = state.get<std::int64_t>();
-    began_ = state.get<double>();
-    dissipated_ = state.get<double>();
-    work_ = state.get<double>();
-    stretched_ = state.get<double>();
-    const auto bodies = state.get_all<std::int32_t>();
-    pairs_.clear();
-    for (std::size_t i = 0; i + 1 < bodies.size(); i += 2) {
-        Pair& pair = pairs_[{bodies[i], bodies[i + 1]}];
-        for_each(pair, [&](double& value) { value = state.get<double>(); });
-        const auto weak = state.get_all<double>();
-        for (auto next = weak.begin(); next != weak.end();)
-            visit_part(pair.weak.emplace_back(), [&](double& value) { value = next != weak.end() ? *next++ : 0.0; });
-    }
 }
 
 template class FrictionWatch<2>;

@@ -3,9 +3,9 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <tuple>
 #include <vector>
 
-#include "abut/base/state_bytes.hpp"
 #include "abut/run/scene.hpp"
 #include "abut/run/values/body_sliding.hpp"
 #include "abut/solid/contact/contact_results.hpp"
@@ -42,8 +42,10 @@ public:
     /// The pair of bodies that slid so for the longest time.
     [[nodiscard]] WeakFriction weakest() const;
 
-    void save(StateWriter& state) const;
-    void restore(StateReader& state);
+    /// Memory of a checkpoint.
+    static auto fields(auto& self) {
+        return std::tie(self.records_, self.began_, self.dissipated_, self.work_, self.stretched_, self.pairs_);
+    }
 
 private:
     using Bodies = std::array<std::int32_t, 2>;
@@ -52,6 +54,8 @@ private:
         double work = 0.0;  // that full friction would have done; at the end since the slip began or turned back [J]
         double seconds = 0.0;
         double found = 0.0, limit = 0.0;  // impulse of friction along the slip, and mu times the normal one [N s]
+
+        static auto fields(auto& self) { return std::tie(self.work, self.seconds, self.found, self.limit); }
     };
     struct Pair {
         Vector<Dim> friction = Vector<Dim>::Zero(), slip = Vector<Dim>::Zero();  // until the last window ended
@@ -61,11 +65,14 @@ private:
         Vector<Dim> last_slip = Vector<Dim>::Zero();  // of the last part that slid
         double work = 0.0;                            // Part::work of that
         std::vector<Part> weak;                       // with too little friction
+
+        static auto fields(auto& self) {
+            return std::tie(self.friction, self.slip, self.rubbing, self.part, self.part_slip, self.last_slip, self.work,
+                            self.weak);
+        }
     };
     void end_window(std::span<const solid::BodyImpulse<Dim>> pairs, double seconds, double speed);
     void end_part(double dissipated);
-    template <class Self, class Visit>
-    static void for_each(Self& pair, const Visit& visit);
     /// The least mu that laws give two bodies [-]; 0: none, or one that is not known.
     [[nodiscard]] double coefficient(Bodies bodies) const;
 

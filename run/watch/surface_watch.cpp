@@ -82,18 +82,6 @@ double gap_between(std::span<const Vector<Dim>> face_1, std::span<const Vector<D
     return gap;
 }
 
-void put(StateWriter& state, const Encounter& met) {
-    state.put(met.body_1);
-    state.put(met.body_2);
-    for (const double value : {met.distance, met.ratio, met.time}) state.put(value);
-}
-
-Encounter get_encounter(StateReader& state) {
-    Encounter met{.body_1 = state.get_text(), .body_2 = state.get_text()};
-    for (double* value : {&met.distance, &met.ratio, &met.time}) *value = state.get<double>();
-    return met;
-}
-
 }  // namespace
 
 template <int Dim>
@@ -378,18 +366,6 @@ void SurfaceWatch<Dim>::look_for_nearest(double time) {
                                   0.0, time};
             best = std::min(best, distance);
         }
-}
-
-template <int Dim>
-void SurfaceWatch<Dim>::save(StateWriter& state) const {
-    for (const std::int64_t count : {last_, next_, looks_.looks}) state.put(count);
-    for (const Encounter* met : {&looks_.deepest, &looks_.remote, &looks_.pressed}) put(state, *met);
-}
-
-template <int Dim>
-void SurfaceWatch<Dim>::restore(StateReader& state) {
-    for (std::int64_t* count : {&last_, &next_, &looks_.looks}) *count = state.get<std::int64_t>();
-    for (Encounter* met : {&looks_.deepest, &looks_.remote, &looks_.pressed}) *met = get_encounter(state);
 }
 
 template class SurfaceWatch<2>;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "abut/base/state_bytes.hpp"
@@ -29,8 +30,8 @@ public:
     void end(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid, double speed, bool touch, bool has_touched);
     [[nodiscard]] const SurfaceLooks& looks() const { return looks_; }
 
-    void save(StateWriter& state) const;
-    void restore(StateReader& state);
+    /// Memory of a checkpoint.
+    static auto fields(auto& self) { return std::tie(self.last_, self.next_, self.looks_); }
 
 private:
     using Points = std::vector<Vector<Dim>>;

@@ -10,9 +10,9 @@
 #include "abut/base/error.hpp"
 #include "abut/base/parallel.hpp"
 #include "abut/base/rotation.hpp"
+#include "abut/base/state_fields.hpp"
 #include "abut/solid/part/body_cells.hpp"
 #include "abut/solid/part/rank_part.hpp"
-#include "abut/solid/part/state_of_matrix.hpp"
 
 namespace abut::solid {
 namespace {
@@ -258,7 +258,8 @@ void RigidBodies<Dim>::save(StateWriter& state, const RankPart<Dim>& part) const
 template <int Dim>
 void RigidBodies<Dim>::restore(StateReader& state) {
     for (Body& body : bodies_)
-        for (Matrix<Dim>* matrix : {&body.turn_0, &body.turn_1, &body.rate_before, &body.rate_after}) take(state, *matrix);
+        for (Matrix<Dim>* matrix : {&body.turn_0, &body.turn_1, &body.rate_before, &body.rate_after})
+            get_value(state, *matrix);
 }
 
 template <int Dim>

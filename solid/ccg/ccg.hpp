@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "abut/base/large_array.hpp"
@@ -75,6 +76,8 @@ struct FiniteExtremes {
     double strain = 0.0;          ///< largest |E|, Frobenius, of St. Venant and Kirchhoff's material [-]
     std::int32_t cell = -1;       ///< with the least det F; -1 where none is below 1
     double plastic_strain = 0.0;  ///< largest equivalent one [-]
+
+    static auto fields(auto& self) { return std::tie(self.strain, self.determinant, self.plastic_strain, self.cell); }
 };
 
 /// A part of the mesh on which the operators can be applied alone: everything that the asked-for values depend on.

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <tuple>
 #include <vector>
 
 #include "abut/base/vector.hpp"
@@ -46,6 +47,11 @@ struct BodyImpulse {
     /// Largest |g|/D of a step above the warning that pairs with `bearing_share` of the normal force reach [-]; 0: none.
     double compression = 0.0;
     std::int64_t compressed_steps = 0;  ///< steps with such a compression
+
+    static auto fields(auto& self) {
+        return std::tie(self.body_1, self.body_2, self.impulse, self.normal_impulse, self.friction, self.rubbing_impulse,
+                        self.slip, self.compression, self.compressed_steps);
+    }
 };
 
 /// Part of the normal force of two bodies below which the pairs that are pressed in deepest do not count [-].

@@ -6,8 +6,8 @@
 #include "abut/base/error.hpp"
 #include "abut/base/messages.hpp"
 #include "abut/base/parallel.hpp"
+#include "abut/base/state_fields.hpp"
 #include "abut/dynamics/point_system.hpp"
-#include "abut/solid/part/state_of_matrix.hpp"
 
 namespace abut::solid {
 
@@ -139,12 +139,12 @@ double BodyMoments<Dim>::add_moment(std::int32_t body, const AxialVector<Dim>& m
 
 template <int Dim>
 void BodyMoments<Dim>::save(StateWriter& state) const {
-    for (const Held& moment : moments_) put_optional(state, moment.spin);
+    for (const Held& moment : moments_) put_value(state, moment.spin);
 }
 
 template <int Dim>
 void BodyMoments<Dim>::restore(StateReader& state) {
-    for (Held& moment : moments_) take_optional(state, moment.spin);
+    for (Held& moment : moments_) get_value(state, moment.spin);
 }
 
 template <int Dim>

@@ -5,7 +5,7 @@
 
 #include "abut/base/error.hpp"
 #include "abut/base/parallel.hpp"
-#include "abut/solid/part/state_of_matrix.hpp"
+#include "abut/solid/part/state_of_vectors.hpp"
 
 namespace abut::solid {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "abut/base/error.hpp"
-#include "abut/solid/part/state_of_matrix.hpp"
+#include "abut/solid/part/state_of_vectors.hpp"
 
 namespace abut::solid {
 namespace {

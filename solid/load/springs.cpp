@@ -7,7 +7,7 @@
 
 #include "abut/base/error.hpp"
 #include "abut/base/messages.hpp"
-#include "abut/solid/part/state_of_matrix.hpp"
+#include "abut/base/state_fields.hpp"
 
 namespace abut::solid {
 namespace {
@@ -116,12 +116,12 @@ void Springs<Dim>::push(const Held& spring, const Vector<Dim>& tension, std::spa
 
 template <int Dim>
 void Springs<Dim>::save(StateWriter& state) const {
-    for (const Held& spring : springs_) put_optional(state, spring.rate);
+    for (const Held& spring : springs_) put_value(state, spring.rate);
 }
 
 template <int Dim>
 void Springs<Dim>::restore(StateReader& state) {
-    for (Held& spring : springs_) take_optional(state, spring.rate);
+    for (Held& spring : springs_) get_value(state, spring.rate);
 }
 
 template <int Dim>

@@ -1,7 +1,6 @@
 #pragma once
 // Private to the sources of this layer.
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -11,26 +10,6 @@
 #include "abut/base/vector.hpp"
 
 namespace abut::solid {
-
-template <int Rows, int Cols>
-void put(StateWriter& state, const SmallMatrix<Rows, Cols>& matrix) {
-    for (const double value : matrix) state.put(value);
-}
-template <int Rows, int Cols>
-void take(StateReader& state, SmallMatrix<Rows, Cols>& matrix) {
-    for (double& value : matrix) value = state.get<double>();
-}
-
-template <class Matrix>
-void put_optional(StateWriter& state, const std::optional<Matrix>& matrix) {
-    state.put(static_cast<std::uint8_t>(matrix.has_value()));
-    if (matrix) put(state, *matrix);
-}
-template <class Matrix>
-void take_optional(StateReader& state, std::optional<Matrix>& matrix) {
-    matrix.reset();
-    if (state.get<std::uint8_t>() != 0) take(state, matrix.emplace());
-}
 
 template <int Dim>
 void put_all(StateWriter& state, const std::vector<Vector<Dim>>& vectors) {
