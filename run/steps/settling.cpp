@@ -102,13 +102,14 @@ struct Whole {
     AxialVector<Dim> angular = AxialVector<Dim>::Zero();  // about the origin [kg m^2/s]
 
     [[nodiscard]] Vector<Dim> velocity() const { return momentum / mass; }
+    /// Angular momentum about the centre [kg m^2/s].
+    [[nodiscard]] AxialVector<Dim> spin() const { return angular - moment<Dim>(centre(), momentum); }
     /// As if the body were a disc or a ball [m].
     [[nodiscard]] double radius() const { return std::sqrt(2.0 * about_centre().trace() / mass); }
     /// Speed of the points at that radius about the centre [m/s].
     [[nodiscard]] double speed_of_rim() const {
-        const AxialVector<Dim> spin = angular - moment<Dim>(centre(), momentum);
         const double inertia = about_centre().trace();
-        return inertia > 0.0 ? spin.norm() / inertia * radius() : 0.0;
+        return inertia > 0.0 ? spin().norm() / inertia * radius() : 0.0;
     }
 
 private:
@@ -246,26 +247,51 @@ double still_energy(const solid::Solid<Dim>& solid, std::span<const double> q, d
     return energy;
 }
 
-/// Refuses a body that nothing holds, and that loads would push on for ever.
+/// Whether a couple on each body turns it for ever: no traction there keeps its direction as the body turns, until loads balance.
+template <int Dim>
+std::vector<bool> turn_for_ever(const mesh::Mesh<Dim>& mesh, const solid::SolidOptions<Dim>& options) {
+    std::vector<bool> turn(mesh.body_names.size(), true);
+    for (const solid::TractionCondition<Dim>& traction : options.boundary.traction) {
+        if (traction.follows) continue;
+        for (const std::int32_t face : mesh.group(traction.group).faces) {
+            const std::int32_t cell = mesh.face_cells[static_cast<std::size_t>(face)][0];
+            const auto body = static_cast<std::size_t>(mesh.cell_body[static_cast<std::size_t>(cell)]);
+            if (solid::properties_of(options.kinematics, body).turns) turn[body] = false;
+        }
+    }
+    return turn;
+}
+
+/// Refuses a body that nothing holds: `loads` do something to it for ever.
+[[noreturn]] void refuse_free(const std::string& body, const std::string& loads, double size) {
+    throw BadInput(
+        fmt::format("--settle: nothing holds {}: it has no support, spring or bond, and nothing that it could touch, "
+                    "and loads of t = 0 {}. To begin at rest hold it by supports or springs, or give it something to "
+                    "rest on; else leave --settle out.",
+                    body, loads),
+        {.value = size, .allowed = 0.0});
+}
+
+/// Refuses a body that nothing holds, and that loads would push or turn on for ever.
 template <int Dim>
 void require_holds(const Scene<Dim>& scene, solid::Solid<Dim>& solid, std::span<const double> q, double dt) {
     const std::vector<bool> is_held = may_be_held(scene, solid.options());
     if (std::ranges::find(is_held, false) == is_held.end()) return;
     std::vector<double> force(q.size());
     solid.force(q, force);
+    const std::vector<bool> turn = turn_for_ever(scene.mesh, solid.options());
     const double time = static_cast<double>(most_rise) * dt;
     for (std::size_t body = 0; body < is_held.size(); ++body) {
         if (is_held[body]) continue;
+        const std::string name = quoted_name(scene, static_cast<std::int32_t>(body));
         const Whole<Dim> pushed = whole_of<Dim>(solid, q, force, body);
-        const double push = pushed.momentum.norm();  // resultant of the forces [N]
-        if (push * time * time <= balanced_path * pushed.radius() * pushed.mass) continue;
-        throw BadInput(
-            fmt::format(
-                "--settle: nothing holds {}: it has no support, spring or bond, and nothing that it could touch, and "
-                "loads of t = 0 push it {} with {:.3g} N. To begin at rest hold it by supports or springs, or give "
-                "it something to rest on; else leave --settle out.",
-                quoted_name(scene, static_cast<std::int32_t>(body)), along<Dim>(pushed.momentum), push),
-            {.value = push, .allowed = 0.0});
+        const double push = pushed.momentum.norm();                               // resultant of the forces [N]
+        const double couple = pushed.spin().norm();                               // [N m]
+        const double balanced = balanced_path * pushed.radius() / (time * time);  // acceleration [m/s^2]
+        if (push > balanced * pushed.mass)
+            refuse_free(name, fmt::format("push it {} with {:.3g} N", along<Dim>(pushed.momentum), push), push);
+        if (turn[body] && pushed.speed_of_rim() > balanced)
+            refuse_free(name, fmt::format("turn it with a couple of {:.3g} N m", couple), couple);
     }
 }
 
