@@ -247,7 +247,7 @@ double still_energy(const solid::Solid<Dim>& solid, std::span<const double> q, d
     return energy;
 }
 
-/// Whether a couple on each body turns it for ever: no traction there keeps its direction as the body turns, until loads balance.
+/// Whether a couple on each body turns it for ever: no traction there keeps its direction as it turns, until loads balance.
 template <int Dim>
 std::vector<bool> turn_for_ever(const mesh::Mesh<Dim>& mesh, const solid::SolidOptions<Dim>& options) {
     std::vector<bool> turn(mesh.body_names.size(), true);
