@@ -79,6 +79,31 @@ private:
     double in_window_before_ = std::numeric_limits<double>::infinity();
 };
 
+/// Finds where the kinetic energy has passed a peak, by the mean of two steps: a swing from step to step is no peak. Every
+/// other peak is found a step later: else a vibration that turns over once from rest to rest would stay.
+class PeakFinder {
+public:
+    /// Takes the energy after a step [J].
+    [[nodiscard]] bool has_passed(double kinetic) {
+        const double mean = 0.5 * (kinetic + std::exchange(last_, kinetic));
+        if (mean <= peak_) return waited_++ >= peaks_ % 2;
+        peak_ = mean;
+        return false;
+    }
+    /// [J]
+    [[nodiscard]] double peak() const { return peak_; }
+    /// The bodies are at rest again.
+    void begin_again() {
+        peak_ = last_ = 0.0;
+        waited_ = 0;
+        ++peaks_;
+    }
+
+private:
+    double peak_ = 0.0, last_ = 0.0;
+    std::int64_t waited_ = 0, peaks_ = 0;
+};
+
 /// Largest speed of the points of each body [m/s].
 template <int Dim>
 std::vector<double> speeds(const solid::Solid<Dim>& solid, std::span<const double> momentum) {
@@ -295,6 +320,17 @@ void require_holds(const Scene<Dim>& scene, solid::Solid<Dim>& solid, std::span<
     }
 }
 
+/// Whether no body has gone far in the most steps that a peak may take: what loads that balance nearly leave would turn it.
+template <int Dim>
+bool creep(const solid::Solid<Dim>& solid, const dynamics::Memm<solid::Solid<Dim>>& motion, double dt) {
+    const std::vector<double> of_body = speeds(solid, motion.p_after());
+    for (std::size_t body = 0; body < of_body.size(); ++body) {
+        const double radius = whole_of<Dim>(solid, motion.q(), motion.p_after(), body).radius();
+        if (of_body[body] * static_cast<double>(most_rise) * dt > balanced_path * radius) return false;
+    }
+    return true;
+}
+
 /// Tells rank 0 how far it is, and whether that wants to go on.
 template <int Dim>
 void show(const solid::Solid<Dim>& solid, const dynamics::Memm<solid::Solid<Dim>>& motion, Observer<Dim>& observer) {
@@ -322,7 +358,7 @@ Settled settle(const Scene<Dim>& scene, const solid::SolidOptions<Dim>& options,
     Peaks peaks(still_energy<Dim>(solid, q, dt));
     const std::vector<double> at_rest(q.size(), 0.0);
     dynamics::Memm<solid::Solid<Dim>> motion(solid, std::move(q), at_rest, dt);
-    double before = 0.0, last = 0.0;  // of two steps: a swing from step to step is no peak
+    PeakFinder finder;
     std::int64_t peak_at = 0;
     std::vector<double> q_before(motion.q().begin(), motion.q().end());  // where the last half of the steps begins
     for (bool is_last = false; !is_last;) {
@@ -333,19 +369,16 @@ Settled settle(const Scene<Dim>& scene, const solid::SolidOptions<Dim>& options,
                                            error.what()));
         }
         if (motion.steps() % between_looks == 0) show(solid, motion, observer);
-        const double now = motion.kinetic_energy(), kinetic = 0.5 * (now + std::exchange(last, now));
         const bool takes_long = motion.steps() > most_steps && !peaks.are_settled();
-        if (takes_long || motion.steps() - peak_at > most_rise) refuse(scene, solid, motion, q_before);
+        const bool rises = motion.steps() - peak_at > most_rise, is_still = rises && creep(solid, motion, dt);
+        if (takes_long || (rises && !is_still)) refuse(scene, solid, motion, q_before);
         if (motion.steps() == most_steps / 2) q_before.assign(motion.q().begin(), motion.q().end());
-        if (kinetic > before) {
-            before = kinetic;
-            continue;
-        }
-        is_last = peaks.is_last(before, motion.steps());
+        if (!finder.has_passed(motion.kinetic_energy()) && !is_still) continue;
+        is_last = is_still || peaks.is_last(finder.peak(), motion.steps());
         if (is_last) result.report.speed = std::ranges::max(speeds(solid, motion.p_after()));
         motion.bring_to_rest();
         ++result.report.rests;
-        before = last = 0.0;
+        finder.begin_again();
         peak_at = motion.steps();
     }
     result.report.steps = motion.steps();
