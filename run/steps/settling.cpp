@@ -79,6 +79,31 @@ private:
     double in_window_before_ = std::numeric_limits<double>::infinity();
 };
 
+/// Finds where the kinetic energy has passed a peak, by the mean of two steps: a swing from step to step is no peak. Every
+/// other peak is found a step later: else a vibration that turns over once from rest to rest would stay.
+class PeakFinder {
+public:
+    /// Takes the energy after a step [J].
+    [[nodiscard]] bool has_passed(double kinetic) {
+        const double mean = 0.5 * (kinetic + std::exchange(last_, kinetic));
+        if (mean <= peak_) return waited_++ >= peaks_ % 2;
+        peak_ = mean;
+        return false;
+    }
+    /// [J]
+    [[nodiscard]] double peak() const { return peak_; }
+    /// The bodies are at rest again.
+    void begin_again() {
+        peak_ = last_ = 0.0;
+        waited_ = 0;
+        ++peaks_;
+    }
+
+private:
+    double peak_ = 0.0, last_ = 0.0;
+    std::int64_t waited_ = 0, peaks_ = 0;
+};
+
 /// Largest speed of the points of each body [m/s].
 template <int Dim>
 std::vector<double> speeds(const solid::Solid<Dim>& solid, std::span<const double> momentum) {
@@ -102,13 +127,14 @@ struct Whole {
     AxialVector<Dim> angular = AxialVector<Dim>::Zero();  // about the origin [kg m^2/s]
 
     [[nodiscard]] Vector<Dim> velocity() const { return momentum / mass; }
+    /// Angular momentum about the centre [kg m^2/s].
+    [[nodiscard]] AxialVector<Dim> spin() const { return angular - moment<Dim>(centre(), momentum); }
     /// As if the body were a disc or a ball [m].
     [[nodiscard]] double radius() const { return std::sqrt(2.0 * about_centre().trace() / mass); }
     /// Speed of the points at that radius about the centre [m/s].
     [[nodiscard]] double speed_of_rim() const {
-        const AxialVector<Dim> spin = angular - moment<Dim>(centre(), momentum);
         const double inertia = about_centre().trace();
-        return inertia > 0.0 ? spin.norm() / inertia * radius() : 0.0;
+        return inertia > 0.0 ? spin().norm() / inertia * radius() : 0.0;
     }
 
 private:
@@ -246,27 +272,63 @@ double still_energy(const solid::Solid<Dim>& solid, std::span<const double> q, d
     return energy;
 }
 
-/// Refuses a body that nothing holds, and that loads would push on for ever.
+/// Whether a couple on each body turns it for ever: no traction there keeps its direction as it turns, until loads balance.
+template <int Dim>
+std::vector<bool> turn_for_ever(const mesh::Mesh<Dim>& mesh, const solid::SolidOptions<Dim>& options) {
+    std::vector<bool> turn(mesh.body_names.size(), true);
+    for (const solid::TractionCondition<Dim>& traction : options.boundary.traction) {
+        if (traction.follows) continue;
+        for (const std::int32_t face : mesh.group(traction.group).faces) {
+            const std::int32_t cell = mesh.face_cells[static_cast<std::size_t>(face)][0];
+            const auto body = static_cast<std::size_t>(mesh.cell_body[static_cast<std::size_t>(cell)]);
+            if (solid::properties_of(options.kinematics, body).turns) turn[body] = false;
+        }
+    }
+    return turn;
+}
+
+/// Refuses a body that nothing holds: `loads` do something to it for ever.
+[[noreturn]] void refuse_free(const std::string& body, const std::string& loads, double size) {
+    throw BadInput(
+        fmt::format("--settle: nothing holds {}: it has no support, spring or bond, and nothing that it could touch, "
+                    "and loads of t = 0 {}. To begin at rest hold it by supports or springs, or give it something to "
+                    "rest on; else leave --settle out.",
+                    body, loads),
+        {.value = size, .allowed = 0.0});
+}
+
+/// Refuses a body that nothing holds, and that loads would push or turn on for ever.
 template <int Dim>
 void require_holds(const Scene<Dim>& scene, solid::Solid<Dim>& solid, std::span<const double> q, double dt) {
     const std::vector<bool> is_held = may_be_held(scene, solid.options());
     if (std::ranges::find(is_held, false) == is_held.end()) return;
     std::vector<double> force(q.size());
     solid.force(q, force);
+    const std::vector<bool> turn = turn_for_ever(scene.mesh, solid.options());
     const double time = static_cast<double>(most_rise) * dt;
     for (std::size_t body = 0; body < is_held.size(); ++body) {
         if (is_held[body]) continue;
+        const std::string name = quoted_name(scene, static_cast<std::int32_t>(body));
         const Whole<Dim> pushed = whole_of<Dim>(solid, q, force, body);
-        const double push = pushed.momentum.norm();  // resultant of the forces [N]
-        if (push * time * time <= balanced_path * pushed.radius() * pushed.mass) continue;
-        throw BadInput(
-            fmt::format(
-                "--settle: nothing holds {}: it has no support, spring or bond, and nothing that it could touch, and "
-                "loads of t = 0 push it {} with {:.3g} N. To begin at rest hold it by supports or springs, or give "
-                "it something to rest on; else leave --settle out.",
-                quoted_name(scene, static_cast<std::int32_t>(body)), along<Dim>(pushed.momentum), push),
-            {.value = push, .allowed = 0.0});
+        const double push = pushed.momentum.norm();                               // resultant of the forces [N]
+        const double couple = pushed.spin().norm();                               // [N m]
+        const double balanced = balanced_path * pushed.radius() / (time * time);  // acceleration [m/s^2]
+        if (push > balanced * pushed.mass)
+            refuse_free(name, fmt::format("push it {} with {:.3g} N", along<Dim>(pushed.momentum), push), push);
+        if (turn[body] && pushed.speed_of_rim() > balanced)
+            refuse_free(name, fmt::format("turn it with a couple of {:.3g} N m", couple), couple);
     }
+}
+
+/// Whether no body has gone far in the most steps that a peak may take: what loads that balance nearly leave would turn it.
+template <int Dim>
+bool creep(const solid::Solid<Dim>& solid, const dynamics::Memm<solid::Solid<Dim>>& motion, double dt) {
+    const std::vector<double> of_body = speeds(solid, motion.p_after());
+    for (std::size_t body = 0; body < of_body.size(); ++body) {
+        const double radius = whole_of<Dim>(solid, motion.q(), motion.p_after(), body).radius();
+        if (of_body[body] * static_cast<double>(most_rise) * dt > balanced_path * radius) return false;
+    }
+    return true;
 }
 
 /// Tells rank 0 how far it is, and whether that wants to go on.
@@ -296,7 +358,7 @@ Settled settle(const Scene<Dim>& scene, const solid::SolidOptions<Dim>& options,
     Peaks peaks(still_energy<Dim>(solid, q, dt));
     const std::vector<double> at_rest(q.size(), 0.0);
     dynamics::Memm<solid::Solid<Dim>> motion(solid, std::move(q), at_rest, dt);
-    double before = 0.0, last = 0.0;  // of two steps: a swing from step to step is no peak
+    PeakFinder finder;
     std::int64_t peak_at = 0;
     std::vector<double> q_before(motion.q().begin(), motion.q().end());  // where the last half of the steps begins
     for (bool is_last = false; !is_last;) {
@@ -307,19 +369,16 @@ Settled settle(const Scene<Dim>& scene, const solid::SolidOptions<Dim>& options,
                                            error.what()));
         }
         if (motion.steps() % between_looks == 0) show(solid, motion, observer);
-        const double now = motion.kinetic_energy(), kinetic = 0.5 * (now + std::exchange(last, now));
         const bool takes_long = motion.steps() > most_steps && !peaks.are_settled();
-        if (takes_long || motion.steps() - peak_at > most_rise) refuse(scene, solid, motion, q_before);
+        const bool rises = motion.steps() - peak_at > most_rise, is_still = rises && creep(solid, motion, dt);
+        if (takes_long || (rises && !is_still)) refuse(scene, solid, motion, q_before);
         if (motion.steps() == most_steps / 2) q_before.assign(motion.q().begin(), motion.q().end());
-        if (kinetic > before) {
-            before = kinetic;
-            continue;
-        }
-        is_last = peaks.is_last(before, motion.steps());
+        if (!finder.has_passed(motion.kinetic_energy()) && !is_still) continue;
+        is_last = is_still || peaks.is_last(finder.peak(), motion.steps());
         if (is_last) result.report.speed = std::ranges::max(speeds(solid, motion.p_after()));
         motion.bring_to_rest();
         ++result.report.rests;
-        before = last = 0.0;
+        finder.begin_again();
         peak_at = motion.steps();
     }
     result.report.steps = motion.steps();

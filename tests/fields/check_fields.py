@@ -122,6 +122,88 @@ def heated_blocks_between_planes_press_with_the_force_of_the_heat_that_they_cann
         near(of_cell / stress, 1.0, 0.01, "a stress over the exact one")
 
 
+# A block under loads that vary -------------------------------------------------------------------------------------------
+
+SMALL = 1e-4  # load over Young's modulus
+DEPTH = "(1 - y)"  # a liquid of weight SMALL per area stands from y = 1 down, and the block of side 1 from 1/2 to -1/2
+LOADS = {"bend": {"xmin": f'value = ["-{SMALL}*y", 0]', "xmax": f'value = ["{SMALL}*y", 0]'},
+         "dive": {side: f'pressure = "{SMALL}*{DEPTH}"' for side in ("xmin", "xmax", "ymin", "ymax")}}
+# Largest stress: half of the side, or all of the depth.
+LARGEST = {"bend": 0.5, "dive": 1.5}
+
+
+def loaded_block(programs, shape, across, kinematics, load, follows=False):
+    """{(i, j): sigma_xx, sigma_yy, sigma_xy in cell (i, j)} over the load at y = 1, at rest under loads in balance. Dead loads and those
+    of a diving block leave how it is turned to chance: soft springs that nothing pulls hold it."""
+    place = lambda i: (i + 0.5) / across
+    cells = [(i, j) for i in range(across) for j in range(across)]
+    tractions = "".join(f'[tractions.{side}]\ngroup = "block.{side}"\n{value}\n' + ("follows = true\n" if follows else "")
+                        for side, value in LOADS[load].items())
+    springs = "".join(f'[springs.at_{x}]\nfrom = {{body = "block", point = [0.{x}, 0]}}\nto = {{point = [0.{x}, 0]}}\n'
+                      "stiffness = 3e-4\nlength = 0\n" for x in (25, 75)) if kinematics == "finite" else ""
+    probes = "".join(f'[output.probes.cell_{i}_{j}]\nbody = "block"\npoint = [{place(i)}, {place(j) - 0.5}]\n' for i, j in cells)
+    with tempfile.TemporaryDirectory() as folder:
+        scene = pathlib.Path(folder) / "block.toml"
+        scene.write_text(f"""dim = 2
+energy_scale = 1e-8
+gravity = [0, {-SMALL if load == "dive" else 0}]
+[bodies.block]
+shape = "structured_box"
+lower = [0, -0.5]
+upper = [1, 0.5]
+counts = [{across}, {across}]
+cells = "{shape}"
+young = 1.0
+poisson = 0.3
+density = 1.0
+kinematics = "{kinematics}"
+{tractions}{springs}[run]
+steps = 1
+settle = true
+[output]
+frames = 0
+{probes}""")
+        last = Run(programs, scene).require_end().rows("probes.csv")[-1]
+        return {(i, j): [last[f"cell_{i}_{j}.stress_{part}"] / SMALL for part in ("xx", "yy", "xy")] for i, j in cells}
+
+
+def largest_error(programs, shape, across, kinematics, load, follows=False):
+    """Of all stresses of quadrangles, over the largest one. The exact field is sigma_xx = y, or sigma_xx = sigma_yy = -(1 - y)."""
+    error = 0.0
+    for (_, j), found in loaded_block(programs, shape, across, kinematics, load, follows).items():
+        y = (j + 0.5) / across - 0.5
+        exact = (y, 0, 0) if load == "bend" else (y - 1, y - 1, 0)
+        error = max(error, *(abs(a - b) for a, b in zip(found, exact)))
+    return error / LARGEST[load]
+
+
+@claim
+def cells_behind_loads_that_turn_with_the_body_have_the_traction_of_the_middle_of_their_face(programs):
+    """In small and floating blocks, exactly: half a cell away from where the cell has its middle."""
+    for kinematics in ("small", "floating"):
+        for load, top, side in (("bend", lambda y: None, lambda y: y), ("dive", lambda y: -0.5, lambda y: y - 1)):
+            across = 6
+            stress = loaded_block(programs, "quadrangle", across, kinematics, load, follows=load == "bend" and kinematics == "floating")
+            for k in range(across):
+                y = (k + 0.5) / across - 0.5
+                near(stress[0, k][0], side(y), 1e-6, f"{kinematics}, {load}: sigma_xx at the left side")
+                if top(y) is not None:
+                    near(stress[k, across - 1][1], top(y), 1e-6, f"{kinematics}, {load}: sigma_yy at the top")
+
+
+@claim
+def loads_that_vary_give_stress_of_first_order_and_the_page_says_how_nearly(programs):
+    """docs/kinematics.md has the largest errors with 8 and 16 cells across; they fall by half, or faster."""
+    text = (HERE.parent.parent / "docs/kinematics.md").read_text().partition("### Loads that vary")[2].partition("\n### ")[0]
+    rows = re.findall(r"^\| (bend|dive), (\w+) \| (\w+)(, follows)? \| ([\d.]+) \| ([\d.]+) \|$", text, re.M)
+    require(len(rows) == 6, "the table of loads that vary is not read")
+    for load, shape, kinematics, follows, *said in rows:
+        found = [largest_error(programs, shape, across, kinematics, load, bool(follows)) for across in (8, 16)]
+        require(found[1] < 0.55 * found[0], f"{load}, {shape}, {kinematics}: {found} do not fall by half")
+        for error, of_page in zip(found, map(float, said)):
+            near(error, of_page, 6e-4, f"the page on {load}, {shape}, {kinematics}")
+
+
 # A ring with a hole ------------------------------------------------------------------------------------------------------
 
 BORE, RIM, PRESSURE = 0.5, 1.0, 0.01

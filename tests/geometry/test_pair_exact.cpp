@@ -203,6 +203,30 @@ TEST_CASE("W and the normal force of triangles are those of exact polygons, in g
     CHECK(worst_force < 1e-12);
 }
 
+TEST_CASE("W of needles that cross is that of exact polygons, to rounding of positions beside their widths",
+          "[pair_potential][exact]") {
+    std::mt19937 random(8);
+    const auto sixteenth = [&](double size) { return std::round(16.0 * uniform(random, -size, size)) / 16.0; };
+    double worst = 0.0;
+    for (int i = 0; i < 3000; ++i) {
+        const double width = std::ldexp(1.0, -static_cast<int>(uniform(random, 8.0, 20.0)));
+        const Vector<2> crossing = grid_point(random, 0.5), along_1 = grid_point(random), along_2 = grid_point(random);
+        if (std::abs(along_1[0] * along_2[1] - along_1[1] * along_2[0]) < 0.1) continue;
+        const auto needle = [&](const Vector<2>& along) {
+            std::array<Vector<2>, 3> corners{crossing - along, crossing + along,
+                                             crossing + sixteenth(1.0) * along + width * Vector<2>(-along[1], along[0])};
+            std::rotate(corners.begin(), corners.begin() + static_cast<int>(uniform(random, 0.0, 3.0)), corners.end());
+            return corners;
+        };
+        TiltedPair pair{needle(along_1), needle(along_2), {sixteenth(0.4), sixteenth(0.4)}, 0.0, 0.0};
+        pair.height_2 = 2.0 * pair.slope.dot(crossing) - width;
+        const double exact = ExactIntegrals(pair).second;
+        const auto found = pair_gradient<3>(pair.corners(), {.stiffness = 2.0, .facing = {-0.3, -0.05}});
+        raise(worst, std::abs(found.energy / exact - 1.0) * width / pair.size() / 0x1p-52);
+    }
+    CHECK(worst < 10.0);  // units in the last place
+}
+
 TEMPLATE_TEST_CASE_SIG("a pair is bitwise identical by itself, with others, on any number of lanes and with its start known",
                        "[pair_potential][exact]", ((int Dim), Dim), 2, 3) {
     std::mt19937 random(3);

@@ -271,6 +271,16 @@ TEST_CASE("a weight without steps leads from full stiffness to none as faces tur
     CHECK(largest_step < 0.01 / (fade.none - fade.full) * first);
 }
 
+TEST_CASE("a face that loses its area along a step leaves a finite normal, in any unit", "[pair_potential]") {
+    const double unit = GENERATE(1.0, 1e-74), left = GENERATE(1e-8, 1e-13, 1e-14, 1e-16, 0.0);
+    PairCorners<3> x_0{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, -0.01}, {0, 1, -0.01}, {1, 0, -0.01}}};
+    PairCorners<3> x_1 = x_0;
+    x_1[5] = {left, 0.5, -0.01};
+    for (auto* x : {&x_0, &x_1})
+        for (Vector<3>& corner : *x) corner = unit * corner;
+    CHECK(pair_mean_gradient<3>(x_0, x_1, {.stiffness = 1.0}).normal.allFinite());
+}
+
 TEMPLATE_TEST_CASE_SIG("needles and faces nearly on edge give finite forces", "[pair_potential]", ((int Dim), Dim), 2, 3) {
     std::mt19937 random(6);
     int active = 0;

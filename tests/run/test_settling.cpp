@@ -51,10 +51,12 @@ struct Look final : run::Observer<2> {
     bool wants_look(std::int64_t step) const override { return step == 0 || step == 2000; }
     void look(const dynamics::RunView<2>& run, solid::Solid<2>& solid) override {
         (run.steps == 0 ? first : last).assign(run.q.begin(), run.q.end());
-        if (run.steps > 0) push = solid.contact().obstacle_force(0);
+        rest.assign(solid.rest_positions().begin(), solid.rest_positions().end());
+        if (run.steps > 0 && !solid.options().obstacles.empty()) push = solid.contact().obstacle_force(0);
     }
 
     std::vector<double> first, last;
+    std::vector<Vector<2>> rest;
     Vector<2> push;
 };
 
@@ -156,6 +158,47 @@ TEST_CASE("a body that nothing holds is refused before it moves where loads push
     const run::RunResult<2> result = run::simulate<2>(scene, settling(0.0), watch);
     REQUIRE(result.settling);
     CHECK(result.settling->speed < 1e-7);  // a strain of 1e-4 at the speed of sound is 1e-2 m/s
+}
+
+TEST_CASE("a body that nothing holds is refused before it moves where a couple turns it for ever, with the couple",
+          "[run][settling]") {
+    const Kinematics kinematics = GENERATE(Kinematics::small, Kinematics::floating, Kinematics::rigid);
+    run::Scene<2> scene = block(kinematics, 0.0);
+    scene.solid.obstacles.clear();
+    scene.solid.acceleration.clear();
+    const bool is_small = kinematics == Kinematics::small;
+    scene.solid.boundary.traction = {{.group = "xmin", .value = {0.0, 1e3}, .history = {}, .follows = !is_small},
+                                     {.group = "xmax", .value = {0.0, -1e3}, .history = {}, .follows = !is_small}};
+    Watch watch;
+    // 1e3 Pa times the height, and the width between both
+    CHECK_THROWS_WITH(run::simulate<2>(scene, settling(0.0), watch),
+                      Catch::Contains("nothing holds 'block'") && Catch::Contains("turn it with a couple of 320 N m"));
+    CHECK(watch.steps.empty());
+}
+
+TEST_CASE("a body that a couple turns to where its dead loads balance comes to rest there", "[run][settling]") {
+    run::Scene<2> scene = block(Kinematics::floating, 0.0);
+    scene.solid.obstacles.clear();
+    scene.solid.acceleration.clear();
+    scene.solid.boundary.traction = {{.group = "xmin", .value = {-1e3, 1e2}}, {.group = "xmax", .value = {1e3, -1e2}}};
+    Look look;
+    const run::RunResult<2> result = run::simulate<2>(scene, settling(0.0), look);
+    REQUIRE(result.settling);
+    // The line from the first to the last cell of the lowest row has turned against x; strains are 1e-4.
+    const double length = look.rest[28][0] - look.rest[0][0], rise = look.first[2 * 28 + 1] - look.first[1];
+    CHECK(rise / length == Approx(-std::sin(std::atan(0.1))).epsilon(1e-3));
+}
+
+TEST_CASE("a free body comes to rest whatever its vibrations do from step to step", "[run][settling]") {
+    run::Scene<2> scene;
+    const int n = GENERATE(4, 5, 6, 7, 8);
+    scene.mesh = mesh::structured_box<2>({0.0, 0.0}, {1.0, 1.0}, {n, n}, mesh::CellShape::triangle, "block");
+    scene.solid.materials = {{.young = 1.0, .poisson = 0.3, .density = 1.0}};
+    scene.velocity = {Vector<2>::Zero()};
+    scene.solid.boundary.traction = {{.group = "xmin", .value = {-1e-4, 0.0}}, {.group = "xmax", .value = {1e-4, 0.0}}};
+    const run::RunResult<2> result = run::simulate<2>(scene, settling(0.0));
+    REQUIRE(result.settling);
+    CHECK(result.settling->speed < 1e-9);  // the load at once makes it move at 1e-4 m/s
 }
 
 TEST_CASE("whoever watches is told how bodies come to rest, and can end it", "[run][settling]") {

@@ -16,7 +16,7 @@ struct SeenPair {
     SeenPair(const LaneCorners<T, 3>& z, const T& offset) : edge_b(z.at[4] - z.at[3]), edge_c(z.at[5] - z.at[3]) {
         const Space area = cross(edge_b, edge_c);
         over_twice_area_2 = T(1.0) / norm(area);
-        normal_2 = over_twice_area_2 * area;
+        normal_2 = over_twice_area_2 * (area - (dot(area, edge_b) / dot(edge_b, edge_b)) * edge_b);  // as in LaneFrame
         facing = normal_2.c[2];
         const Space between{-normal_2.c[0], -normal_2.c[1], T(1.0) - normal_2.c[2]};
         over_difference = T(1.0) / norm(between);

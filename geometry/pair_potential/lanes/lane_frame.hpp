@@ -62,7 +62,8 @@ struct LaneFrame<T, 3> {
         : y(from_mean(x)), edge_b(x.at[1] - x.at[0]), edge_c(x.at[2] - x.at[0]) {
         e[0] = (T(1.0) / norm(edge_b)) * edge_b;
         const LaneVector<T, 3> area = cross(edge_b, edge_c);
-        e[2] = (T(1.0) / norm(area)) * area;
+        // the product of two edges that are long beside the width of their face is off by rounding along these, too
+        e[2] = (T(1.0) / norm(area)) * (area - dot(area, e[0]) * e[0]);
         e[1] = cross(e[2], e[0]);
         for (int v = 0; v < 6; ++v) z.at[v] = {dot(e[0], y.at[v]), dot(e[1], y.at[v]), dot(e[2], y.at[v])};
     }

@@ -72,7 +72,9 @@ template <class T, int Dim>
 struct LaneEnd : LaneEnergy<T, Dim> {
     LaneEnd() = default;
     LaneEnd(const LaneFrame<T, Dim>& frame, const LaneLaw<T>& law) : LaneEnergy<T, Dim>(energy_of(frame.z, law)) {
-        normal = select<T, Dim>(this->facing < law.none, frame.in_space(this->common), no_vector<T, Dim>());
+        const LaneVector<T, Dim> seen = frame.in_space(this->common);
+        const FlagsOf<T> is_unit = dot(seen, seen) < T(2.0);  // false where a face has lost its area
+        normal = select<T, Dim>((this->facing < law.none) & is_unit, seen, no_vector<T, Dim>());
     }
 
     LaneVector<T, Dim> normal;  // 0 where the pair has no weight
