@@ -6,13 +6,16 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <optional>
 #include <set>
 #include <span>
 #include <utility>
+#include <vector>
 
 #include "abut/base/error.hpp"
+#include "abut/geometry/box.hpp"
 #include "abut/input/joined_parts.hpp"
 #include "abut/input/make_body.hpp"
 #include "abut/input/make_loads.hpp"
@@ -273,21 +276,83 @@ void take_friction_from_mirrors(run::Scene<Dim>& scene, const Settings& settings
             scene.solid.body_friction.push_back({{body, scene.mesh.n_bodies() + static_cast<std::int32_t>(i)}, {}});
 }
 
+/// Boxes around the sides of bonds between copies, of which a pattern names more pairs than lie beside each other.
+template <int Dim>
+class BoxesOfSides {
+public:
+    BoxesOfSides(const mesh::Mesh<Dim>& mesh, std::size_t n_obstacles)
+        : mesh_(mesh), n_bodies_and_obstacles_(mesh.n_bodies() + static_cast<std::int32_t>(n_obstacles)) {}
+
+    /// Whether the boxes are side by side: apart or in each other by at most a tenth of the smallest face along one axis,
+    /// and not beside each other along any other, as bricks are that touch with more than an edge.
+    [[nodiscard]] bool are_side_by_side(std::int32_t first, std::int32_t second) {
+        const Side &a = of(first), &b = of(second);
+        const double near = largest_gap * std::min(a.face_size, b.face_size);
+        int n_apart = 0;
+        for (int d = 0; d < Dim; ++d) {
+            const double common = std::min(a.box.upper[d], b.box.upper[d]) - std::max(a.box.lower[d], b.box.lower[d]);
+            if (common < -near) return false;
+            if (common <= near) ++n_apart;
+        }
+        return n_apart <= 1;
+    }
+
+private:
+    static constexpr double largest_gap = 0.1;  // of bonded faces, of the size of the smaller one
+    struct Side {
+        geometry::Box<Dim> box{};
+        double face_size = std::numeric_limits<double>::infinity();
+    };
+    const Side& of(std::int32_t number) {
+        const auto [entry, is_new] = sides_.try_emplace(number);
+        Side& side = entry->second;
+        for (const std::int32_t face : is_new ? faces_of(number) : std::vector<std::int32_t>()) {
+            for (const std::int32_t vertex : mesh_.face_vertices[face]) side.box.extend(mesh_.vertices[vertex]);
+            side.face_size = std::min(side.face_size, std::pow(mesh_.face_measure[face], 1.0 / (Dim - 1)));
+        }
+        return side;
+    }
+    [[nodiscard]] std::vector<std::int32_t> faces_of(std::int32_t number) const {
+        if (number >= mesh_.n_bodies())
+            return mesh_.groups[static_cast<std::size_t>(number - n_bodies_and_obstacles_)].faces;
+        std::vector<std::int32_t> faces;
+        for (const std::int32_t face : mesh_.boundary_faces)
+            if (mesh_.cell_body[mesh_.face_cells[face][0]] == number) faces.push_back(face);
+        return faces;
+    }
+
+    const mesh::Mesh<Dim>& mesh_;
+    std::int32_t n_bodies_and_obstacles_;
+    std::map<std::int32_t, Side> sides_;
+};
+
 /// Sides by their numbers, as pairs have them.
 template <int Dim>
 void add_bonds(run::Scene<Dim>& scene, const Settings& settings, std::vector<Fault>& faults) {
     const Names<Dim> names(scene.mesh, settings.bodies, faults);
     const PairSides<Dim> sides(scene, settings, faults);
+    BoxesOfSides<Dim> boxes(scene.mesh, settings.obstacles.size());
+    std::map<std::string, bool> holds;  // per table whose sides have copies
     for (const BondSettings& bond : settings.bonds) {
         std::vector<std::int32_t> numbers;
         for (const std::string& name : bond.bodies)
             if (const auto number = names.body(name, bond.where, "bonds.bodies")) numbers.push_back(*number);
         for (const std::string& name : bond.groups)
             if (const auto number = sides.group(name, bond.where, "bonds.groups")) numbers.push_back(*number);
-        if (numbers.size() == 2)
-            scene.solid.bonds.push_back(
-                {.sides = {numbers[0], numbers[1]}, .strength = bond.strength, .fracture_energy = bond.fracture_energy});
+        if (numbers.size() != 2) continue;
+        if (bond.is_of_copies) {
+            bool& one_holds = holds[bond.where];
+            if (!boxes.are_side_by_side(numbers[0], numbers[1])) continue;
+            one_holds = true;
+        }
+        scene.solid.bonds.push_back(
+            {.sides = {numbers[0], numbers[1]}, .strength = bond.strength, .fracture_energy = bond.fracture_energy});
     }
+    for (const auto& [where, one_holds] : holds)
+        if (!one_holds)
+            faults.push_back({where,
+                              "bonds: no two of the copies lie side by side, with a gap of at most a tenth of their "
+                              "faces. Move them together with the pattern, or leave the bond out."});
 }
 
 template <int Dim>

@@ -156,10 +156,20 @@ void spread(std::vector<IgnoredPair>& pairs, const Copies& copies) {
     pairs = std::move(all);
 }
 
+bool has_copies(const std::string& name, const Copies& copies) {
+    return std::ranges::any_of(copies, [&](const auto& of) { return name == of.first || name.starts_with(of.first + "."); });
+}
+
+void mark_if_of_copies(PairSettings&, const std::vector<std::string>&, const Copies&) {}
+void mark_if_of_copies(BondSettings& bond, const std::vector<std::string>& sides, const Copies& copies) {
+    bond.is_of_copies = std::ranges::any_of(sides, [&](const std::string& side) { return has_copies(side, copies); });
+}
+
 /// Two sides, of which the first ones are bodies or obstacles.
-void spread(std::vector<PairSettings>& pairs, const Copies& copies) {
-    std::vector<PairSettings> all;
-    for (const PairSettings& pair : pairs) {
+template <class Pair>
+void spread_pairs(std::vector<Pair>& pairs, const Copies& copies) {
+    std::vector<Pair> all;
+    for (const Pair& pair : pairs) {
         std::vector<std::string> sides = pair.bodies;
         sides.insert(sides.end(), pair.groups.begin(), pair.groups.end());
         const auto n_bodies = static_cast<std::ptrdiff_t>(pair.bodies.size());
@@ -167,7 +177,8 @@ void spread(std::vector<PairSettings>& pairs, const Copies& copies) {
             for (const std::string& second : names_of_copies(sides[1], copies)) {
                 if (sides[0] == sides[1] && first >= second && first != sides[0]) continue;
                 const std::array both{first, second};
-                PairSettings one = pair;
+                Pair one = pair;
+                mark_if_of_copies(one, sides, copies);
                 one.bodies.assign(both.begin(), both.begin() + n_bodies);
                 one.groups.assign(both.begin() + n_bodies, both.end());
                 all.push_back(std::move(one));
@@ -205,7 +216,8 @@ public:
     void spread_all() {
         if (copies_.empty()) return;
         spread(settings_.ignored_pairs, copies_);
-        spread(settings_.pairs, copies_);
+        spread_pairs(settings_.pairs, copies_);
+        spread_pairs(settings_.bonds, copies_);
         spread(settings_.supports, copies_);
         spread(settings_.tractions, copies_);
     }

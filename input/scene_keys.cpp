@@ -161,8 +161,10 @@ const Keys<PairSettings>& pair_keys() {
 
 const Keys<BondSettings>& bond_keys() {
     static const Keys<BondSettings> keys = {
-        key_of<BondSettings>("bodies", "names", "two bodies; one of them beside one of `groups`", &BondSettings::bodies,
-                             names),
+        key_of<BondSettings>(
+            "bodies", "names",
+            "two bodies; one of them beside one of `groups`. Of copies of a pattern: all that lie side by side",
+            &BondSettings::bodies, names),
         key_of<BondSettings>("groups", "names",
                              "two groups of boundary faces, \"<body>.<group>\"; one of them beside one of `bodies`",
                              &BondSettings::groups, names),

@@ -218,6 +218,7 @@ struct BondSettings {
     std::string where;                                          ///< Fault::where
     double strength = std::numeric_limits<double>::infinity();  ///< [Pa]
     double fracture_energy = 0.0;                               ///< [J/m^2]
+    bool is_of_copies = false;                                  ///< one of many, of which those hold that touch at rest
     GivenKeys given{};
 };
 

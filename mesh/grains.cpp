@@ -13,6 +13,7 @@
 #include <string>
 #include <utility>
 
+#include "abut/base/decompositions.hpp"
 #include "abut/base/disjoint_sets.hpp"
 #include "abut/base/error.hpp"
 #include "abut/base/messages.hpp"
@@ -20,8 +21,9 @@
 namespace abut::mesh {
 namespace {
 
-constexpr int n_recentred = 3;  // times that centres move to the middle of their grains
-constexpr int n_smoothed = 4;   // sweeps over cells that move to the grain that they border on most
+constexpr int n_recentred = 3;       // times that centres move to the middle of their grains
+constexpr int n_smoothed = 4;        // sweeps over cells that move to the grain that they border on most
+constexpr double flat_share = 1e-9;  // of the largest sum of squares along an axis: rounding, not a second layer
 constexpr std::int32_t none = -1;
 
 template <int Dim>
@@ -168,7 +170,23 @@ private:
         }
     }
 
-    /// Smallest first, each to the neighbour that has most in common with it, until all have cells enough.
+    /// Whether the centroids of these cells lie in one plane (2D: on one line), so that no gradient can be had from them.
+    [[nodiscard]] bool is_flat(const std::vector<std::int32_t>& cells) const {
+        Vector<Dim> middle = Vector<Dim>::Zero();
+        for (const std::int32_t cell : cells) middle += mesh_.cell_centroid[at(cell)] / static_cast<double>(cells.size());
+        Matrix<Dim> scatter = Matrix<Dim>::Zero();
+        for (const std::int32_t cell : cells) {
+            const Vector<Dim> arm = mesh_.cell_centroid[at(cell)] - middle;
+            scatter += arm * arm.transpose();
+        }
+        const Vector<Dim> squares = symmetric_eigenvalues(scatter);
+        return squares[0] <= flat_share * squares[Dim - 1];
+    }
+    [[nodiscard]] bool is_too_small(const std::vector<std::int32_t>& cells) const {
+        return cells.size() < at(least_cells_of_grain<Dim>) || is_flat(cells);
+    }
+
+    /// Smallest first, each to the neighbour that has most in common with it, until all have cells enough, not in one layer.
     void join_small() {
         const std::int32_t n = *std::ranges::max_element(grain_) + 1;
         std::vector<std::vector<std::int32_t>> cells(at(n));
@@ -177,7 +195,7 @@ private:
                             std::greater<>>
             small;
         const auto queue_if_small = [&](std::int32_t grain) {
-            if (cells[at(grain)].size() < at(least_cells_of_grain<Dim>)) small.emplace(cells[at(grain)].size(), grain);
+            if (is_too_small(cells[at(grain)])) small.emplace(cells[at(grain)].size(), grain);
         };
         for (std::int32_t grain = 0; grain < n; ++grain) queue_if_small(grain);
         while (!small.empty()) {

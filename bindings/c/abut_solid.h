@@ -54,6 +54,20 @@ ABUT_API int abut_solid_load(abut_solid* solid, const char* group, const double*
 ABUT_API int abut_solid_bond(abut_solid* solid, const char* side_1, const char* side_2, double strength,
                              double fracture_energy, abut_error* error);
 
+/* A body that may break is cut into grains when this is called: bodies "<body>.1", "<body>.2", ..., which are bonded with each other
+   where they have faces in common (docs/method.md, Break-up). "<body>" still names all of them together, in the functions below, and its
+   groups of faces stay. It is the only body of its box or file, its kinematics are "floating" or "finite", and contact acts. */
+typedef struct abut_fracture {
+    size_t struct_size;
+    double grain;           /* size of the pieces: edge of a square or cube as large [m]. Cracks follow their faces */
+    double strength;        /* largest traction that a face between pieces bears, pressure not counted [Pa] */
+    double fracture_energy; /* that an opening crack takes per area [J/m^2]; 0: faces break at once */
+    double weibull;         /* modulus of the scatter of strength from face to face; 0: none */
+    int32_t seed;           /* another one gives other pieces and another scatter */
+} abut_fracture;
+#define ABUT_FRACTURE_INIT {sizeof(abut_fracture), 0.0, 0.0, 0.0, 0.0, 0}
+ABUT_API int abut_solid_set_fracture(abut_solid* solid, const char* body, const abut_fracture* fracture, abut_error* error);
+
 /* What a body is made of and how it moves, by the names that scenes have (docs/scenes.md, [bodies.NAME]); of several calls the last counts.
    A name or a value that cannot be is refused at once, a body that is not there by `abut_solid_begin`: destroy the solid then.
    - Numbers of a material, SI: "yield_stress", "hardening", "kinematic_hardening", "thermal_expansion", "mass_damping", ...
@@ -116,11 +130,28 @@ typedef struct abut_solid_cell_arrays {
     abut_array velocity;    /* of the same */
     abut_array stress;      /* Cauchy's, dim x dim numbers each: xx, xy, ... */
     double* plastic_strain; /* equivalent; may be NULL */
+    int32_t* fragment;      /* see abut_solid_fragments, from 0 on; -1 of a body without bonds. May be NULL */
 } abut_solid_cell_arrays;
-#define ABUT_SOLID_CELL_ARRAYS_INIT {sizeof(abut_solid_cell_arrays), 0, {0, 0, 0, 0}, {0, 0, 0, 0}, {0, 0, 0, 0}, 0}
+#define ABUT_SOLID_CELL_ARRAYS_INIT {sizeof(abut_solid_cell_arrays), 0, {0, 0, 0, 0}, {0, 0, 0, 0}, {0, 0, 0, 0}, 0, 0}
 ABUT_API int abut_solid_n_cells(const abut_solid* solid, const char* body, int64_t* n, abut_error* error);
 /* Costs about a force. */
 ABUT_API int abut_solid_cells(abut_solid* solid, const char* body, const abut_solid_cell_arrays* cells, abut_error* error);
+
+/* Pieces that bonds hold together as they are now, in the order of their first bodies; a body that never had a bond is none. Arrays with
+   data NULL are not written; the others have n_fragments entries. */
+typedef struct abut_solid_fragment_arrays {
+    size_t struct_size;
+    int64_t n_fragments;
+    abut_array centre;   /* of mass */
+    abut_array velocity; /* of the same */
+    abut_array spin;     /* as of a rigid body with its angular momentum: 1 number in 2D, 3 in 3D */
+    double* mass;        /* may be NULL */
+    int64_t* n_cells;    /* may be NULL */
+} abut_solid_fragment_arrays;
+#define ABUT_SOLID_FRAGMENT_ARRAYS_INIT \
+    {sizeof(abut_solid_fragment_arrays), 0, {0, 0, 0, 0}, {0, 0, 0, 0}, {0, 0, 0, 0}, 0, 0}
+ABUT_API int abut_solid_n_fragments(const abut_solid* solid, int64_t* n, abut_error* error);
+ABUT_API int abut_solid_fragments(abut_solid* solid, const abut_solid_fragment_arrays* fragments, abut_error* error);
 
 enum {
     ABUT_KEEP = 0,   /* momenta stay: for slow and smooth changes of dt; H~ is exact */

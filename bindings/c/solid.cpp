@@ -119,6 +119,14 @@ int abut_solid_bond(abut_solid* solid, const char* side_1, const char* side_2, d
     });
 }
 
+int abut_solid_set_fracture(abut_solid* solid, const char* body, const abut_fracture* fracture, abut_error* error) {
+    return with_run(solid, false, error, [&](auto& run, auto) {
+        check_pointer(body, "body");
+        check_struct(fracture, "abut_fracture");
+        run.set_fracture(body, *fracture);
+    });
+}
+
 int abut_solid_set_number(abut_solid* solid, const char* body, const char* key, double value, abut_error* error) {
     return with_run(solid, false, error, [&](auto& run, auto) {
         check_pointer(body, "body");
@@ -204,6 +212,20 @@ int abut_solid_cells(abut_solid* solid, const char* body, const abut_solid_cell_
         check_pointer(body, "body");
         check_struct(cells, "abut_solid_cell_arrays");
         run.write_cells(body, *cells);
+    });
+}
+
+int abut_solid_n_fragments(const abut_solid* solid, int64_t* n, abut_error* error) {
+    return with_run(solid, true, error, [&](auto& run, auto) {
+        check_pointer(n, "n");
+        *n = run.n_fragments();
+    });
+}
+
+int abut_solid_fragments(abut_solid* solid, const abut_solid_fragment_arrays* fragments, abut_error* error) {
+    return with_run(solid, true, error, [&](auto& run, auto) {
+        check_struct(fragments, "abut_solid_fragment_arrays");
+        run.write_fragments(*fragments);
     });
 }
 

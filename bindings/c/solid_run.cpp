@@ -12,11 +12,15 @@
 #include "abut/dynamics/ledger.hpp"
 #include "abut/dynamics/stable_step.hpp"
 #include "abut/dynamics/step_options.hpp"
+#include "abut/mesh/grains.hpp"
 #include "abut/mesh/interpenetration.hpp"
+#include "abut/mesh/split_body.hpp"
 #include "abut/solid/body_motion.hpp"
 #include "abut/solid/bond_view.hpp"
 #include "abut/solid/cell_view.hpp"
 #include "abut/solid/contact_view.hpp"
+#include "abut/solid/fragments.hpp"
+#include "abut/solid/kinematics/properties.hpp"
 #include "abut/solid/outside_faces.hpp"
 #include "abut/solid/outside_view.hpp"
 #include "arguments.hpp"
@@ -56,6 +60,36 @@ std::span<const double> numbers_of(const std::vector<Vector<Dim>>& vectors) {
     return {vectors.empty() ? nullptr : vectors.front().data(), vectors.size() * Dim};
 }
 
+void check(const abut_fracture& fracture) {
+    const auto refuse = [](const char* field, double value, const char* needed) {
+        throw BadInput(std::string("abut_fracture.") + field + " is " + number(value) + "; " + needed + " is needed.",
+                       {.value = value, .allowed = 0.0});
+    };
+    if (!(fracture.grain > 0.0)) refuse("grain", fracture.grain, "a size > 0 [m]");
+    if (!(fracture.strength > 0.0)) refuse("strength", fracture.strength, "a stress > 0 [Pa]");
+    if (!(fracture.fracture_energy >= 0.0)) refuse("fracture_energy", fracture.fracture_energy, "an energy >= 0 [J/m^2]");
+    if (!(fracture.weibull >= 0.0)) refuse("weibull", fracture.weibull, "a modulus > 0, or 0 for no scatter,");
+}
+
+solid::Bond bond_of(const abut_fracture& fracture) {
+    solid::Bond bond{.strength = fracture.strength, .fracture_energy = fracture.fracture_energy};
+    bond.of_grains = true;
+    if (fracture.weibull > 0.0) bond.weibull_modulus = fracture.weibull;
+    bond.seed = static_cast<std::uint32_t>(fracture.seed);
+    return bond;
+}
+
+/// The body of a mesh of one, cut into grains "<body>.1", "<body>.2", ...
+template <int Dim>
+mesh::Mesh<Dim> in_grains(const mesh::Mesh<Dim>& mesh, const std::string& body, const abut_fracture& fracture) {
+    const std::vector<std::int32_t> grains =
+        mesh::grains_of<Dim>(mesh, {.size = fracture.grain, .seed = static_cast<std::uint32_t>(fracture.seed)});
+    std::vector<std::string> names;
+    for (std::int32_t grain = 0; grain <= std::ranges::max(grains); ++grain)
+        names.push_back(body + "." + std::to_string(grain + 1));
+    return mesh::split_body<Dim>(mesh, grains, std::move(names));
+}
+
 }  // namespace
 
 template <int Dim>
@@ -63,8 +97,29 @@ void SolidRun<Dim>::add(mesh::Mesh<Dim> mesh, const abut_material& material, con
     for (std::int32_t body = 0; body < mesh.n_bodies(); ++body) {
         options_.materials.push_back({material.young, material.poisson, material.density});
         velocity_.push_back(vector_of(velocity));
+        fracture_of_body_.push_back(-1);
     }
     meshes_.push_back(std::move(mesh));
+}
+
+template <int Dim>
+void SolidRun<Dim>::set_fracture(const std::string& body, const abut_fracture& fracture) {
+    check(fracture);
+    std::size_t first = 0, at = 0;  // bodies before those of the mesh
+    while (at < meshes_.size() && meshes_[at].body_names != std::vector{body})
+        first += static_cast<std::size_t>(meshes_[at++].n_bodies());
+    if (at == meshes_.size())
+        throw BadInput("abut_solid_set_fracture: there is no body '" + body +
+                       "' that is whole and the only one of its box or file. Add it first, and call this once.");
+    meshes_[at] = in_grains<Dim>(meshes_[at], body, fracture);
+    const auto more = static_cast<std::size_t>(meshes_[at].n_bodies() - 1);
+    const auto repeat = [&](auto& of_bodies) {
+        const auto value = of_bodies[first];
+        of_bodies.insert(of_bodies.begin() + static_cast<std::ptrdiff_t>(first), more, value);
+    };
+    fracture_of_body_[first] = static_cast<std::int32_t>(fractures_.size());
+    repeat(options_.materials), repeat(velocity_), repeat(fracture_of_body_);
+    fractures_.push_back({body, bond_of(fracture)});
 }
 
 template <int Dim>
@@ -75,12 +130,18 @@ void SolidRun<Dim>::set_values(const std::string& body, SetValues set) {
 }
 
 template <int Dim>
-std::int32_t SolidRun<Dim>::body_called(const std::string& name) const {
-    const auto body = std::ranges::find(mesh_.body_names, name);
-    if (body == mesh_.body_names.end())
+std::vector<std::int32_t> SolidRun<Dim>::bodies_called(const std::string& name) const {
+    std::vector<std::int32_t> bodies;
+    for (std::int32_t body = 0; body < mesh_.n_bodies(); ++body) {
+        const std::int32_t fracture = fracture_of_body_[static_cast<std::size_t>(body)];
+        if (mesh_.body_names[static_cast<std::size_t>(body)] == name ||
+            (fracture >= 0 && fractures_[static_cast<std::size_t>(fracture)].body == name))
+            bodies.push_back(body);
+    }
+    if (bodies.empty())
         throw BadInput("there is no body '" + name +
                        "'. Give one that was added, with its file in front where several have it.");
-    return static_cast<std::int32_t>(body - mesh_.body_names.begin());
+    return bodies;
 }
 
 template <int Dim>
@@ -98,7 +159,8 @@ template <int Dim>
 void SolidRun<Dim>::take_values(solid::SolidOptions<Dim>& options) const {
     std::vector<BodyValues> values;
     for (const solid::Material& material : options.materials) values.push_back({.material = material});
-    for (const auto& [body, set] : values_) set(values[static_cast<std::size_t>(body_called(body))]);
+    for (const auto& [name, set] : values_)
+        for (const std::int32_t body : bodies_called(name)) set(values[static_cast<std::size_t>(body)]);
     for (std::size_t body = 0; body < values.size(); ++body) {
         options.materials[body] = material_of(values[body]);
         options.kinematics.push_back(values[body].kinematics);
@@ -112,8 +174,27 @@ void SolidRun<Dim>::take_values(solid::SolidOptions<Dim>& options) const {
         }
     }
     if (!temperatures_.empty()) options.temperature_rise.resize(values.size());
-    for (const auto& [body, rise] : temperatures_)
-        options.temperature_rise[static_cast<std::size_t>(body_called(body))] = rise;
+    for (const auto& [name, rise] : temperatures_)
+        for (const std::int32_t body : bodies_called(name)) options.temperature_rise[static_cast<std::size_t>(body)] = rise;
+}
+
+template <int Dim>
+void SolidRun<Dim>::bond_grains(solid::SolidOptions<Dim>& options) const {
+    for (const auto& sides : mesh_.report.joined_bodies) {
+        const auto body = static_cast<std::size_t>(sides[0]);
+        if (fracture_of_body_[body] < 0) continue;
+        const Fracture& fracture = fractures_[static_cast<std::size_t>(fracture_of_body_[body])];
+        if (!options.contact)
+            throw BadInput("body '" + fracture.body +
+                           "' may break, and without contact its pieces pass through each other. Let contact act "
+                           "(abut_solid_options.contact), or leave its fracture out.");
+        if (!solid::properties_of(options.kinematics[body]).turns)
+            throw BadInput("body '" + fracture.body +
+                           "' may break, and pieces that come off turn. Set its \"kinematics\" to \"floating\", or to "
+                           "\"finite\" where it bends far (abut_solid_set_text).");
+        options.bonds.push_back(fracture.bond);
+        options.bonds.back().sides = sides;
+    }
 }
 
 template <int Dim>
@@ -126,6 +207,7 @@ solid::SolidOptions<Dim> SolidRun<Dim>::options_of(const abut_solid_options& giv
                                  .strength = bond.strength,
                                  .fracture_energy = bond.fracture_energy});
     if (given.contact != 0) options.contact = contact::ContactOptions{};
+    bond_grains(options);
     return options;
 }
 
@@ -214,13 +296,14 @@ void SolidRun<Dim>::write_faces(const std::string& group, const abut_solid_face_
 
 template <int Dim>
 std::int64_t SolidRun<Dim>::n_cells(const std::string& body) const {
-    return std::ranges::count(mesh_.cell_body, body_called(body));
+    const std::vector<std::int32_t> bodies = bodies_called(body);
+    return std::ranges::count_if(mesh_.cell_body, [&](std::int32_t of) { return std::ranges::binary_search(bodies, of); });
 }
 
 template <int Dim>
 void SolidRun<Dim>::write_cells(const std::string& body, const abut_solid_cell_arrays& cells) {
-    const std::int32_t number = body_called(body);
-    const auto n = std::ranges::count(mesh_.cell_body, number);
+    const std::vector<std::int32_t> bodies = bodies_called(body);
+    const std::int64_t n = n_cells(body);
     const auto check_size = [n](std::int64_t given, const char* name) {
         require_size(given, n, name, "cells of the body", "abut_solid_n_cells");
     };
@@ -239,7 +322,7 @@ void SolidRun<Dim>::write_cells(const std::string& body, const abut_solid_cell_a
     std::vector<double> stress, plastic;
     for (std::int32_t c = 0; c < mesh_.n_cells(); ++c) {
         const auto at = static_cast<std::size_t>(c);
-        if (mesh_.cell_body[at] != number) continue;
+        if (!std::ranges::binary_search(bodies, mesh_.cell_body[at])) continue;
         position.push_back(mesh_.cell_centroid[at] + displacement[at]);
         of_body.push_back(velocity[at]);
         const Matrix<Dim> sigma = solid.cells().stress(c);
@@ -250,6 +333,37 @@ void SolidRun<Dim>::write_cells(const std::string& body, const abut_solid_cell_a
     write_items(numbers_of<Dim>(of_body), Dim, cells.velocity);
     write_items(stress, Dim * Dim, cells.stress);
     if (cells.plastic_strain != nullptr) std::ranges::copy(plastic, cells.plastic_strain);
+    if (cells.fragment == nullptr) return;
+    const std::vector<std::int32_t> fragment = solid::fragment_of_bodies<Dim>(solid);
+    std::int32_t* to = cells.fragment;
+    for (const std::int32_t of : mesh_.cell_body)
+        if (std::ranges::binary_search(bodies, of)) *to++ = fragment[static_cast<std::size_t>(of)];
+}
+
+template <int Dim>
+std::int64_t SolidRun<Dim>::n_fragments() const {
+    return std::ranges::max(solid::fragment_of_bodies<Dim>(run_->solid())) + 1;
+}
+
+template <int Dim>
+void SolidRun<Dim>::write_fragments(const abut_solid_fragment_arrays& fragments) {
+    const auto found = solid::fragments<Dim>(dynamics::RunView<Dim>(run_->memm()), run_->solid());
+    const auto check_size = [&](std::int64_t given, const char* name) {
+        require_size(given, std::ssize(found), name, "fragments", "abut_solid_n_fragments");
+    };
+    check_size(fragments.n_fragments, "abut_solid_fragment_arrays");
+    for (const abut_array* to : {&fragments.centre, &fragments.velocity, &fragments.spin})
+        if (to->data != nullptr) check_size(to->count, "an array of abut_solid_fragment_arrays");
+    const auto write = [&](const auto& member, const abut_array& to) {
+        std::vector<double> values;
+        for (const auto& fragment : found) values.insert(values.end(), (fragment.*member).begin(), (fragment.*member).end());
+        write_items(values, static_cast<int>((solid::Fragment<Dim>{}.*member).size()), to);
+    };
+    write(&solid::Fragment<Dim>::centre, fragments.centre);
+    write(&solid::Fragment<Dim>::velocity, fragments.velocity);
+    write(&solid::Fragment<Dim>::spin, fragments.spin);
+    if (fragments.mass != nullptr) std::ranges::transform(found, fragments.mass, &solid::Fragment<Dim>::mass);
+    if (fragments.n_cells != nullptr) std::ranges::transform(found, fragments.n_cells, &solid::Fragment<Dim>::n_cells);
 }
 
 template <int Dim>

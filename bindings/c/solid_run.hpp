@@ -32,6 +32,9 @@ public:
     void bond(const char* side_1, const char* side_2, double strength, double fracture_energy) {
         bonds_.push_back({{side_1, side_2}, strength, fracture_energy});
     }
+    /// Cuts the body into grains. Throws BadInput for one that is not there, not alone in its mesh or cut already, and for
+    /// values that cannot be.
+    void set_fracture(const std::string& body, const abut_fracture& fracture);
     using SetValues = std::function<void(BodyValues&)>;
     /// Tries at once what `set` throws for any body.
     void set_values(const std::string& body, SetValues set);
@@ -49,6 +52,8 @@ public:
     void set_traction(const std::string& group, const abut_array& traction);
     [[nodiscard]] std::int64_t n_cells(const std::string& body) const;
     void write_cells(const std::string& body, const abut_solid_cell_arrays& cells);
+    [[nodiscard]] std::int64_t n_fragments() const;
+    void write_fragments(const abut_solid_fragment_arrays& fragments);
     void write_state(abut_solid_state& state);
     /// From the next step on. Throws BadInput for one above the stable step.
     void set_step(double dt, dynamics::StepChange change);
@@ -74,13 +79,21 @@ private:
         std::string body;
         Value value;
     };
-    [[nodiscard]] std::int32_t body_called(const std::string& name) const;
+    struct Fracture {
+        std::string body;
+        solid::Bond bond;  ///< of any two of its grains, without sides
+    };
+    /// The body of this name, or the grains of the one that had it, increasing. Throws BadInput if there are none.
+    [[nodiscard]] std::vector<std::int32_t> bodies_called(const std::string& name) const;
+    void bond_grains(solid::SolidOptions<Dim>& options) const;
     [[nodiscard]] std::int32_t side_of_bond(const std::string& name) const;
     void take_values(solid::SolidOptions<Dim>& options) const;
     [[nodiscard]] solid::SolidOptions<Dim> options_of(const abut_solid_options& given) const;
 
     std::vector<mesh::Mesh<Dim>> meshes_;
     std::vector<NamedBond> bonds_;
+    std::vector<Fracture> fractures_;
+    std::vector<std::int32_t> fracture_of_body_;  // position in fractures_; -1 of a body that stays whole
     std::vector<OfBody<SetValues>> values_;
     std::vector<OfBody<solid::TemperatureRise<Dim>>> temperatures_;
     solid::SolidOptions<Dim> options_;

@@ -34,11 +34,24 @@ module abut_solid
     type(c_ptr) :: area = c_null_ptr
   end type
 
+  type, bind(c), public :: abut_fracture
+    integer(c_size_t) :: struct_size = 48
+    real(c_double) :: grain = 0, strength = 0, fracture_energy = 0, weibull = 0
+    integer(c_int32_t) :: seed = 0
+  end type
+
   type, bind(c), public :: abut_solid_cell_arrays
-    integer(c_size_t) :: struct_size = 120
+    integer(c_size_t) :: struct_size = 128
     integer(c_int64_t) :: n_cells = 0
     type(abut_array) :: position = nowhere, velocity = nowhere, stress = nowhere
-    type(c_ptr) :: plastic_strain = c_null_ptr
+    type(c_ptr) :: plastic_strain = c_null_ptr, fragment = c_null_ptr
+  end type
+
+  type, bind(c), public :: abut_solid_fragment_arrays
+    integer(c_size_t) :: struct_size = 128
+    integer(c_int64_t) :: n_fragments = 0
+    type(abut_array) :: centre = nowhere, velocity = nowhere, spin = nowhere
+    type(c_ptr) :: mass = c_null_ptr, n_cells = c_null_ptr
   end type
 
   type, bind(c), public :: abut_solid_state
@@ -53,7 +66,8 @@ module abut_solid
   end type
 
   public :: abut_solid_create, abut_solid_add_box, abut_solid_add_file, abut_solid_clamp, abut_solid_roller, &
-    abut_solid_load, abut_solid_bond, abut_solid_set_number, abut_solid_set_text, abut_solid_set_numbers, &
+    abut_solid_load, abut_solid_bond, abut_solid_set_fracture, abut_solid_set_number, abut_solid_set_text, &
+    abut_solid_set_numbers, abut_solid_n_fragments, abut_solid_fragments, &
     abut_solid_set_temperature, abut_solid_begin, abut_solid_n_faces, abut_solid_faces, abut_solid_set_traction, &
     abut_solid_n_cells, abut_solid_cells, abut_solid_set_step, abut_solid_step, abut_solid_begin_clock, &
     abut_solid_clock, abut_solid_motion, abut_solid_advance, abut_solid_keep, abut_solid_go_back, &
@@ -124,6 +138,13 @@ module abut_solid
       type(c_ptr), value :: solid
       character(kind=c_char), intent(in) :: side_1(*), side_2(*)
       real(c_double), value :: strength, fracture_energy
+      type(abut_error), intent(inout) :: error
+    end function
+    integer(c_int) function abut_solid_set_fracture(solid, body, fracture, error) bind(c)
+      import
+      type(c_ptr), value :: solid
+      character(kind=c_char), intent(in) :: body(*)
+      type(abut_fracture), intent(in) :: fracture
       type(abut_error), intent(inout) :: error
     end function
     integer(c_int) function abut_solid_set_number(solid, body, key, value, error) bind(c)
@@ -197,6 +218,18 @@ module abut_solid
       type(c_ptr), value :: solid
       character(kind=c_char), intent(in) :: body(*)
       type(abut_solid_cell_arrays), intent(inout) :: cells  ! arrays behind it are written
+      type(abut_error), intent(inout) :: error
+    end function
+    integer(c_int) function abut_solid_n_fragments(solid, n, error) bind(c)
+      import
+      type(c_ptr), value :: solid
+      integer(c_int64_t), intent(out) :: n
+      type(abut_error), intent(inout) :: error
+    end function
+    integer(c_int) function abut_solid_fragments(solid, fragments, error) bind(c)
+      import
+      type(c_ptr), value :: solid
+      type(abut_solid_fragment_arrays), intent(inout) :: fragments  ! arrays behind it are written
       type(abut_error), intent(inout) :: error
     end function
     ! change: abut_keep or abut_restart_momenta

@@ -288,6 +288,91 @@ static void glued_pieces_are_one_until_they_part(void) {
     abut_solid_destroy(solid);
 }
 
+/* A striker of length .5 and a bar of length 2 that breaks between grains as large as its height, with E = rho = 1 and nu = 0. */
+static abut_solid* struck_bar(const char* kinematics) {
+    const abut_material brittle = {1.0, 0.0, 1.0};
+    const double behind[2] = {-0.51, 0.0}, before[2] = {-0.01, 0.1}, lower[2] = {0.0, 0.0}, upper[2] = {2.0, 0.1};
+    const double velocity[2] = {0.02, 0.0};
+    const int32_t of_striker[2] = {20, 4}, of_bar[2] = {80, 4};
+    abut_error error = ABUT_ERROR_INIT;
+    abut_solid* solid = NULL;
+    abut_fracture fracture = ABUT_FRACTURE_INIT;
+    fracture.grain = 0.1, fracture.strength = 8.5e-3, fracture.fracture_energy = 2e-6;
+    CHECK(abut_solid_create(2, &solid, &error) == ABUT_OK);
+    CHECK(abut_solid_add_box(solid, "striker", behind, before, of_striker, brittle, velocity, &error) == ABUT_OK);
+    CHECK(abut_solid_add_box(solid, "bar", lower, upper, of_bar, brittle, NULL, &error) == ABUT_OK);
+    CHECK(abut_solid_set_fracture(solid, "bar", &fracture, &error) == ABUT_OK);
+    CHECK(abut_solid_set_text(solid, "striker", "kinematics", "floating", &error) == ABUT_OK);
+    CHECK(abut_solid_set_text(solid, "bar", "kinematics", kinematics, &error) == ABUT_OK);
+    return solid;
+}
+
+enum { cells_of_bar = 320 };
+
+/* In one dimension the piece that flies off is half a pulse long, .5, and has the momentum of the striker, .001, but for what the
+   strength keeps back. */
+static void a_bar_breaks_into_fragments(void) {
+    abut_error error = ABUT_ERROR_INIT;
+    abut_solid* solid = struck_bar("floating");
+    CHECK(abut_solid_begin(solid, NULL, &error) == ABUT_OK);
+    if (error.status != ABUT_OK) printf("%s\n", error.message);
+    int64_t n = 0, n_whole = 0, of_fragment[2] = {0}, counted[2] = {0};
+    CHECK(abut_solid_n_fragments(solid, &n, &error) == ABUT_OK && n == 1);
+    CHECK(abut_solid_n_cells(solid, "bar", &n_whole, &error) == ABUT_OK && n_whole == cells_of_bar);
+    CHECK(abut_solid_n_cells(solid, "bar.1", &n, &error) == ABUT_OK && n > 0 && n < n_whole);
+    abut_solid_state start = ABUT_SOLID_STATE_INIT, state = ABUT_SOLID_STATE_INIT;
+    CHECK(abut_solid_get_state(solid, &start, &error) == ABUT_OK);
+    for (state = start; state.time < 6.0;) {
+        CHECK(abut_solid_step(solid, &error) == ABUT_OK);
+        CHECK(abut_solid_get_state(solid, &state, &error) == ABUT_OK);
+    }
+    CHECK(fabs(state.pseudo_energy + state.dissipated - start.pseudo_energy) < 1e-12 * start.kinetic);
+    CHECK(state.missed_contacts == 0 && state.broken_bonds > 0.0);
+    CHECK(abut_solid_n_fragments(solid, &n, &error) == ABUT_OK && n == 2);
+    double mass[2] = {0.0}, centre[2][2] = {{0.0}}, velocity[2][2] = {{0.0}}, spin[2] = {0.0}, at_striker[80][2] = {{0.0}};
+    abut_solid_fragment_arrays fragments = ABUT_SOLID_FRAGMENT_ARRAYS_INIT;
+    CHECK(abut_solid_fragments(solid, &fragments, &error) == ABUT_BAD_INPUT && strstr(error.message, "abut_solid_n_fragments"));
+    fragments.n_fragments = 2, fragments.mass = mass, fragments.n_cells = of_fragment;
+    fragments.centre = packed(centre, 2), fragments.velocity = packed(velocity, 2);
+    fragments.spin = (abut_array){spin, 2, 1, 1};
+    CHECK(abut_solid_fragments(solid, &fragments, &error) == ABUT_OK);
+    CHECK(fabs(mass[0] + mass[1] - 0.2) < 1e-12 && of_fragment[0] + of_fragment[1] == cells_of_bar);
+    CHECK(fabs(mass[1] - 0.05) < 0.005 && centre[1][0] > 1.7 && fabs(spin[1]) * 0.25 < 0.05 * velocity[1][0]);
+    CHECK(mass[1] * velocity[1][0] > 0.9e-3 && mass[1] * velocity[1][0] < 1e-3);
+    int32_t fragment[cells_of_bar];
+    abut_solid_cell_arrays of_bar = ABUT_SOLID_CELL_ARRAYS_INIT, of_striker = ABUT_SOLID_CELL_ARRAYS_INIT;
+    of_bar.n_cells = cells_of_bar, of_bar.fragment = fragment;
+    CHECK(abut_solid_cells(solid, "bar", &of_bar, &error) == ABUT_OK);
+    for (int i = 0; i < cells_of_bar; ++i) ++counted[fragment[i] != 0];
+    CHECK(counted[0] == of_fragment[0] && counted[1] == of_fragment[1]);
+    of_striker.n_cells = 80, of_striker.velocity = packed(at_striker, 80), of_striker.fragment = fragment;
+    CHECK(abut_solid_cells(solid, "striker", &of_striker, &error) == ABUT_OK && fragment[79] == -1);
+    double momentum = mass[0] * velocity[0][0] + mass[1] * velocity[1][0];
+    for (int i = 0; i < 80; ++i) momentum += 0.05 / 80 * at_striker[i][0];
+    CHECK(fabs(momentum - 1e-3) < 1e-15);
+    abut_solid_destroy(solid);
+}
+
+static void what_cannot_break_is_refused(void) {
+    abut_error error = ABUT_ERROR_INIT;
+    abut_solid* solid = struck_bar("small");
+    CHECK(abut_solid_begin(solid, NULL, &error) == ABUT_BAD_INPUT && strstr(error.message, "pieces that come off turn"));
+    abut_solid_destroy(solid);
+    solid = struck_bar("floating");
+    abut_solid_options options = ABUT_SOLID_OPTIONS_INIT;
+    options.contact = 0;
+    CHECK(abut_solid_begin(solid, &options, &error) == ABUT_BAD_INPUT && strstr(error.message, "pass through each other"));
+    abut_fracture fracture = ABUT_FRACTURE_INIT;
+    CHECK(abut_solid_set_fracture(solid, "striker", &fracture, &error) == ABUT_BAD_INPUT && strstr(error.message, "abut_fracture.grain"));
+    fracture.grain = 0.1;
+    CHECK(abut_solid_set_fracture(solid, "striker", &fracture, &error) == ABUT_BAD_INPUT && strstr(error.message, "strength"));
+    fracture.strength = 1.0;
+    CHECK(abut_solid_set_fracture(solid, "bar", &fracture, &error) == ABUT_BAD_INPUT && strstr(error.message, "no body 'bar' that is whole"));
+    fracture.grain = 10.0;
+    CHECK(abut_solid_set_fracture(solid, "striker", &fracture, &error) == ABUT_BAD_INPUT && strstr(error.message, "leave each body whole"));
+    abut_solid_destroy(solid);
+}
+
 static void a_file_brings_bodies_and_groups(const char* folder) {
     char path[4096];
     snprintf(path, sizeof(path), "%s/abut_solid_square.msh", folder);
@@ -325,6 +410,8 @@ int main(int argc, char** argv) {
     numbers_outside_the_limits_of_runs_are_refused();
     friction_takes_what_the_balance_says();
     glued_pieces_are_one_until_they_part();
+    a_bar_breaks_into_fragments();
+    what_cannot_break_is_refused();
     what_cannot_be_is_refused();
     a_file_brings_bodies_and_groups(argc > 1 ? argv[1] : ".");
     return failures == 0 ? EXIT_SUCCESS : EXIT_FAILURE;

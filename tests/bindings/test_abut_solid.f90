@@ -45,6 +45,7 @@ program test_abut_solid
   call a_pressed_bar_gives_way_and_gets_the_work()
   call a_step_that_is_taken_again_has_the_same_bits()
   call bodies_have_what_is_set_for_them()
+  call a_body_that_may_break_is_one_fragment_before()
   call a_file_that_is_not_there_is_named()
   if (failures > 0) error stop
 
@@ -69,6 +70,10 @@ contains
     type(abut_solid_face_arrays) :: faces
     type(abut_solid_cell_arrays) :: of_cells
     type(abut_solid_state) :: state
+    type(abut_fracture) :: fracture
+    type(abut_solid_fragment_arrays) :: fragments
+    call expect(fracture%struct_size == c_sizeof(fracture), 'size of abut_fracture')
+    call expect(fragments%struct_size == c_sizeof(fragments), 'size of abut_solid_fragment_arrays')
     call expect(options%struct_size == c_sizeof(options), 'size of abut_solid_options')
     call expect(faces%struct_size == c_sizeof(faces), 'size of abut_solid_face_arrays')
     call expect(of_cells%struct_size == c_sizeof(of_cells), 'size of abut_solid_cell_arrays')
@@ -216,6 +221,35 @@ contains
     call expect(abut_solid_clamp(solid, abut_text('low.xmin'), error) == abut_misuse, 'nothing is added to a solid that has begun')
     call abut_solid_destroy(solid)
     call abut_solid_destroy(c_null_ptr)
+  end subroutine
+
+  ! A bar that nothing breaks is one fragment, with its mass and its velocity.
+  subroutine a_body_that_may_break_is_one_fragment_before()
+    type(c_ptr) :: solid
+    type(abut_fracture) :: fracture
+    type(abut_solid_fragment_arrays) :: fragments
+    real(c_double), target :: mass(1), speed(2), velocity(2, 1)
+    integer(c_int64_t), target :: n_cells(1)
+    integer(c_int64_t) :: n
+    speed = [1d-3, 0d0]
+    fracture%grain = 0.2d0
+    fracture%strength = 1
+    call succeeds(abut_solid_create(2, solid, error), 'create')
+    call succeeds(abut_solid_add_box(solid, abut_text('bar'), [0d0, 0d0], [2d0, 0.1d0], [cells/2, 2], &
+      abut_material(young, 0d0, 1d0), c_loc(speed), error), 'add_box')
+    call succeeds(abut_solid_set_fracture(solid, abut_text('bar'), fracture, error), 'set_fracture')
+    call succeeds(abut_solid_set_text(solid, abut_text('bar'), abut_text('kinematics'), abut_text('floating'), error), 'set_text')
+    call succeeds(abut_solid_begin(solid, c_null_ptr, error), 'begin')
+    call succeeds(abut_solid_n_fragments(solid, n, error), 'n_fragments')
+    call expect(n == 1, 'one fragment')
+    fragments%n_fragments = n
+    fragments%velocity = abut_points(velocity)
+    fragments%mass = c_loc(mass)
+    fragments%n_cells = c_loc(n_cells)
+    call succeeds(abut_solid_fragments(solid, fragments, error), 'fragments')
+    call expect(abs(mass(1) - 0.2d0) < 1d-12 .and. n_cells(1) == cells, 'its mass and cells')
+    call expect(maxval(abs(velocity(:, 1) - speed)) < 1d-15, 'its velocity')
+    call abut_solid_destroy(solid)
   end subroutine
 
   subroutine a_file_that_is_not_there_is_named()

@@ -207,6 +207,23 @@ friction = 0.3
         CHECK(scene.solid.body_friction[static_cast<std::size_t>(i)].bodies == std::array{i, 3});
 }
 
+TEST_CASE("a bond of bricks with each other holds those that lie side by side, and not those that touch with an edge",
+          "[input][patterns]") {
+    const auto wall = [](const std::string& step, const std::string& shift) {
+        return brick_and("[[patterns]]\nbody = \"brick\"\ncount = [3, 4]\nstep = [" + step + ", 1.001]\n" + shift +
+                         "[[bonds]]\nbodies = [\"brick\", \"brick\"]\nstrength = 5\n");
+    };
+    const auto n_bonds = [](const std::string& text) {
+        const WrittenScene written(text);
+        return input::SceneFile(written.path()).scene<2>().solid.bonds.size();
+    };
+    CHECK(n_bonds(wall("2.001", "")) == 4 * 2 + 3 * 3);                        // each on the one below
+    CHECK(n_bonds(wall("2.001", "shift = [1, 0]\n")) == 4 * 2 + 3 * (3 + 2));  // each on two, but for one end of a course
+    const auto faults = faults_of(wall("4", "").replace(wall("4", "").find("1.001"), 5, "3"));
+    REQUIRE(faults.size() == 1);
+    CHECK(faults.front().text.find("no two of the copies lie side by side") != std::string::npos);
+}
+
 TEST_CASE("bodies of a pattern that overlap are one fault, at the pattern", "[input][patterns]") {
     const auto faults = faults_of(brick_and("[[patterns]]\nbody = \"brick\"\ncount = 5\nstep = [1.5, 0]\n"));
     REQUIRE(faults.size() == 1);

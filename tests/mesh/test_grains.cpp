@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstdint>
@@ -63,6 +64,28 @@ TEMPLATE_TEST_CASE_SIG("grains are connected, have cells enough and the size tha
     CHECK(n >= 0.5 * 2.0 / asked);
     CHECK(n <= 1.5 * 2.0 / asked);
     CHECK(*std::ranges::max_element(measure) <= 3.0 * asked);
+}
+
+TEMPLATE_TEST_CASE_SIG("no grain of bricks is a single layer of cells, whose centroids give no gradient", "[mesh][grains]",
+                       ((int Dim), Dim), 2, 3) {
+    // Where a grain takes two rows of cells, many would have one.
+    std::array<int, Dim> counts;
+    counts.fill(20);
+    const auto mesh = mesh::structured_box<Dim>(Vector<Dim>::Zero(), Vector<Dim>::Ones(), counts,
+                                                Dim == 2 ? CellShape::quadrangle : CellShape::hexahedron);
+    const double size = Dim == 2 ? 0.13 : 0.1;
+    for (const std::uint32_t seed : {0u, 1u, 2u}) {
+        const auto grains = mesh::grains_of<Dim>(mesh, {.size = size, .seed = seed});
+        const auto n = static_cast<std::size_t>(n_grains<Dim>(grains));
+        REQUIRE(n > 20);
+        std::vector<std::array<std::set<long>, Dim>> layers(n);  // positions of its cells along each axis
+        for (std::size_t cell = 0; cell < grains.size(); ++cell)
+            for (int d = 0; d < Dim; ++d)
+                layers[static_cast<std::size_t>(grains[cell])][static_cast<std::size_t>(d)].insert(
+                    std::lround(40.0 * mesh.cell_centroid[cell][d]));
+        for (const auto& of_grain : layers)
+            for (const auto& along : of_grain) CHECK(along.size() > 1);
+    }
 }
 
 TEST_CASE("the same seed gives the same grains, another one others of the same size", "[mesh][grains]") {
