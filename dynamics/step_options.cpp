@@ -21,8 +21,7 @@ const OptionList<StepOptions>& step_options() {
         option("restart", &Of::restart,
                {.help = "of memm: steps between neutral restarts, which clear the parasitic mode of whole bodies; 0: none",
                 .by_default = "10 and the filter with friction, 50 where a body is finite, else 0",
-                .schemes = {"memm"},
-                .depth = OptionDepth::everyday})};
+                .schemes = {"memm"}})};
     return options;
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "abut/input/keys.hpp"
+#include "abut/mesh/io/length_units.hpp"
 #include "abut/run/option_table.hpp"
 #include "abut/solid/material/material_numbers.hpp"
 #include "abut/solid/options/option_words.hpp"
@@ -298,10 +299,10 @@ const std::vector<Variety<Body, Shape>>& body_varieties() {
           {3},
           {required(
                Of::text("surface", &Body::surface, "path",
-                        ".stl, .obj, .off, .ply or .vtp file with one closed surface of triangles, which is filled with "
-                        "tetrahedra; no shape is needed")),
-           size(),
-           Of::number("scale", &Body::scale, a_length, "length of the file's unit, \"1 mm\" or 1e-3 for millimetres"),
+                        ".stl, .obj, .off, .ply or .vtp file with one closed surface, which is filled with tetrahedra; no "
+                        "shape is needed")),
+           size(), Of::word("unit", &Body::unit, mesh::length_units, "unit of the file's lengths"),
+           Of::number("scale", &Body::scale, {.above = 0.0}, "the body is that many times as large as the file has it"),
            Of::truth(
                "keep_triangles", &Body::keep_triangles,
                "true: triangles of the file become faces of the mesh. false: the surface is remeshed with `size`, and edges "

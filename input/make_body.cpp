@@ -145,13 +145,13 @@ void refuse_surface(const BodySettings& body) {
     if (std::ranges::none_of(std::array{".stl", ".obj", ".off", ".ply", ".vtp"}, is_extension)) return;
     throw mesh::MeshError(fmt::format(
         "bodies.{0}.mesh: {1} is a surface, without cells. In 3D write surface = \"{1}\" in place of mesh, and size, the "
-        "edge length of its cells [m]; scale = \"1 mm\" where the file is in millimetres.",
+        "edge length of its cells [m]; unit = \"mm\" where the file is in millimetres.",
         body.name, body.mesh.string()));
 }
 
 mesh::Mesh<3> filled_surface(const BodySettings& body, const std::filesystem::path& folder) {
     mesh::SurfaceMesh surface = mesh::read_surface(folder / body.surface);
-    for (Vector<3>& x : surface.vertices) x *= body.scale;
+    for (Vector<3>& x : surface.vertices) x *= body.unit * body.scale;
     return mesh::fill(surface, {.size = body.size, .name = body.name, .keeps_triangles = body.keep_triangles},
                       mesh_options(body));
 }

@@ -113,7 +113,8 @@ Shell<3> shell_of_file(const ObstacleSettings& obstacle, const std::filesystem::
     Shell<3> shell{.faces = {}, .closed = health.closed()};
     for (std::int32_t face = 0; face < surface.faces.size(); ++face) {
         std::vector<Vector<3>> corners;
-        for (const std::int32_t v : surface.faces[face]) corners.push_back(obstacle.scale * surface.vertices[v]);
+        for (const std::int32_t v : surface.faces[face])
+            corners.push_back(obstacle.unit * obstacle.scale * surface.vertices[v]);
         shell.faces.push_back(std::move(corners));
     }
     const auto add = [](double sum, const geometry::SurfaceComponent& part) { return sum + part.volume; };

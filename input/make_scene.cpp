@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "abut/base/counted.hpp"
 #include "abut/base/error.hpp"
 #include "abut/geometry/box.hpp"
 #include "abut/input/joined_parts.hpp"
@@ -145,7 +146,7 @@ void check_apart(const mesh::Mesh<Dim>& mesh, const Settings& settings, mesh::Ig
         if (n > 0)
             for (Fault& fault : faults)
                 if (fault.text.ends_with("Move one of them with " + pattern + "."))
-                    fault.text += fmt::format(" {} more pairs of its bodies overlap.", n);
+                    fault.text += " " + counted(n, "more pair of its bodies overlaps.", "more pairs of its bodies overlap.");
 }
 
 /// Names of the sides of pairs in a scene, by their number: bodies, obstacles behind them, and then groups of boundary

@@ -5,37 +5,13 @@
 
 #include <algorithm>
 #include <array>
-#include <numeric>
 #include <string_view>
-#include <utility>
 
+#include "abut/base/nearest_word.hpp"
 #include "abut/run/option_table.hpp"
 
 namespace abut::input {
 namespace {
-
-using Row = std::vector<std::size_t>;
-
-/// The next row of Levenshtein's table, for one more letter of the first word; a swap of neighbours counts once.
-Row next_row(const std::string& a, const std::string& b, std::size_t i, const Row& before, const Row& two_before) {
-    Row row(b.size() + 1, i);
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-        row[j] = std::min({before[j] + 1, row[j - 1] + 1, before[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1)});
-        if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) row[j] = std::min(row[j], two_before[j - 2] + 1);
-    }
-    return row;
-}
-
-std::size_t distance(const std::string& a, const std::string& b) {
-    Row two_before, before(b.size() + 1);
-    std::iota(before.begin(), before.end(), std::size_t{0});
-    for (std::size_t i = 1; i <= a.size(); ++i) {
-        Row row = next_row(a, b, i, before, two_before);
-        two_before = std::move(before);
-        before = std::move(row);
-    }
-    return before.back();
-}
 
 /// Words of other programs and of equations for a key of ours, in small letters.
 struct Synonym {
@@ -141,6 +117,12 @@ constexpr std::array elsewhere = std::to_array<Elsewhere>({{"weights", " It is w
                                                            {"coefficient_of_friction", friction},
                                                            {"mu", friction}});
 
+/// Keys of bodies that fill a surface, which some give with `mesh`.
+bool is_of_surfaces(std::string_view word) {
+    constexpr std::array words = std::to_array<std::string_view>({"size", "unit", "scale", "keep_triangles"});
+    return std::ranges::find(words, word) != words.end();
+}
+
 std::string in_small_letters(std::string word) {
     for (char& c : word)
         if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
@@ -157,9 +139,13 @@ std::string hint_of_key(const std::string& word, const std::vector<std::string>&
         if (option.table == "laboratory" && option.scene_key() == small)
             return fmt::format(" It is a key of [laboratory], which compares methods; on a command line --lab {}=VALUE.",
                                small);
+    if (is_of_surfaces(small) && std::ranges::find(known, "mesh") != known.end())
+        return " It goes with `surface`, a file of triangles such as .stl, and `mesh` is a file of cells.";
     for (const Synonym& synonym : synonyms)
         if (synonym.word == small && std::ranges::find(known, synonym.key) != known.end())
             return fmt::format(" Did you mean '{}'?", synonym.key);
+    constexpr std::size_t most_known = 16;  // that a reader looks through
+    if (known.size() > most_known && !nearest_word(word, known)) return " `abut keys` lists those that are known.";
     return hint(word, known);
 }
 
@@ -192,13 +178,7 @@ std::string hint_of_name(const std::string& name, const std::vector<std::string>
 
 std::string hint(const std::string& word, const std::vector<std::string>& known) {
     if (known.empty()) return "";
-    // Of several that are as near, the one that begins alike for longest.
-    const auto farness = [&](const std::string& other) {
-        return std::pair{distance(word, other), word.end() - std::ranges::mismatch(word, other).in1};
-    };
-    const auto nearest = std::ranges::min_element(known, {}, farness);
-    if (distance(word, *nearest) <= (std::max(word.size(), nearest->size()) + 1) / 3)
-        return fmt::format(" Did you mean '{}'?", *nearest);
+    if (const auto nearest = nearest_word(word, known)) return fmt::format(" Did you mean '{}'?", *nearest);
     return fmt::format(" Known are '{}'.", fmt::join(known, "', '"));
 }
 

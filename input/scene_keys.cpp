@@ -6,6 +6,7 @@
 #include "abut/contact/option_table.hpp"
 #include "abut/input/keys.hpp"
 #include "abut/input/option_keys.hpp"
+#include "abut/mesh/io/length_units.hpp"
 #include "abut/run/option_table.hpp"
 
 namespace abut::input {
@@ -223,8 +224,9 @@ const std::vector<Variety<ObstacleSettings, ObstacleShape>>& obstacle_varieties(
           {3},
           {required(From::text("surface", &Obstacle::surface, "path",
                                ".stl, .obj, .off, .ply or .vtp file, from the folder of the scene; no shape is needed")),
-           From::number("scale", &Obstacle::scale, {.unit = "m", .above = 0.0},
-                        "length of the file's unit, 1e-3 for millimetres"),
+           From::word("unit", &Obstacle::unit, mesh::length_units, "unit of the file's lengths"),
+           From::number("scale", &Obstacle::scale, {.above = 0.0},
+                        "the obstacle is that many times as large as the file has it"),
            inside}}});
     return varieties;
 }

@@ -69,7 +69,8 @@ struct BodySettings : Named {
     Shape shape = Shape::none;
     std::filesystem::path mesh;
     std::filesystem::path surface;
-    double scale = 1.0;  ///< of the lengths of `surface` [m]
+    double unit = 1.0;   ///< of the lengths of `surface` [m]
+    double scale = 1.0;  ///< of `surface` [-]
     bool keep_triangles = false;
     mesh::NonPlanarFaces non_planar = mesh::NonPlanarFaces::fail;
     double planarity_tolerance = mesh::MeshOptions{}.planarity_tolerance;  ///< [-]
@@ -142,7 +143,8 @@ struct ObstacleSettings : Named {
     Vector<3> upper = Vector<3>::Ones();                          ///< [m]
     std::vector<Vector<3>> corners;                               ///< [m]
     std::filesystem::path surface;
-    double scale = 1.0;  ///< of the lengths of `surface` [m]
+    double unit = 1.0;   ///< of the lengths of `surface` [m]
+    double scale = 1.0;  ///< of `surface` [-]
     bool inside = false;
     Vector<3> place = Vector<3>::Zero();     ///< [m]
     Vector<3> turn = Vector<3>::Zero();      ///< axis times angle [rad]

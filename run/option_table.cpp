@@ -31,9 +31,7 @@ List of_time() {
         option("time", &Of::time,
                {.help = "end of the run", .limits = a_time, .named = Named::never, .depth = OptionDepth::everyday}),
         option("steps", &Of::steps,
-               {.help = "steps of the run where no time is given; 0: as many as the time takes",
-                .named = Named::never,
-                .depth = OptionDepth::everyday}),
+               {.help = "steps of the run where no time is given; 0: as many as the time takes", .named = Named::never}),
         option(
             "settle", &Of::settle,
             {.help = "bring the bodies to rest under the loads of t = 0 before the run begins, with their friction; their "
@@ -79,9 +77,7 @@ List of_time() {
                 .schemes = single_step,
                 .free_on_resume = true}),
         choice("filter", &Of::filter, filter_words,
-               {.help = "energy-neutral filter of the parasitic mode, after each step in contact",
-                .schemes = memm,
-                .depth = OptionDepth::everyday}),
+               {.help = "energy-neutral filter of the parasitic mode, after each step in contact", .schemes = memm}),
         option("restart", &Of::restart, of_step("restart")),
         choice(
             "kinematics", &Of::kinematics, kinematics_words,
@@ -162,8 +158,7 @@ List of_output() {
                 .free_on_resume = true,
                 .depth = OptionDepth::everyday}),
         option("interval", &Of::interval,
-               {.help = "steps between two records of the energies; 0: as many as make about 2,000, in 3D at least 10",
-                .depth = OptionDepth::everyday}),
+               {.help = "steps between two records of the energies; 0: as many as make about 2,000, in 3D at least 10"}),
         option("frames", &Of::frames,
                {.help = "frames for ParaView, first and last included; 0: none", .depth = OptionDepth::everyday}),
         option("times", &Of::times,
@@ -177,8 +172,7 @@ List of_output() {
         choice(
             "format", &Of::format, format_words,
             {.help = "of frames: vtu, a file for each, or xdmf, one .h5 file for all with .xmf beside it (not with pieces)",
-             .named = Named::changed,
-             .depth = OptionDepth::everyday}),
+             .named = Named::changed}),
         option("animation", &Of::animation,
                {.help = "frames of animation.html, the run as a film in a browser, first and last included; 0: no film",
                 .named = Named::changed,

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "abut/base/counted.hpp"
 #include "abut/base/error.hpp"
 #include "abut/base/throw_again.hpp"
 #include "abut/input/check.hpp"
@@ -65,9 +66,7 @@ const Program abut_program{.name = "abut",
 
 void add_scene_options(CommandParser& command, CommandLine& line) {
     command.path("scene", line.scene, "the scene, a TOML file").required().takes("FILE");
-    command
-        .texts("--set", line.set,
-               "a value in place of that of the file, bodies.left.density=2, as often as you like; by default none")
+    command.texts("--set", line.set, "a value in place of that of the file, bodies.left.density=2; may be repeated")
         .several()
         .takes("KEY=VALUE");
     add_preset_option(command, line.options, OptionDepth::expert);
@@ -77,7 +76,7 @@ void add_scene_options(CommandParser& command, CommandLine& line) {
     command.at("--out").by_default("out/SCENE");
     command
         .texts("--lab", line.laboratory,
-               "a key of [laboratory], which compares methods: --lab overlap=frozen, as often as you like; by default none")
+               "a key of [laboratory], which compares methods: --lab overlap=frozen; may be repeated")
         .several()
         .takes("KEY=VALUE")
         .group("Laboratory")
@@ -88,18 +87,18 @@ void add_scene_options(CommandParser& command, CommandLine& line) {
 
 void add_commands(CommandParser& parser, CommandLine& line) {
     parser.add_version(version_text());
-    line.run = &parser.add_command("run", "runs a scene; options stand above its values");
+    line.run = &parser.add_command("run", "runs a scene; options overrule its values");
     add_scene_options(*line.run, line);
     add_message_options(*line.run, line.messages);
     line.run
-        ->texts("--sweep", line.sweep,
-                "a key and its values in turn, a folder for each run and sweep.csv for all; of several keys all "
-                "combinations; by default none")
+        ->texts(
+            "--sweep", line.sweep,
+            "a run for each value, or combination of them, in a folder of its own, and sweep.csv for all; may be repeated")
         .several()
         .takes("KEY=A,B,...");
-    line.check = &parser.add_command("check", "says all that is wrong with a scene, or what a run of it would take");
+    line.check = &parser.add_command("check", "lists every error of a scene at once, or estimates the cost of its run");
     add_scene_options(*line.check, line);
-    line.restart = &parser.add_command("restart", "goes on with a run that was stopped or killed, from its last checkpoint");
+    line.restart = &parser.add_command("restart", "continues a run that was stopped or killed, from its last checkpoint");
     line.restart->path("results", line.results, "the folder of its results, that of --out").required().takes("DIR");
     add_number(*line.restart, "--until", line.restarted.time,
                "another end of the run than it had; a run that has come to its end goes on if it was made with "
@@ -118,6 +117,7 @@ void add_commands(CommandParser& parser, CommandLine& line) {
     line.detect->end_help_with(detect_program.footer);
     add_options(*line.detect, line.detection);
     add_asked(parser, line.asked);
+    parser.explain_unknown(where_in_laboratory);
 }
 
 /// Drops an option of the scene where one on the command line excludes it.
@@ -219,8 +219,8 @@ void restart_run(const Program& program, const fs::path& results, const run::Run
 void check_file(const fs::path& path, const input::Overrides& overrides) {
     const input::CheckedScene checked = input::check_scene(path, overrides);
     if (!checked.faults.empty()) throw input::SceneError(checked.faults);
-    const std::size_t n = checked.warnings.size();
-    fmt::print("{}: no fault found{}\n{}", path.string(), n == 0 ? "" : fmt::format(", {} warning{}", n, n == 1 ? "" : "s"),
+    const std::int64_t n = std::ssize(checked.warnings);
+    fmt::print("{}: no fault found{}\n{}", path.string(), n == 0 ? "" : ", " + counted(n, "warning"),
                input::text_of(*checked.estimate));
     for (const std::string& warning : checked.warnings) fmt::print("  {:<16}{}\n", "warning", warning);
 }
@@ -232,7 +232,9 @@ void write_new_scene(fs::path path) {
     file << new_scene();
     file.close();
     if (!file) throw BadInput(fmt::format("{}: the file cannot be written. Give a folder that can.", path.string()));
-    fmt::print("{}: written. Next: abut check {}\n", path.string(), path.string());
+    const std::string name = path.string();
+    const bool is_word = name.find_first_of(" \t'\"$&();<>|*?") == std::string::npos;
+    fmt::print("{}: written. Next: abut check {}\n", name, is_word ? name : fmt::format("'{}'", name));
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cctype>
 
+#include "abut/base/counted.hpp"
 #include "abut/base/error.hpp"
 #include "abut/input/scene_file.hpp"
 #include "abut/mesh/cell_shape.hpp"
@@ -73,16 +74,16 @@ std::string mesh_info(const fs::path& path) {
     std::string text = fmt::format("{}: a mesh in {}D\n", path.string(), Dim) + mesh_lines(mesh);
     for (std::int32_t body = 0; body < mesh.n_bodies(); ++body)
         text += info_line(fmt::format("body '{}'", mesh.body_names[static_cast<std::size_t>(body)]),
-                          fmt::format("{} cells, {:.6g} m^{}", std::ranges::count(mesh.cell_body, body),
+                          fmt::format("{}, {:.6g} m^{}", counted(std::ranges::count(mesh.cell_body, body), "cell"),
                                       measure_of_body(mesh, body), Dim));
     text += group_lines(mesh);
     if (mesh.report.n_non_planar_faces > 0)
-        text +=
-            info_line("not planar", fmt::format("{} faces, by up to {:.2g} of their size: a run refuses them unless they "
-                                                "are split (non_planar = \"split\")",
-                                                mesh.report.n_non_planar_faces, mesh.report.worst_planarity));
+        text += info_line("not planar",
+                          fmt::format("{}, by up to {:.2g} of their size: a run refuses them unless they "
+                                      "are split (non_planar = \"split\")",
+                                      counted(mesh.report.n_non_planar_faces, "face"), mesh.report.worst_planarity));
     if (mesh.report.n_turned_cells > 0)
-        text += info_line("turned", fmt::format("{} cells, given inside out (clockwise)", mesh.report.n_turned_cells));
+        text += info_line("turned", counted(mesh.report.n_turned_cells, "cell") + ", given inside out (clockwise)");
     for (const std::string& warning : mesh.report.warnings) text += info_line("warning", warning);
     return text;
 }
@@ -98,10 +99,9 @@ std::string unit_line(const mesh::SurfaceMesh& surface, const fs::path& path) {
     }
     const double extent = (upper - lower).maxCoeff();
     if (extent < doubtful) return "";
-    return info_line("unit?",
-                     fmt::format("{:.3g} m long as it stands. If it is in millimetres: scale = \"1 mm\" in a scene, "
-                                 "{}:unit=mm for abut detect",
-                                 extent, path.filename().string()));
+    return info_line("unit?", fmt::format("{:.3g} m long as it stands. If it is in millimetres: unit = \"mm\" in a scene, "
+                                          "{}:unit=mm for abut detect",
+                                          extent, path.filename().string()));
 }
 
 std::string surface_info(const fs::path& path) {
@@ -142,10 +142,10 @@ std::string scene_info(const fs::path& path, const input::SceneFile& file) {
         const auto b = static_cast<std::size_t>(body);
         const double mass = scene.solid.materials[b].density * measure_of_body(scene.mesh, body);
         const auto kinematics = solid::kinematics_of(scene.solid.kinematics, b);
-        text +=
-            info_line(fmt::format("body '{}'", scene.mesh.body_names[b]),
-                      fmt::format("{} cells, {:.6g} kg, {}, at ({:g}) m/s", std::ranges::count(scene.mesh.cell_body, body),
-                                  mass, run::name_of(kinematics), fmt::join(scene.velocity[b], ", ")));
+        text += info_line(
+            fmt::format("body '{}'", scene.mesh.body_names[b]),
+            fmt::format("{}, {:.6g} kg, {}, at ({:g}) m/s", counted(std::ranges::count(scene.mesh.cell_body, body), "cell"),
+                        mass, run::name_of(kinematics), fmt::join(scene.velocity[b], ", ")));
     }
     text += group_lines(scene.mesh);
     text += info_line("obstacles", fmt::format("{}", scene.solid.obstacles.size()));

@@ -41,7 +41,7 @@ be of the dimension that `abut keys` tells; a formula with a unit stands in pare
 without a unit is in SI.
 
 Other consistent units work as well, since nothing but ratios matters: mm, tonne and s go with MPa and mJ.
-Files of surfaces in millimetres are scaled by their key scale = 1e-3.
+Files of surfaces in millimetres have the key unit = "mm".
 
 Numbers may be formulas in quotes, "sqrt(2)/2"; where a value may vary they know t [s], those of supports,
 tractions and temperature_rise also x, y, z [m].)"};

@@ -9,6 +9,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "abut/base/counted.hpp"
 #include "abut/base/stopwatch.hpp"
 #include "abut/run/files/files.hpp"
 #include "abut/run/result.hpp"
@@ -42,8 +43,8 @@ void log_step(const StepResult& result, int steps) {
     const int every = std::max(1, steps / most_logged_steps);
     if (result.step % every != 0 && result.step != steps) return;
     spdlog::info(
-        "step {}/{}: {}{} candidates, {} overlaps{}", result.step, steps, result.searched ? "new list, " : "",
-        result.candidates, result.overlaps.size(),
+        "step {}/{}: {}{}, {}{}", result.step, steps, result.searched ? "new list, " : "",
+        counted(result.candidates, "candidate"), counted(std::ssize(result.overlaps), "overlap"),
         result.overlaps.empty() ? "" : fmt::format(", {:.6g} m^2, least gap {:.6g} m", result.area, result.gap_min));
 }
 

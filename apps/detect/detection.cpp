@@ -83,7 +83,14 @@ BodyContacts contacts_of(const Bodies& bodies, const StepResult& result) {
         contact.distance_min = contact.overlaps == 0 ? distance : std::min(contact.distance_min, distance);
         contact.gap_min = contact.overlaps == 0 ? overlap.gap : std::min(contact.gap_min, overlap.gap);
         contact.area += overlap.area;
+        contact.depth = -contact.distance_min;
         ++contact.overlaps;
+    }
+    for (const MeetingBodies& meeting : result.neighbours.meeting) {
+        BodyContact& contact = contacts[{meeting.body_1, meeting.body_2}];
+        contact.depth = meeting.depth;
+        contact.crosses = meeting.depth > 0.0;
+        contact.inner = meeting.inner;
     }
     return contacts;
 }

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <utility>
 #include <vector>
@@ -41,12 +42,17 @@ struct StepResult {
 
 /// Contact of two bodies.
 struct BodyContact {
+    static constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
     std::int64_t overlaps = 0;
     double area = 0.0;          ///< [m^2]
-    double gap_min = 0.0;       ///< [m]
-    double distance_min = 0.0;  ///< of faces that overlap [m]
+    double gap_min = nan;       ///< [m]; not a number without overlaps
+    double distance_min = nan;  ///< of faces that overlap [m]; not a number without
+    double depth = 0.0;         ///< how deep they lie in each other [m]; below 0: how far these faces are apart
+    bool crosses = false;       ///< a point of one is inside of the other one
+    std::int32_t inner = -1;    ///< that which is wholly inside; -1: neither is
 };
-/// By pair of bodies, the smaller number first. The distances must have been measured.
+/// By pair of bodies, the smaller number first: those with overlaps, and all that meet. Distances must have been measured.
 using BodyContacts = std::map<std::pair<std::int32_t, std::int32_t>, BodyContact>;
 [[nodiscard]] BodyContacts contacts_of(const Bodies& bodies, const StepResult& result);
 

@@ -9,6 +9,7 @@
 #include "abut/base/index.hpp"
 #include "abut/geometry/box.hpp"
 #include "abut/geometry/nearest/nearest_faces.hpp"
+#include "abut/geometry/nearest/penetration.hpp"
 #include "abut/geometry/nearest/winding_number.hpp"
 
 namespace abut::apps {
@@ -55,6 +56,23 @@ public:
         return found;
     }
 
+    /// `inside`: of these bodies.
+    std::vector<MeetingBodies> meeting(const std::vector<InsideBody>& inside) {
+        std::map<BodyPair, std::int32_t> inner;
+        for (const InsideBody& one : inside) inner.emplace(std::minmax(one.inner, one.outer), one.inner);
+        std::vector<MeetingBodies> found;
+        const auto n = static_cast<std::int32_t>(bodies_.size());
+        for (std::int32_t one = 0; one < n; ++one)
+            for (std::int32_t two = one + 1; two < n; ++two) {
+                if (!bodies_[at(one)].box.overlaps(bodies_[at(two)].box)) continue;
+                const auto contained = inner.find({one, two});
+                if (contained == inner.end() && measured({one, two}).points.distance > 0.0) continue;
+                found.push_back({one, two, depth_of(bodies_[at(one)], bodies_[at(two)]),
+                                 contained == inner.end() ? -1 : contained->second});
+            }
+        return found;
+    }
+
     std::vector<NearestBodies> all() {
         for (std::int32_t body = 0; at(body) < bodies_.size(); ++body) add_nearest_of(body);
         std::vector<NearestBodies> result;
@@ -74,6 +92,10 @@ private:
             if (!geometry::is_inside({vertices_, outer.offsets, outer.corners}, vertices_[at(inner.corners[i])]))
                 return false;
         return true;
+    }
+
+    [[nodiscard]] double depth_of(const BodyFaces& one, const BodyFaces& two) const {
+        return geometry::penetration_depth({vertices_, one.offsets, one.corners}, {vertices_, two.offsets, two.corners});
     }
 
     void add_nearest_of(std::int32_t body) {
@@ -115,8 +137,9 @@ private:
 Neighbours neighbours(const Bodies& bodies) {
     if (bodies.names.size() > most_nearest_bodies) return {};
     NearestSearch search(bodies);
-    Neighbours found{.nearest = search.all(), .inside = {}};
+    Neighbours found{.nearest = search.all(), .inside = {}, .meeting = {}};
     found.inside = search.inside();
+    found.meeting = search.meeting(found.inside);
     return found;
 }
 

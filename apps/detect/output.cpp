@@ -171,7 +171,7 @@ void Output::open() {
     candidates_.write("step,body_1,face_1,body_2,face_2\n");
     overlaps_.write(
         "step,body_1,face_1,body_2,face_2,area [m^2],gap [m],nx [-],ny [-],nz [-],x [m],y [m],z [m],distance [m]\n");
-    contacts_.write("step,body_1,body_2,overlaps,area [m^2],gap_min [m],distance_min [m]\n");
+    contacts_.write("step,body_1,body_2,overlaps,area [m^2],gap_min [m],distance_min [m],crosses,depth [m],inside\n");
     nearest_.write("step,body_1,face_1,body_2,face_2,distance [m],x_1 [m],y_1 [m],z_1 [m],x_2 [m],y_2 [m],z_2 [m]\n");
 }
 
@@ -226,9 +226,10 @@ void Output::add_overlaps(const StepResult& result, const Patches& patches) {
 
 void Output::add_contacts(const StepResult& result) {
     for (const auto& [pair, contact] : contacts_of(bodies_, result))
-        contacts_.write(fmt::format("{},{},{},{},{:.17g},{:.17g},{:.17g}\n", result.step, names_[at(pair.first)],
-                                    names_[at(pair.second)], contact.overlaps, contact.area, contact.gap_min,
-                                    contact.distance_min));
+        contacts_.write(fmt::format("{},{},{},{},{:.17g},{:.17g},{:.17g},{:d},{:.17g},{}\n", result.step,
+                                    names_[at(pair.first)], names_[at(pair.second)], contact.overlaps, contact.area,
+                                    contact.gap_min, contact.distance_min, contact.crosses, contact.depth,
+                                    contact.inner < 0 ? "" : names_[at(contact.inner)]));
 }
 
 void Output::add_nearest(const StepResult& result) {

@@ -13,6 +13,7 @@
 #include "abut/base/error.hpp"
 #include "abut/base/index.hpp"
 #include "abut/base/rotation.hpp"
+#include "abut/mesh/io/length_units.hpp"
 
 namespace abut::apps {
 namespace {
@@ -22,16 +23,9 @@ using mesh::SurfaceMesh;
 constexpr double largest_count = 1e8;
 constexpr double radian = std::numbers::pi / 180.0;
 
-struct Unit {
-    const char* name;
-    double length;  ///< [m]
-};
-constexpr std::array units = {Unit{"m", 1.0},   Unit{"cm", 1e-2},   Unit{"mm", 1e-3},
-                              Unit{"um", 1e-6}, Unit{"in", 0.0254}, Unit{"ft", 0.3048}};
-
 std::vector<std::string> unit_names() {
     std::vector<std::string> names;
-    for (const Unit& unit : units) names.emplace_back(unit.name);
+    for (const auto& [name, length] : mesh::length_units) names.emplace_back(name);
     return names;
 }
 
@@ -40,10 +34,10 @@ double scale_of(const Keys& keys) {
     double scale = 1.0;
     keys.read("unit", unit);
     keys.read("scale", scale, {.above = 0.0});
-    const auto known = std::ranges::find_if(units, [&](const Unit& one) { return one.name == unit; });
-    if (known == units.end())
+    const auto known = std::ranges::find(mesh::length_units, unit, &Word<double>::word);
+    if (known == mesh::length_units.end())
         keys.refuse(fmt::format("'{}' is no unit of length; there are {}", unit, fmt::join(unit_names(), ", ")));
-    return scale * known->length;
+    return scale * known->choice;
 }
 
 Vector<3> vector_of(const Keys& keys, const std::array<const char*, 3>& names) {

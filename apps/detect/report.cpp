@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "abut/base/counted.hpp"
 #include "abut/base/index.hpp"
 #include "apps/support/choices.hpp"
 #include "apps/support/standard_streams.hpp"
@@ -83,7 +84,10 @@ Json contacts_json(const DetectReport& report) {
                             {"overlaps", contact.overlaps},
                             {"area", contact.area},
                             {"gap_min", contact.gap_min},
-                            {"distance_min", contact.distance_min}});
+                            {"distance_min", contact.distance_min},
+                            {"crosses", contact.crosses},
+                            {"depth", contact.depth},
+                            {"inside", contact.inner < 0 ? Json() : Json(contact.inner)}});
     return contacts;
 }
 
@@ -166,8 +170,9 @@ void print_inputs(const Bodies& bodies) {
         say(input.name + ":\n");
         for (const std::string& line : input.lines) say("  " + line + "\n");
         if (input.n_cut_faces > 0)
-            say(fmt::format("  {} faces that are not flat are cut into triangles, {} of them without area left out\n",
-                            input.n_cut_faces, input.n_flat_pieces));
+            say(fmt::format("  {} cut into triangles, {} of them without area left out\n",
+                            counted(input.n_cut_faces, "face that is not flat is", "faces that are not flat are"),
+                            input.n_flat_pieces));
     }
 }
 
@@ -175,8 +180,9 @@ void print_bodies(const Bodies& bodies) {
     std::vector<std::int64_t> n_faces(bodies.names.size(), 0);
     for (const std::int32_t body : bodies.surface.body) ++n_faces[at(body)];
     for (std::size_t body = 0; body < std::min(n_faces.size(), most_lines); ++body)
-        print_line(fmt::format("body {}", body), fmt::format("{}, {} faces", bodies.names[body], n_faces[body]));
-    if (n_faces.size() > most_lines) print_line("", fmt::format("and {} more bodies", n_faces.size() - most_lines));
+        print_line(fmt::format("body {}", body), fmt::format("{}, {}", bodies.names[body], counted(n_faces[body], "face")));
+    if (n_faces.size() > most_lines)
+        print_line("", "and " + counted(std::ssize(n_faces) - std::int64_t{most_lines}, "more body"));
 }
 
 void print_search(const DetectReport& report) {
@@ -199,13 +205,13 @@ void print_last(const DetectReport& report) {
     std::size_t line = 0;
     const BodyContacts contacts = contacts_of(report.bodies, report.last);
     for (const auto& [pair, contact] : contacts) {
+        if (contact.overlaps == 0) continue;
         if (++line > most_lines) break;
         print_line(fmt::format("  {} - {}", report.bodies.names[at(pair.first)], report.bodies.names[at(pair.second)]),
-                   fmt::format("{} overlaps, {:.6g} m^2, least gap {:.6g} m, faces {:.6g} m apart", contact.overlaps,
-                               contact.area, contact.gap_min, contact.distance_min));
+                   fmt::format("{}, {:.6g} m^2, least gap {:.6g} m, faces {:.6g} m apart",
+                               counted(contact.overlaps, "overlap"), contact.area, contact.gap_min, contact.distance_min));
     }
-    if (contacts.size() > most_lines)
-        print_line("", fmt::format("and {} more pairs of bodies", contacts.size() - most_lines));
+    if (line > most_lines) print_line("", "and more pairs of bodies, in contacts.csv");
 }
 
 std::string in_words(const Bodies& bodies, std::int32_t body, std::int32_t face, const Vector<3>& x) {
@@ -222,10 +228,16 @@ std::vector<NearestBodies> by_distance(const DetectReport& report) {
 
 /// "0.2 m^2 lie opposite each other within 0.1 m"
 std::string facing_text(const DetectReport& report, const BodyContact* contact) {
-    if (!contact) return fmt::format("no faces within {:.4g} m lie opposite each other", report.near.distance);
-    const std::string deep =
-        contact->gap_min < 0.0 ? fmt::format(", inside each other by up to {:.4g} m", -contact->gap_min) : "";
-    return fmt::format("{:.4g} m^2 lie opposite each other within {:.4g} m{}", contact->area, report.near.distance, deep);
+    if (!contact || contact->overlaps == 0)
+        return fmt::format("no faces within {:.4g} m lie opposite each other", report.near.distance);
+    return fmt::format("{:.4g} m^2 lie opposite each other within {:.4g} m", contact->area, report.near.distance);
+}
+
+/// "are 0.2 m apart", "touch each other", "cross each other, 0.1 m deep"
+std::string meeting_text(double distance, const BodyContact* contact) {
+    if (distance > 0.0) return fmt::format("are {:.4g} m apart", distance);
+    if (!contact || !contact->crosses) return "touch each other";
+    return fmt::format("cross each other, {:.4g} m deep,", contact->depth);
 }
 
 /// The answer, before how it was found: which bodies are inside of others, how near each is to its nearest one, and
@@ -244,24 +256,26 @@ void print_answer(const DetectReport& report) {
     for (const auto& [body_1, body_2, faces] : by_distance(report)) {
         if (!told.insert({body_1, body_2}).second) continue;
         const auto& [x_1, x_2, distance] = faces.points;
-        const std::string how =
-            distance > 0.0 ? fmt::format("are {:.4g} m apart", distance) : std::string("touch or cross each other");
-        const auto contact = contacts.find({body_1, body_2});
+        const auto found = contacts.find({body_1, body_2});
+        const BodyContact* contact = found == contacts.end() ? nullptr : &found->second;
         answers.push_back(fmt::format("'{}' and '{}' {} at ({:.4g}, {:.4g}, {:.4g}); {}", names[at(body_1)],
-                                      names[at(body_2)], how, x_1[0], x_1[1], x_1[2],
-                                      facing_text(report, contact == contacts.end() ? nullptr : &contact->second)));
+                                      names[at(body_2)], meeting_text(distance, contact), x_1[0], x_1[1], x_1[2],
+                                      facing_text(report, contact)));
     }
     for (const auto& [pair, contact] : contacts) {
         if (told.contains(pair)) continue;
         const std::string other = pair.first == pair.second ? "itself" : "'" + names[at(pair.second)] + "'";
-        answers.push_back(fmt::format("'{}' and {}: {}", names[at(pair.first)], other, facing_text(report, &contact)));
+        const std::string crossing = contact.crosses ? meeting_text(0.0, &contact) + " " : "";
+        answers.push_back(
+            fmt::format("'{}' and {}: {}{}", names[at(pair.first)], other, crossing, facing_text(report, &contact)));
     }
     if (answers.empty()) answers.push_back(facing_text(report, nullptr));
     for (std::size_t i = 0; i < std::min(answers.size(), most_answers); ++i) say(answers[i] + "\n");
     if (answers.size() > most_answers) say(fmt::format("and {} more\n", answers.size() - most_answers));
     for (const InputReport& input : report.bodies.inputs)
         if (input.n_skipped_faces > 0)
-            say(fmt::format("warning: {}: {} unusable faces are left out\n", input.name, input.n_skipped_faces));
+            say(fmt::format("warning: {}: {} left out\n", input.name,
+                            counted(input.n_skipped_faces, "unusable face is", "unusable faces are")));
 }
 
 void print_nearest(const DetectReport& report) {
@@ -273,7 +287,9 @@ void print_nearest(const DetectReport& report) {
                    fmt::format("{:.9g} m: {}, and {}", distance, in_words(report.bodies, body_1, faces.face_1, x_1),
                                in_words(report.bodies, body_2, faces.face_2, x_2)));
     }
-    if (nearest.size() > most_lines) print_line("", fmt::format("and {} more pairs of bodies", nearest.size() - most_lines));
+    if (nearest.size() > most_lines)
+        print_line("", "and " + counted(std::ssize(nearest) - std::int64_t{most_lines}, "more pair of bodies",
+                                        "more pairs of bodies"));
     if (const std::size_t n = report.bodies.names.size(); n > most_nearest_bodies)
         print_line("nearest bodies", fmt::format("not looked for: {} bodies, at most {}", n, most_nearest_bodies));
 }
@@ -285,16 +301,17 @@ void print_inside(const DetectReport& report) {
         print_line(i == 0 ? "wholly inside of another body" : "",
                    fmt::format("'{}' is inside of '{}', {:.6g} m from its surface", report.bodies.names[at(inside[i].inner)],
                                report.bodies.names[at(inside[i].outer)], inside[i].distance));
-    if (inside.size() > most_lines) print_line("", fmt::format("and {} more bodies", inside.size() - most_lines));
+    if (inside.size() > most_lines)
+        print_line("", "and " + counted(std::ssize(inside) - std::int64_t{most_lines}, "more body"));
 }
 
 void print_verification(const DetectReport& report) {
     if (!report.verified) return;
     const Verification& found = report.verification;
-    print_line(
-        "verified against all pairs",
-        fmt::format("{} pairs tested, {} required, {} missed, {} wrong, {} within rounding of a limit", found.tested,
-                    found.required, found.missed_candidates + found.missed_overlaps, found.wrong_overlaps, found.on_limit));
+    print_line("verified against all pairs",
+               fmt::format("{} tested, {} required, {} missed, {} wrong, {} within rounding of a limit",
+                           counted(found.tested, "pair"), found.required, found.missed_candidates + found.missed_overlaps,
+                           found.wrong_overlaps, found.on_limit));
     if (found.sampled) print_line("  by a sample of faces against all", fmt::format("{}", found.faces));
     print_line("  largest error of area and gap",
                fmt::format("{:.2g} of the smaller face, {:.2g} m", found.area_error, found.gap_error));
@@ -340,9 +357,8 @@ void print(const DetectReport& report, const DetectOptions& options) {
     const Bodies& bodies = report.bodies;
     print_answer(report);
     print_inputs(bodies);
-    say(fmt::format("detect: {}, {} faces, step {}{}\n",
-                    bodies.names.size() == 1 ? "1 body" : fmt::format("{} bodies", bodies.names.size()),
-                    bodies.surface.size(), report.last.step,
+    say(fmt::format("detect: {}, {}, step {}{}\n", counted(std::ssize(bodies.names), "body"),
+                    counted(bodies.surface.size(), "face"), report.last.step,
                     report.complete ? fmt::format(" of {}", report.steps) : ", asked to stop before the end"));
     print_bodies(bodies);
     print_line("mean size of a face, sqrt(area)", fmt::format("{:.6g} m", bodies.mean_face_size()));

@@ -9,6 +9,7 @@
 #include <algorithm>
 
 #include "abut/base/error.hpp"
+#include "abut/base/nearest_word.hpp"
 #include "abut/base/text.hpp"
 #include "apps/support/terminal.hpp"
 
@@ -51,10 +52,38 @@ private:
     mutable bool shows_all_ = false;  // while a help is made
 };
 
-std::string message_of(const CLI::App* app, const CLI::Error& error) {
-    return for_terminal(
-        as_utf8(fmt::format("{0}: error: {1} ({0} --help lists all options.)\n", app->get_name(), error.what())),
-        STDERR_FILENO);
+/// The command that the line gives, or the program.
+const CLI::App& given_command(const CLI::App& app) {
+    const auto given = app.get_subcommands();
+    return given.empty() ? app : *given.front();
+}
+
+std::string full_name(const CLI::App& command) {
+    return command.get_parent() ? command.get_parent()->get_name() + " " + command.get_name() : command.get_name();
+}
+
+std::string hint(const std::string& word, const std::vector<std::string>& known) {
+    const auto nearest = nearest_word(word, known);
+    return nearest ? fmt::format(" Did you mean {}?", *nearest) : "";
+}
+
+std::vector<std::string> flags_of(const CLI::App& command) {
+    std::vector<std::string> flags;
+    for (const CLI::Option* option : command.get_options())
+        for (const std::string& name : option->get_lnames()) flags.push_back("--" + name);
+    return flags;
+}
+
+/// A command line without a command: the word that stands in its place may be one with a fault, or its file.
+std::string without_command(const CLI::App& app) {
+    std::vector<std::string> names;
+    for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
+        names.push_back(command->get_name());
+    const auto words = app.remaining(true);
+    if (words.empty()) return fmt::format("a command is missing: one of {}.", fmt::join(names, ", "));
+    const std::string hinted = hint(words.front(), names);
+    return fmt::format("'{}' is no command.{}", words.front(),
+                       hinted.empty() ? fmt::format(" Commands are {}.", fmt::join(names, ", ")) : hinted);
 }
 
 /// "fast|balanced|exact" as words; nothing where it is something else.
@@ -155,7 +184,11 @@ CommandParser::CommandParser() : CommandParser("", "") {}
 CommandParser::CommandParser(const std::string& name, const std::string& purpose)
     : program_(std::make_unique<CLI::App>(purpose, name)), app_(*program_) {
     app_.formatter(std::make_shared<HelpFormatter>());
-    app_.failure_message(message_of);
+    app_.failure_message([this](const CLI::App* app, const CLI::Error& error) {
+        const std::string text = fmt::format("{}: error: {} ({} --help lists all options.)\n", app->get_name(),
+                                             in_words(*app, error), full_name(given_command(*app)));
+        return for_terminal(as_utf8(text), STDERR_FILENO);
+    });
 }
 
 CommandParser::CommandParser(CLI::App& command) : app_(command) {}
@@ -205,6 +238,23 @@ std::vector<Flag> CommandParser::of_group(const std::string& heading) const {
 void CommandParser::add_version(const std::string& text) { app_.set_version_flag("--version", text); }
 void CommandParser::add_help_of_all() { app_.set_help_all_flag("--help-all", "Print this help with all options"); }
 void CommandParser::end_help_with(const std::string& text) { app_.footer(text); }
+void CommandParser::explain_unknown(std::function<std::string(const std::string&)> explanation) {
+    explanation_ = std::move(explanation);
+}
+
+std::string CommandParser::in_words(const CLI::App& app, const CLI::Error& error) const {
+    const CLI::App& command = given_command(app);
+    if (error.get_name() == "RequiredError" && &command == &app) return without_command(app);
+    if (!dynamic_cast<const CLI::ExtrasError*>(&error)) return error.what();
+    const auto words = app.remaining(true);
+    const auto option = std::ranges::find_if(words, [](const std::string& word) { return word.starts_with("--"); });
+    if (option == words.end()) return error.what();
+    const std::string name = option->substr(0, option->find('='));
+    const std::string explained = explanation_ ? explanation_(name.substr(2)) : "";
+    return fmt::format("{}: {} has no such option.{}", name, full_name(command),
+                       explained.empty() ? hint(name, flags_of(command)) : explained);
+}
+
 void CommandParser::take_no_help() { app_.set_help_flag(); }
 
 CommandParser& CommandParser::add_command(const std::string& name, const std::string& purpose) {

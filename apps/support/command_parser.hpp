@@ -8,6 +8,7 @@
 
 namespace CLI {
 class App;
+class Error;
 class Option;
 }  // namespace CLI
 
@@ -83,6 +84,9 @@ public:
     void add_help_of_all();                     ///< --help-all, which shows what is rarely needed, too
     void end_help_with(const std::string& text);
     void take_no_help();  ///< there is no --help
+    /// Options that are none, and where they went: text for a message about the option of this name, without "--"; empty:
+    /// unknown.
+    void explain_unknown(std::function<std::string(const std::string&)> explanation);
 
     /// A command of this program, one of which must be given. It lives as long as the program.
     CommandParser& add_command(const std::string& name, const std::string& purpose);
@@ -102,10 +106,12 @@ public:
 
 private:
     explicit CommandParser(CLI::App& command);
+    [[nodiscard]] std::string in_words(const CLI::App& app, const CLI::Error& error) const;
 
     std::unique_ptr<CLI::App> program_;  ///< null in a command
     CLI::App& app_;
     std::vector<std::unique_ptr<CommandParser>> commands_;
+    std::function<std::string(const std::string&)> explanation_;
 };
 
 }  // namespace abut::apps

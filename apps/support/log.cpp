@@ -8,6 +8,7 @@
 
 #include "apps/support/terminal.hpp"
 
+#include "abut/base/counted.hpp"
 #include "abut/run/result.hpp"
 #include "abut/run/scene.hpp"
 
@@ -46,8 +47,8 @@ std::vector<run::Warning> only(std::vector<run::Warning> warnings, std::initiali
 
 template <int Dim>
 void RunLog<Dim>::begin(const run::Scene<Dim>& scene, const run::RunResult<Dim>& result) {
-    spdlog::info("{} cells, {} boundary faces; {} steps of {:.4g} s", scene.mesh.n_cells(), scene.mesh.boundary_faces.size(),
-                 result.steps, result.dt);
+    spdlog::info("{}, {}; {} of {:.4g} s", counted(scene.mesh.n_cells(), "cell"),
+                 counted(std::ssize(scene.mesh.boundary_faces), "boundary face"), counted(result.steps, "step"), result.dt);
     if (result.pilot) spdlog::info("kinematics: {}", run::text_of(*result.pilot, scene.mesh.body_names));
     log_warnings(run::warnings_before(scene, result));
 }

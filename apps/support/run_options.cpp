@@ -74,9 +74,21 @@ void take_laboratory(const std::vector<std::string>& keys, RunOptions& options) 
         try {
             parser.parse(flag);
         } catch (const BadInput& error) {
-            throw_again(error, fmt::format("--lab {}: {}", key, error.what()));
+            const std::string option = flag.substr(0, name.size() + 2) + ": ";
+            std::string what = error.what();
+            if (what.starts_with(option)) what.erase(0, option.size());
+            throw_again(error, fmt::format("--lab {}: {}", key, what));
         }
     }
+}
+
+std::string where_in_laboratory(const std::string& option) {
+    std::string key = option;
+    std::ranges::replace(key, '-', '_');
+    for (const Option<RunOptions>& one : run::run_options())
+        if (one.depth == OptionDepth::laboratory && one.scene_key() == key)
+            return fmt::format(" It compares methods: --lab {}=VALUE.", key);
+    return "";
 }
 
 void add_compression_limit(CommandParser& parser, RunOptions& options) { add_named(parser, options, "compression_limit"); }

@@ -21,6 +21,8 @@ void add_contact_options(CommandParser& parser, run::RunOptions& options, Option
 void add_model_options(CommandParser& parser, run::RunOptions& options);  ///< of these, what bodies at rest depend on, too
 /// Takes keys of the laboratory, "overlap=frozen"; throws BadInput where a key or its value will not do.
 void take_laboratory(const std::vector<std::string>& keys, run::RunOptions& options);
+/// For a message about an option of this name, without "--": how its key of the laboratory is given; empty if it is none.
+[[nodiscard]] std::string where_in_laboratory(const std::string& option);
 void add_compression_limit(CommandParser& parser, run::RunOptions& options);
 void add_output_options(CommandParser& parser, run::RunOptions& options, OptionDepth deepest = OptionDepth::laboratory);
 

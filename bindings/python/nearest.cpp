@@ -6,6 +6,7 @@
 #include <string>
 
 #include "abut/geometry/nearest/nearest_faces.hpp"
+#include "abut/geometry/nearest/penetration.hpp"
 #include "abut/geometry/nearest/winding_number.hpp"
 #include "arrays.hpp"
 
@@ -63,6 +64,13 @@ py::tuple nearest(const Packed<double>& vertices_1, const py::object& offsets_1,
     return py::make_tuple(distance, found.face_1, found.face_2, point(point_1), point(point_2));
 }
 
+double penetration(const Packed<double>& vertices_1, const py::object& offsets_1, const py::object& corners_1,
+                   const Packed<double>& vertices_2, const py::object& offsets_2, const py::object& corners_2) {
+    const Surface one(vertices_1, offsets_1, corners_1, "mesh 1"), two(vertices_2, offsets_2, corners_2, "mesh 2");
+    const py::gil_scoped_release release;
+    return geometry::penetration_depth(one.soup(), two.soup());
+}
+
 bool inside(const Packed<double>& vertices, const py::object& offsets, const py::object& corners,
             const Packed<double>& point) {
     const Surface surface(vertices, offsets, corners, "mesh");
@@ -77,5 +85,6 @@ bool inside(const Packed<double>& vertices, const py::object& offsets, const py:
 PYBIND11_MODULE(_nearest, module) {
     module.doc() = "Nearest faces of two surfaces, for abut.detection.";
     module.def("is_inside", &inside, "Whether a point is inside of a closed surface whose normals look outwards.");
+    module.def("penetration_depth", &penetration, "How deep two closed surfaces lie in each other [m]; 0: they do not.");
     module.def("nearest", &nearest, "(distance, face_1, face_2, point_1, point_2) of two surfaces in space.");
 }

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "abut/base/counted.hpp"
 #include "abut/base/error.hpp"
 #include "abut/base/index.hpp"
 #include "abut/base/messages.hpp"
@@ -9,11 +10,6 @@ namespace abut::geometry {
 namespace {
 
 constexpr std::size_t most_faces = 3;  // that one line names
-
-/// "1 face", "12 faces"
-std::string counted(std::int64_t n, const std::string& one, const std::string& many) {
-    return std::to_string(n) + " " + (n == 1 ? one : many);
-}
 
 std::string point(const Vector<3>& x) { return "(" + number(x[0]) + ", " + number(x[1]) + ", " + number(x[2]) + ")"; }
 

@@ -1,6 +1,7 @@
 #include "abut/mesh/shapes/fill.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <numeric>
@@ -11,6 +12,7 @@
 
 #include "abut/base/messages.hpp"
 #include "abut/geometry/health/surface_health.hpp"
+#include "abut/geometry/triangulate.hpp"
 #include "abut/mesh/io/gmsh_functions.hpp"
 #include "abut/mesh/io/gmsh_session.hpp"
 #include "abut/mesh/quality.hpp"
@@ -26,16 +28,12 @@ constexpr double sharp_edge = 40.0 * std::numbers::pi / 180.0;
 constexpr double least_volume = 0.5, good_volume = 0.9;  // of the cells, over that inside the surface
 
 void refuse(const SurfaceMesh& surface, const std::string& what) {
-    throw MeshError(
-        surface.name + ": " + what +
-        " A body is filled where one closed surface of triangles is around it. Mend the file; abut detect says what "
-        "else is wrong with it.");
+    throw MeshError(surface.name + ": " + what +
+                    " A body is filled where one closed surface is around it. Mend the file; abut detect says what "
+                    "else is wrong with it.");
 }
 
 void check_closed(const SurfaceMesh& surface) {
-    for (std::int32_t face = 0; face < surface.faces.size(); ++face)
-        if (surface.faces[face].size() != 3)
-            refuse(surface, "face " + std::to_string(surface.label(face)) + " is no triangle.");
     const auto health = geometry::check_surface(surface.soup());
     const auto require_none = [&](std::size_t n, const std::string& of_what) {
         if (n > 0) refuse(surface, std::to_string(n) + " " + of_what + ", 0 are allowed.");
@@ -44,7 +42,42 @@ void check_closed(const SurfaceMesh& surface) {
     require_none(health.boundary_edges.size(), "edges belong to one face alone");
     require_none(health.non_manifold_edges.size(), "edges belong to more than two faces");
     require_none(health.inconsistent_edges.size(), "edges are run along the same way by both of their faces");
-    if (health.components.size() != 1) refuse(surface, "it is in " + std::to_string(health.components.size()) + " parts.");
+    if (health.components.size() != 1)
+        throw MeshError(surface.name + ": it is in " + std::to_string(health.components.size()) +
+                        " parts, and one closed surface without cavities is filled. Give each part a file and a body of its "
+                        "own, or a mesh of tetrahedra.");
+}
+
+/// Surface whose polygons are cut into triangles; all faces must be usable.
+SurfaceMesh in_triangles(const SurfaceMesh& surface) {
+    SurfaceMesh cut = surface;
+    cut.faces = {};
+    cut.face_body.clear();
+    cut.face_label.clear();
+    const auto append = [&](std::int32_t face, std::array<std::int32_t, 3> corners) {
+        cut.faces.append(corners);
+        cut.face_body.push_back(surface.face_body[static_cast<std::size_t>(face)]);
+        cut.face_label.push_back(surface.label(face));
+    };
+    for (std::int32_t face = 0; face < surface.faces.size(); ++face) {
+        const auto corners = surface.faces[face];
+        std::vector<Vector<3>> points;
+        for (const std::int32_t v : corners) points.push_back(surface.vertices[static_cast<std::size_t>(v)]);
+        if (corners.size() == 3)
+            append(face, {corners[0], corners[1], corners[2]});
+        else
+            for (const auto& [a, b, c] : geometry::cut_into_triangles(points))
+                append(face, {corners[static_cast<std::size_t>(a)], corners[static_cast<std::size_t>(b)],
+                              corners[static_cast<std::size_t>(c)]});
+    }
+    return cut;
+}
+
+/// Closed, of triangles, and with one vertex at each place, whatever the file has.
+SurfaceMesh prepared(SurfaceMesh surface) {
+    weld(surface);
+    check_closed(surface);
+    return in_triangles(surface);
 }
 
 struct Measures {
@@ -157,9 +190,8 @@ Remeshed remeshed(const SurfaceMesh& surface, const FillOptions& options) {
 
 void check_size(const SurfaceMesh& surface, const Measures& measures, const FillOptions& options,
                 const MeshOptions& mesh_options) {
-    check_estimate(
-        options.name, expected_cells(surface, measures, options), most_filled_cells, mesh_options,
-        "Raise size, see that scale is the length of the file's unit (1e-3 for millimetres), or coarsen " + surface.name);
+    check_estimate(options.name, expected_cells(surface, measures, options), most_filled_cells, mesh_options,
+                   "Raise size, give the unit of the file, unit = \"mm\" for millimetres, or coarsen " + surface.name);
 }
 
 /// The triangles of the surface are faces of the mesh.
@@ -172,11 +204,11 @@ Mesh<3> with_triangles(const SurfaceMesh& surface, const Measures& measures, Fil
 
 }  // namespace
 
-Mesh<3> fill(const SurfaceMesh& surface, const FillOptions& options, const MeshOptions& mesh_options) {
+Mesh<3> fill(const SurfaceMesh& given, const FillOptions& options, const MeshOptions& mesh_options) {
     if (!(options.size > 0.0 && std::isfinite(options.size)))
         throw MeshError(options.name + ": size is " + number(options.size) +
                         " m, a finite length above 0 is needed. Change the option.");
-    check_closed(surface);
+    const SurfaceMesh surface = prepared(given);
     const Measures measures = measures_of(surface);
     if (options.keeps_triangles) return with_triangles(surface, measures, options, mesh_options);
     check_size(surface, measures, options, mesh_options);

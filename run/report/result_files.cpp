@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "abut/base/counted.hpp"
 #include "abut/base/error.hpp"
 #include "abut/base/state_fields.hpp"
 #include "abut/base/stopwatch.hpp"
@@ -24,8 +25,8 @@ const std::vector<std::string> texts_beside{"scene.toml", "restart.json"};
 
 template <int Dim>
 std::string title_of(const std::string& program, const Scene<Dim>& scene, const RunResult<Dim>& result) {
-    return fmt::format("{}, {}D, {}, {} cells, {} steps", program, Dim, name_of(result.options.integrator),
-                       scene.mesh.n_cells(), result.steps);
+    return fmt::format("{}, {}D, {}, {}, {}", program, Dim, name_of(result.options.integrator),
+                       counted(scene.mesh.n_cells(), "cell"), counted(result.steps, "step"));
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <vector>
 
+#include "abut/base/counted.hpp"
 #include "abut/run/result.hpp"
 
 namespace abut::run {
@@ -51,7 +52,7 @@ std::string erosion_text(const RunResult<Dim>& result) {
         if (const auto n = std::ranges::count(cells, words.reason, &ErodedCell::reason); n > 0)
             parts.push_back(fmt::format("{} {}", n, words.clause));
     const ErodedShares shares = eroded_shares(result);
-    return fmt::format("{} cells, {:.3g} % of the mass, {:.3g} % of the energy in play: {}", cells.size(),
+    return fmt::format("{}, {:.3g} % of the mass, {:.3g} % of the energy in play: {}", counted(std::ssize(cells), "cell"),
                        100.0 * shares.mass, 100.0 * shares.energy, fmt::join(parts, ", "));
 }
 

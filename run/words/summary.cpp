@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "abut/base/counted.hpp"
 #include "abut/contact/report.hpp"
 #include "abut/run/body_names.hpp"
 #include "abut/run/files/json.hpp"
@@ -420,7 +421,8 @@ std::string body_lines(const Scene<Dim>& scene, const RunResult<Dim>& result) {
         text += table_line(fmt::format("velocity of '{}'", scene.mesh.body_names[body]),
                            fmt::format("{} -> {} m/s", velocity_text<Dim>(result.start[body].velocity),
                                        velocity_text<Dim>(result.end[body].velocity)));
-    if (bodies.size() > most) text += table_line("", fmt::format("and of {} more bodies", bodies.size() - most));
+    if (bodies.size() > most)
+        text += table_line("", "and of " + counted(static_cast<std::int64_t>(bodies.size() - most), "more body"));
     return text;
 }
 
@@ -469,8 +471,9 @@ std::string closing_table(const std::string& program, const Scene<Dim>& scene, c
     if (!result.complete)
         text += table_line("asked to stop before the end", fmt::format("t = {:.4g} s", result.ledger.entries().back().time));
     if (result.settling)
-        text += table_line("brought to rest before the start",
-                           fmt::format("in {} steps, to {:.2g} m/s", result.settling->steps, result.settling->speed));
+        text +=
+            table_line("brought to rest before the start",
+                       fmt::format("in {}, to {:.2g} m/s", counted(result.settling->steps, "step"), result.settling->speed));
     if (result.resumed_after > 0)
         text += table_line("gone on from a checkpoint", fmt::format("after step {}", result.resumed_after));
     text += energy_lines(result) + loss_line(result);

@@ -8,6 +8,7 @@
 #include <limits>
 #include <vector>
 
+#include "abut/base/counted.hpp"
 #include "abut/run/result.hpp"
 #include "abut/run/scene.hpp"
 
@@ -37,8 +38,6 @@ bool drifts(const RunResult<Dim>& result) {
     return result.ledger.pseudo_energy_drift() > std::max(round_off * scale, result.rest_energy);
 }
 
-std::string counted(std::int64_t n, const char* what) { return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s"); }
-
 template <int Dim>
 std::string end_of(const RunResult<Dim>& result) {
     if (result.complete) return "The run came to its end.";
@@ -66,7 +65,8 @@ std::string contacts_of(const RunResult<Dim>& result, bool touched, bool warns) 
         return fmt::format(" Nothing touched: nearest at the end were {} and {}, {:.3g} m apart.", nearest.body_1,
                            nearest.body_2, nearest.distance);
     if (result.contact.missed_contacts > 0)
-        return fmt::format(" {} were missed: the energy is not exact.", counted(result.contact.missed_contacts, "contact"));
+        return fmt::format(" {} missed: the energy is not exact.",
+                           counted(result.contact.missed_contacts, "contact was", "contacts were"));
     return fmt::format(" {}{}.", counted(result.contact.events, "contact event"), warns ? "" : ", none missed");
 }
 

@@ -1,4 +1,5 @@
 #include "abut/run/words/warnings.hpp"
+#include "abut/base/counted.hpp"
 #include "abut/run/result.hpp"
 
 #include <fmt/format.h>
@@ -200,10 +201,10 @@ std::vector<Warning> warnings_after(const RunResult<Dim>& result) {
                         contact.sliding_ratio_max, stiff_sliding_ratio));
     if (contact.slipped_compression_max > deep_slip_compression)
         add(WarningKind::deep_slip, contact.slipped_compression_max, deep_slip_compression,
-            fmt::format("{} pairs of faces slid off each other while pressed in, by up to {:.2g} of D, the depth of their "
+            fmt::format("{} slid off each other while pressed in, by up to {:.2g} of D, the depth of their "
                         "cells. At a free edge that is as it should be; elsewhere bodies pass through each other. A lower "
                         "speed prevents it, and so does --overlap frozen, under which H~ drifts",
-                        contact.slipped_pairs, contact.slipped_compression_max));
+                        counted(contact.slipped_pairs, "pair of faces", "pairs of faces"), contact.slipped_compression_max));
     if (const double share = result.sliding.least_share(); share < least_sliding_share)
         add(WarningKind::alternating_slip, share, least_sliding_share,
             fmt::format(
@@ -264,10 +265,11 @@ std::vector<Warning> warnings_after(const RunResult<Dim>& result) {
                         shares.mass, shares.energy, large_eroded_share));
     add_sightings(counts, result);
     counts.add(WarningKind::missed_contacts, Severity::warning, contact.missed_contacts,
-               fmt::format("{} contacts were missed, 0 are allowed: the energy is not exact", contact.missed_contacts));
+               fmt::format("{} missed, 0 are allowed: the energy is not exact",
+                           counted(contact.missed_contacts, "contact was", "contacts were")));
     counts.add(WarningKind::inadmissible_overlaps, Severity::note, result.inadmissible_overlaps_max,
-               fmt::format("up to {} pairs of faces overlap without being contacts: far sides of bodies",
-                           result.inadmissible_overlaps_max));
+               fmt::format("up to {} without being contacts: far sides of bodies",
+                           counted(result.inadmissible_overlaps_max, "pair of faces overlaps", "pairs of faces overlap")));
     return in_user_words(std::move(counts.warnings));
 }
 

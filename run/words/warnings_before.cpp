@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "abut/base/counted.hpp"
 #include "abut/contact/nodal_contact.hpp"
 #include "abut/run/body_names.hpp"
 #include "abut/run/result.hpp"
@@ -31,18 +32,18 @@ void add_mesh(Counts& counts, const mesh::BuildReport& report, bool with_contact
                                    std::numeric_limits<double>::quiet_NaN(), 0.0});
     counts.add(WarningKind::unused_vertices, Severity::note, report.n_unused_vertices,
                fmt::format("{} vertices belong to no cell and are left out", report.n_unused_vertices));
+    counts.add(WarningKind::ignored_elements, Severity::note, report.n_ignored_elements,
+               fmt::format("{} left out: neither cells nor faces of a named group",
+                           counted(report.n_ignored_elements, "element is", "elements are")));
     counts.add(
-        WarningKind::ignored_elements, Severity::note, report.n_ignored_elements,
-        fmt::format("{} elements are neither cells nor faces of a named group and are left out", report.n_ignored_elements));
-    counts.add(WarningKind::turned_cells, Severity::note, report.n_turned_cells,
-               fmt::format("{} cells are given inside out (clockwise) and are turned", report.n_turned_cells));
+        WarningKind::turned_cells, Severity::note, report.n_turned_cells,
+        fmt::format("{} turned: given inside out (clockwise)", counted(report.n_turned_cells, "cell is", "cells are")));
     counts.add(WarningKind::cut_cells, Severity::note, report.n_cut_cells,
-               fmt::format("{} cells are cut into tetrahedra, for {} faces that are not planar", report.n_cut_cells,
-                           report.n_non_planar_faces));
-    counts.add(
-        WarningKind::coincident_vertices, Severity::note, with_contact ? report.n_coincident_vertices : 0,
-        fmt::format("{} vertices lie on a vertex of another body: bodies that touch are not joined; [[bonds]] glue them",
-                    report.n_coincident_vertices));
+               fmt::format("{} cut into tetrahedra, for {} not planar", counted(report.n_cut_cells, "cell is", "cells are"),
+                           counted(report.n_non_planar_faces, "face that is", "faces that are")));
+    counts.add(WarningKind::coincident_vertices, Severity::note, with_contact ? report.n_coincident_vertices : 0,
+               fmt::format("{} on a vertex of another body: bodies that touch are not joined; [[bonds]] glue them",
+                           counted(report.n_coincident_vertices, "vertex lies", "vertices lie")));
 }
 
 template <int Dim>
@@ -50,13 +51,13 @@ void add_unjoined(Counts& counts, const RunResult<Dim>& result) {
     const mesh::UnjoinedFaces& unjoined = result.unjoined;
     counts.add(
         WarningKind::unjoined_faces, Severity::warning, unjoined.n_faces,
-        fmt::format(
-            "{} faces lie on faces of their own body without being joined to them, the first of body '{}' at ({:.4g}): "
-            "cells on both sides move apart freely{}. Where this is no crack, merge vertices that coincide, make a "
-            "mesh whose cells match, or make two bodies of it and bond them with [[bonds]]",
-            unjoined.n_faces, unjoined.body, fmt::join(std::span<const double>(unjoined.place).first(Dim), ", "),
-            result.options.contact.search.self_contact ? ", and touch where they come together again"
-                                                       : " and through each other"));
+        fmt::format("{} on faces of the same body without being joined to them, the first of body '{}' at ({:.4g}): "
+                    "cells on both sides move apart freely{}. Where this is no crack, merge vertices that coincide, make a "
+                    "mesh whose cells match, or make two bodies of it and bond them with [[bonds]]",
+                    counted(unjoined.n_faces, "face lies", "faces lie"), unjoined.body,
+                    fmt::join(std::span<const double>(unjoined.place).first(Dim), ", "),
+                    result.options.contact.search.self_contact ? ", and touch where they come together again"
+                                                               : " and through each other"));
 }
 
 /// Name of a body or an obstacle in messages.
@@ -202,8 +203,10 @@ void add_inertia(Counts& counts, const Scene<Dim>& scene, const RunResult<Dim>& 
              "its centroid. It turns and precesses too fast by {:.2g} %. Take smaller cells, or rigid{} where it "
              "does not bend",
              scene.mesh.body_names[worst], name_of(kinematics), share, enough_inertia,
-             n > 1 ? fmt::format(" ({} more bodies lack less)", n - 1) : "", 100.0 * (1.0 / share - 1.0),
-             solid::properties_of(kinematics).finite_strains ? " or floating" : ""),
+             n > 1 ? fmt::format(" ({} less)",
+                                 counted(static_cast<std::int64_t>(n - 1), "more body lacks", "more bodies lack"))
+                   : "",
+             100.0 * (1.0 / share - 1.0), solid::properties_of(kinematics).finite_strains ? " or floating" : ""),
          share, enough_inertia});
 }
 

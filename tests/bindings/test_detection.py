@@ -1,5 +1,7 @@
 """abut.detect and abut.CollisionManager: distances by formula, areas by formula, meshes of trimesh's and meshio's kind."""
 import doctest
+import pathlib
+import tempfile
 import types
 import unittest
 
@@ -11,6 +13,7 @@ import abut.detection
 SQUARE = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], dtype=float)
 UP, DOWN = [[0, 1, 2, 3]], [[3, 2, 1, 0]]
 CUBE = np.array([[x, y, z] for z in (0, 1) for x, y in ((0, 0), (1, 0), (1, 1), (0, 1))], dtype=float)
+OUTSIDE = [[0, 3, 2, 1], [4, 5, 6, 7], [0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [3, 0, 4, 7]]
 
 
 def moved(x=0.0, y=0.0, z=0.0, about_z=0.0):
@@ -24,7 +27,8 @@ def moved(x=0.0, y=0.0, z=0.0, about_z=0.0):
 class Detection(unittest.TestCase):
     def test_two_squares_share_what_lies_over_each_other(self):
         for faces in (UP, [[0, 1, 2], [0, 2, 3]]):
-            found = abut.detect({"lower": (SQUARE, faces), "upper": (SQUARE, DOWN)}, {"upper": moved(x=0.25, z=0.05)}, 0.1)
+            found = abut.detect({"lower": (SQUARE, faces), "upper": (SQUARE, DOWN)}, transforms={"upper": moved(x=0.25, z=0.05)},
+                                distance=0.1)
             (contact,) = found.contacts
             self.assertEqual(contact.names, ("lower", "upper"))
             self.assertAlmostEqual(contact.area, 0.75, delta=1e-14)
@@ -55,7 +59,7 @@ class Detection(unittest.TestCase):
         one = types.SimpleNamespace(vertices=CUBE, faces=np.array(triangles))
         two = types.SimpleNamespace(points=CUBE, cells=[block])
         for meshes in ([one, two], [two, one], [two, two], [one, one]):
-            found = abut.detect(meshes, [None, moved(x=0.3, z=1.05)], distance=0.1)
+            found = abut.detect(meshes, transforms=[None, moved(x=0.3, z=1.05)], distance=0.1)
             self.assertEqual(len(found.contacts), 1)
             self.assertAlmostEqual(found.contacts[0].area, 0.7, delta=1e-14)
             self.assertAlmostEqual(found.nearest.distance, 0.05, delta=1e-14)
@@ -66,7 +70,7 @@ class Detection(unittest.TestCase):
             import meshio
         except ImportError:
             return
-        found = abut.detect([meshio.Mesh(CUBE, {"hexahedron": np.arange(8)[None]}), one], [None, moved(z=1.5)])
+        found = abut.detect([meshio.Mesh(CUBE, {"hexahedron": np.arange(8)[None]}), one], transforms=[None, moved(z=1.5)])
         self.assertAlmostEqual(found.nearest.distance, 0.5, delta=1e-15)
 
     def test_collisions_name_their_pairs(self):
@@ -110,6 +114,39 @@ class Detection(unittest.TestCase):
             self.assertIsNone(manager.nearest().inside)
             self.assertFalse(manager.in_collision_internal())
 
+    def test_meshes_that_cross_are_as_deep_as_the_face_of_one_is_below_that_of_the_other(self):
+        one, other = (CUBE, OUTSIDE), (CUBE + [0.25, 0.0, 0.875], OUTSIDE)
+        found = abut.detect(one, other, distance=0.01)
+        self.assertEqual(found.nearest.distance, 0.0)
+        self.assertAlmostEqual(found.nearest.depth, 0.125, delta=1e-15)
+        self.assertIn("'mesh_0' and 'mesh_1' cross each other, 0.125 m deep, at (", repr(found))
+        self.assertEqual(abut.detect(one, (CUBE + [0.0, 0.0, 1.0], OUTSIDE)).nearest.depth, 0.0)  # they touch
+        self.assertAlmostEqual(abut.detect(one, (CUBE + [0.0, 0.0, 1.5], OUTSIDE)).nearest.depth, -0.5, delta=1e-15)
+
+    def test_files_are_meshes_and_what_touches_goes_back_to_meshio(self):
+        try:
+            import meshio
+        except ImportError:
+            self.skipTest("meshio is not installed")
+        with tempfile.TemporaryDirectory() as folder:
+            paths = [pathlib.Path(folder, name) for name in ("lower.obj", "upper.stl")]
+            triangles = [[a, b, c] for f in OUTSIDE for a, b, c in ((f[0], f[1], f[2]), (f[0], f[2], f[3]))]
+            meshio.Mesh(CUBE, [("triangle", np.array(triangles))]).write(paths[0])
+            meshio.Mesh(CUBE + [0.3, 0.0, 1.05], [("triangle", np.array(triangles))]).write(paths[1])
+            for found in (abut.detect(paths, distance=0.1), abut.detect(*map(str, paths), distance=0.1)):
+                self.assertEqual(found.contacts[0].names, ("lower", "upper"))
+                self.assertAlmostEqual(found.contacts[0].area, 0.7, delta=1e-7)  # of STL in single precision
+                self.assertEqual(repr(found).splitlines()[1], "'lower' and 'upper': 0.7 m^2 lie opposite each other within 0.1 m")
+                self.assertIn("<td>lower</td><td>upper</td><td>0.7</td>", found._repr_html_())
+            mesh = found.to_meshio()
+            area, number = (np.concatenate(mesh.cell_data[name]) for name in ("area [m^2]", "mesh"))
+            self.assertEqual((len(mesh.points), len(area)), (16, 24))
+            self.assertAlmostEqual(area[number == 0].sum(), 0.7, delta=1e-7)
+            self.assertAlmostEqual(area[number == 1].sum(), 0.7, delta=1e-7)
+            pathlib.Path(folder, "broken.obj").write_text("v 0 0\nf 1 2 3\n")
+            with self.assertRaisesRegex(ValueError, "'broken': "):
+                abut.detect(paths[0], pathlib.Path(folder, "broken.obj"))
+
     def test_what_cannot_be_is_refused_by_name(self):
         manager = abut.CollisionManager()
         manager.add_object("a", (SQUARE, UP))
@@ -118,9 +155,10 @@ class Detection(unittest.TestCase):
                 (lambda: manager.set_transform("a", np.eye(3)), ValueError, "(4, 4)"),
                 (lambda: manager.set_transform("a", np.diag([1.0, 1, -1, 1])), ValueError, "inside out"),
                 (lambda: manager.min_distance_internal(), ValueError, "two objects"),
-                (lambda: manager.add_object("c", "cube.obj"), TypeError, "vertices and faces"),
+                (lambda: manager.add_object("c", 3), TypeError, "vertices and faces"),
+                (lambda: abut.detect(["cube.obj", "cube.stl"]), FileNotFoundError, "cube.obj: there is no such file"),
                 (lambda: manager.add_object("c", (SQUARE, [])), ValueError, "no faces"),
-                (lambda: abut.detect([(SQUARE, UP)] * 2, [None]), ValueError, "1 transforms for 2 meshes"),
+                (lambda: abut.detect([(SQUARE, UP)] * 2, transforms=[None]), ValueError, "1 transforms for 2 meshes"),
                 (lambda: abut.detect([(SQUARE, UP), (SQUARE, [[0, 1, 9]])]), ValueError, "names vertex 9, but there are 4"),
                 (lambda: abut.detect([(SQUARE, UP), (SQUARE * np.nan, UP)]), ValueError, "not finite")):
             with self.assertRaises(error) as caught:

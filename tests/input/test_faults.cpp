@@ -142,6 +142,8 @@ TEST_CASE("words of other programs are known for keys", "[input][faults]") {
           {"[materials.a]\nE = 1\nnu = 0.3\nrho = 1", "materials.a.nu is an unknown key. Did you mean 'poisson'?"},
           {"[materials.a]\nE = 1\nnu = 0.3\nrho = 1", "materials.a.rho is an unknown key. Did you mean 'density'?"},
           {"t_end = 1", "run.t_end is an unknown key. Did you mean 'time'?"},
+          {"[bodies.third]\nmesh = 'part.msh'\nsize = 1", "bodies.third.size is an unknown key. It goes with `surface`"},
+          {"[bodies.third]\nmesh = 'part.msh'\nzzzzzz = 1", "bodies.third.zzzzzz is an unknown key. `abut keys` lists"},
           {"[contact]\nmu = 0.3", "contact.mu is an unknown key. Friction is contact.friction = 0.3 for all"},
           {"[materials.a]\nfriction = 0.3", "materials.a.friction is an unknown key. Friction is contact.friction = 0.3"}}) {
         const WrittenScene file(two_blocks(wrong.more));

@@ -105,7 +105,7 @@ spin = 2
 TEST_CASE("an obstacle of a surface file faces outwards, scaled, turned and placed", "[input][scenes]") {
     const WrittenScene written(fmt::format(R"toml(dim = 3
 bodies.ball = {{shape = "sphere", radius = 1, size = 1, place = [0, 0, 9], young = 1, density = 1}}
-obstacles.stone = {{surface = "{0}/scenes/ball.stl", scale = 1e-2, place = [0, 0, 5]}}
+obstacles.stone = {{surface = "{0}/scenes/ball.stl", unit = "cm", place = [0, 0, 5]}}
 obstacles.shell = {{surface = "{0}/scenes/ball.stl", scale = 1, place = [0, 0, 9], inside = true, rotation = [0, "t", 0]}}
 run.steps = 1
 )toml",

@@ -135,7 +135,7 @@ const std::vector<WrongScene>& wrong_scenes() {
         {"[bodies.third]\nmesh = \"part.stl\"\nyoung = 1\ndensity = 1",
          {},
          ".toml:19:9",
-         {"bodies.third.mesh", "part.stl is a surface", "surface = \"part.stl\"", "size", "scale = \"1 mm\""}},
+         {"bodies.third.mesh", "part.stl is a surface", "surface = \"part.stl\"", "size", "unit = \"mm\""}},
         {"[bodies.wheel]\nshape = \"gear\"\nyoung = 1\ndensity = 1\nplace = [9, 9]\nteeth = 16\nradius = 2\nbore = 1.8",
          {},
          ".toml:19:9",

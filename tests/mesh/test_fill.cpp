@@ -114,11 +114,11 @@ TEST_CASE("a surface in another unit is refused before it is filled, and the est
     } catch (const MeshError& error) {
         CHECK_THAT(error.what(),
                    Catch::Matchers::Contains("ball: its sizes make about 1.") &&
-                       Catch::Matchers::Contains("cells, at most 5000000 are made. Raise size, see that scale"));
+                       Catch::Matchers::Contains("cells, at most 5000000 are made. Raise size, give the unit of the file"));
     }
 }
 
-TEST_CASE("what is not one closed surface of triangles is refused", "[mesh][fill]") {
+TEST_CASE("what is not one closed surface is refused", "[mesh][fill]") {
     SurfaceMesh open = box_of_triangles();
     open.faces.values.resize(open.faces.values.size() - 3);
     open.faces.offsets.pop_back();
@@ -126,10 +126,26 @@ TEST_CASE("what is not one closed surface of triangles is refused", "[mesh][fill
     SurfaceMesh flipped = box_of_triangles();
     std::swap(flipped.faces.values[0], flipped.faces.values[1]);
     CHECK_THROWS_AS(fill(flipped, {}), MeshError);
-    const SurfaceMesh bricks = boundary_of(structured_box<3>({0, 0, 0}, {1, 1, 1}, {2, 2, 2}, CellShape::hexahedron));
-    CHECK_THROWS_AS(fill(bricks, {}), MeshError);
     const std::vector<SurfaceMesh> two{
         box_of_triangles(), boundary_of(structured_box<3>({0, 0, 0}, {1, 1, 1}, {1, 1, 1}, CellShape::tetrahedron))};
     CHECK_THROWS_AS(fill(combine(two), {}), MeshError);
     CHECK_THROWS_AS(fill(box_of_triangles(), {.size = 0.0}), MeshError);
+}
+
+TEST_CASE("a surface of quadrangles, or of faces with vertices of their own, is filled as one of triangles",
+          "[mesh][fill]") {
+    const SurfaceMesh bricks = boundary_of(structured_box<3>({0, 0, 0}, {1, 2, 3}, {2, 2, 2}, CellShape::hexahedron));
+    SurfaceMesh apart = bricks;
+    apart.vertices.clear();
+    for (std::int32_t& v : apart.faces.values) {
+        apart.vertices.push_back(bricks.vertices[static_cast<std::size_t>(v)]);
+        v = static_cast<std::int32_t>(apart.vertices.size()) - 1;
+    }
+    for (const bool keeps : {false, true}) {
+        const Mesh<3> mesh = fill(bricks, {.size = 0.5, .keeps_triangles = keeps});
+        CHECK(volume_of(mesh) == Approx(6.0).epsilon(1e-12));
+        if (keeps) CHECK(std::ssize(mesh.boundary_faces) == 2 * bricks.faces.size());
+        test::check_closed_cells(mesh);
+        CHECK(fill(apart, {.size = 0.5, .keeps_triangles = keeps}).n_cells() == mesh.n_cells());
+    }
 }

@@ -93,6 +93,21 @@ TEST_CASE("abut run refuses what abut check refuses, and touches no file", "[pro
     CHECK(run_program("abut", "", "").exit_code == 1);
 }
 
+TEST_CASE("a command or an option that is none is answered with the nearest one, and a key of the laboratory with --lab",
+          "[programs][abut]") {
+    const auto error_of = [](const std::string& words) { return run_program("abut", words, "").error; };
+    CHECK(has(error_of("rnu ball.toml"), "'rnu' is no command. Did you mean run?"));
+    CHECK(has(error_of("ball.toml"), "'ball.toml' is no command. Commands are run, check, "));
+    CHECK(has(error_of(""), "a command is missing: one of run, check, "));
+    CHECK(
+        has(error_of("run ball.toml --frictoin 0.3"), "--frictoin: abut run has no such option. Did you mean --friction?"));
+    CHECK(has(error_of("run ball.toml --free-faces=adjacent"),
+              "--free-faces: abut run has no such option. It compares "
+              "methods: --lab free_faces=VALUE."));
+    CHECK(has(error_of("run " + scene("slipping_cylinders") + " --lab overlap=exac"),
+              "--lab overlap=exac: 'exac' is not known; choose one of moving, frozen."));
+}
+
 TEST_CASE("a sweep runs all combinations, and its table says what became of each", "[programs][abut]") {
     const Folder folder("abut_sweep");
     const auto out = folder.path() / "sweep";

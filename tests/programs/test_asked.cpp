@@ -188,7 +188,7 @@ TEST_CASE("abut info says what is in scenes, surfaces and meshes", "[programs][a
     const std::string surface = answer(fmt::format("info '{}/ball.stl'", ABUT_SCENES));
     CHECK_THAT(surface, Contains("a surface") && Contains("80 faces") && Contains("closed"));
     CHECK_THAT(surface,
-               Contains("200 m long") && Contains("scale = \"1 mm\"") && Contains("ball.stl:unit=mm"));  // it is in mm
+               Contains("200 m long") && Contains("unit = \"mm\"") && Contains("ball.stl:unit=mm"));  // it is in mm
 
     const Folder folder("info_meshes");
     const fs::path mesh = folder.path() / "square.msh";

@@ -112,6 +112,29 @@ TEST_CASE("detect: the nearest faces of two bodies are named with their points a
                Contains("step,body_1,face_1,body_2,face_2,distance [m],x_1 [m]") && Contains("0,flat,0,tilted,"));
 }
 
+TEST_CASE("detect: bodies that cross deeper than --distance have a row with their depth, and so has one inside another",
+          "[programs][detect]") {
+    const Folder folder("crossing");
+    std::ofstream(folder.path() / "cube.obj") << "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n"
+                                                 "f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
+    const auto outcome = detect(fmt::format("'{0}/cube.obj' '{0}/cube.obj:x=0.25,z=0.875,name=upper' "
+                                            "'{0}/cube.obj:scale=0.25,x=0.25,y=0.25,z=0.25,name=core' "
+                                            "'{0}/cube.obj:x=-1.5,name=far' --distance 0.01",
+                                            folder.path().string()),
+                                "crossing_results");
+    const auto contacts = read_summary(outcome)["contacts"];
+    REQUIRE(contacts.size() == 2);
+    CHECK((contacts[0]["body_2"] == 1 && contacts[0]["crosses"] == true && contacts[0]["inside"].is_null()));
+    CHECK(contacts[0]["depth"].get<double>() == Approx(0.125));
+    CHECK((contacts[0]["overlaps"] == 0 && contacts[0]["gap_min"].is_null()));
+    CHECK((contacts[1]["body_2"] == 2 && contacts[1]["inside"] == 2));
+    CHECK(contacts[1]["depth"].get<double>() == Approx(0.5));  // of the corner that is nearest to the middle of the cube
+    const std::string rows = read_text(outcome.directory / "contacts.csv");
+    CHECK_THAT(rows,
+               Contains("distance_min [m],crosses,depth [m],inside\n") && Contains("0,cube,upper,0,0,nan,nan,1,0.125,\n"));
+    CHECK_THAT(outcome.out, Contains("'cube' and 'upper' cross each other, 0.125 m deep, at ("));
+}
+
 TEST_CASE("detect: squares beyond --distance or as deep as --depth are counted, not kept", "[programs][detect]") {
     const auto [gap, far, deep] = GENERATE(table<double, bool, bool>({{0.1001, true, false}, {-0.1001, false, true}}));
     const Squares squares("squares_beyond", gap);

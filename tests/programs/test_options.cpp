@@ -169,7 +169,7 @@ TEST_CASE("what is left out of a mesh file, and meshes that match by accident, a
     const auto mesh = read_summary(outcome)["mesh"];
     CHECK(mesh["ignored_elements"] == 1);
     CHECK(mesh["coincident_vertices"] == 8);
-    CHECK(outcome.out.find("1 elements are neither cells nor faces") != std::string::npos);
+    CHECK(outcome.out.find("1 element is left out: neither cells nor faces") != std::string::npos);
     CHECK(outcome.out.find("8 vertices lie on a vertex of another body") != std::string::npos);
 }
 

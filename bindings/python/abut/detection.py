@@ -1,7 +1,7 @@
 """Detection between surfaces in space: what is near, where, and how much area is shared.
 
-Meshes are anything with `vertices` and `faces` (trimesh has), meshes of meshio (of cells with a volume the boundary is taken), or
-a tuple (vertices, faces). Lengths are in metres, areas in square metres. A transform is a matrix (4, 4), as trimesh's: points go
+Meshes are paths of files (read by meshio), anything with `vertices` and `faces` (trimesh has), meshes of meshio (of cells with a
+volume the boundary is taken), or a tuple (vertices, faces). Lengths are in metres, areas in square metres. A transform is a matrix (4, 4), as trimesh's: points go
 to `T[:3, :3] @ x + T[:3, 3]`; None leaves them where they are.
 
 >>> import numpy, abut
@@ -9,7 +9,7 @@ to `T[:3, :3] @ x + T[:3, 3]`; None leaves them where they are.
 >>> lower, upper = (square, [[0, 1, 2, 3]]), (square, [[3, 2, 1, 0]])
 >>> up = numpy.eye(4)
 >>> up[:3, 3] = 0.25, 0.0, 0.05
->>> found = abut.detect([lower, upper], [None, up], distance=0.1)
+>>> found = abut.detect(lower, upper, transforms=[None, up], distance=0.1)
 >>> round(found.contacts[0].area, 12), round(found.contacts[0].gap, 12)
 (0.75, 0.05)
 
@@ -27,16 +27,19 @@ Meshes in motion are objects of a manager, as in trimesh:
 0.0 True
 """
 import collections
+import html
 import itertools
+import os
+import pathlib
 
 import numpy
 
 from ._contact import find_overlaps
-from ._nearest import is_inside as _is_inside, nearest as _nearest
+from ._nearest import is_inside as _is_inside, nearest as _nearest, penetration_depth as _penetration_depth
 
 __all__ = ["CollisionManager", "Contact", "Detected", "Nearest", "detect"]
 
-Nearest = collections.namedtuple("Nearest", "distance names faces points inside", defaults=[None])
+Nearest = collections.namedtuple("Nearest", "distance names faces points inside depth", defaults=[None, None])
 Nearest.__doc__ = """Where two meshes are nearest.
 
 Attributes
@@ -52,6 +55,9 @@ points : tuple of array of float, (3,)
 inside : str or None
     Name of the mesh that is wholly inside of the other one, whose surface is closed with normals outwards; None:
     neither is.
+depth : float
+    How deep they lie in each other [m], a lower bound from corners, middles of faces and edges; 0: they touch; below 0: they
+    are apart by so much.
 """
 Contact = collections.namedtuple("Contact", "names area gap overlaps")
 Contact.__doc__ = """Two meshes that look at each other within a distance.
@@ -68,18 +74,116 @@ overlaps : structured array
     The pairs: face_1 and face_2 (of the meshes), area, normal (from the first into the second), gap, and distance in
     space. A face with four corners appears by halves.
 """
-Detected = collections.namedtuple("Detected", "distance nearest contacts")
-Detected.__doc__ = """Result of `detect`.
 
-Attributes
-----------
-distance : float
-    Distance within which contacts are [m].
-nearest : Nearest or None
-    The two meshes that are nearest; None with fewer than two.
-contacts : list of Contact
-    Meshes that look at each other within the distance.
-"""
+
+class Detected(collections.namedtuple("Detected", "distance nearest contacts surfaces")):
+    """Result of `detect`. Its text is the answer in a line, notebooks show it as a table.
+
+    Attributes
+    ----------
+    distance : float
+        Distance within which contacts are [m].
+    nearest : Nearest or None
+        The two meshes that are nearest; None with fewer than two.
+    contacts : list of Contact
+        Meshes that look at each other within the distance.
+    surfaces : dict of tuple
+        By name (vertices, faces) of each mesh, where it is [m].
+    """
+
+    def __repr__(self):
+        lines = [_answer(self.nearest)] if self.nearest else []
+        lines += [f"'{one.names[0]}' and '{one.names[1]}': {one.area:.4g} m^2 lie opposite each other within {self.distance:.4g} m"
+                  for one in self.contacts]
+        return "\n".join(lines) or "fewer than two meshes"
+
+    def _repr_html_(self):
+        rows = [(one.names[0], one.names[1], f"{one.area:.4g}", f"{one.gap:.4g}", str(len(one.overlaps))) for one in self.contacts]
+        head = ("mesh", "mesh", "area [m^2]", "least gap [m]", "pairs of faces")
+        lines = ["<tr>" + "".join(f"<th>{text}</th>" for text in head) + "</tr>"]
+        lines += ["<tr>" + "".join(f"<td>{html.escape(text)}</td>" for text in row) + "</tr>" for row in rows]
+        answer = html.escape(_answer(self.nearest)) if self.nearest else ""
+        return f"<p>{answer}</p><table>{''.join(lines)}</table>"
+
+    def to_meshio(self):
+        """Makes a mesh of meshio of all faces, with what touches them.
+
+        Returns
+        -------
+        meshio.Mesh
+            Cell arrays: "mesh" (its number), "face" (its number in the mesh), "area [m^2]" that it shares, and "gap [m]", the
+            least one (not a number without).
+
+        Raises
+        ------
+        ImportError
+            If meshio is not installed.
+        """
+        meshio = _import_meshio()
+        points, blocks, values = [], [], []
+        first = 0
+        for number, (name, (vertices, faces)) in enumerate(self.surfaces.items()):
+            area, gap = self._of_faces(name, len(faces))
+            for face, corners in enumerate(faces):
+                kind = {3: "triangle", 4: "quad"}.get(len(corners), "polygon")
+                if not blocks or blocks[-1][0] != kind or len(blocks[-1][1][-1]) != len(corners):
+                    blocks.append((kind, []))
+                    values.append([])
+                blocks[-1][1].append([first + corner for corner in corners])
+                values[-1].append((number, face, area[face], gap[face]))
+            points.append(vertices)
+            first += len(vertices)
+        tables = [numpy.array(block, dtype=float).T for block in values]
+        data = {name: [table[i] for table in tables] for i, name in enumerate(("mesh", "face", "area [m^2]", "gap [m]"))}
+        return meshio.Mesh(numpy.concatenate(points), [(kind, numpy.array(rows)) for kind, rows in blocks], cell_data=data)
+
+    def to_pyvista(self):
+        """Makes a mesh of pyvista of all faces, with the arrays of `to_meshio`.
+
+        Returns
+        -------
+        pyvista.UnstructuredGrid
+
+        Raises
+        ------
+        ImportError
+            If meshio or pyvista is not installed.
+        """
+        try:
+            import pyvista
+        except ImportError:
+            raise ImportError("pyvista is not installed; install it (pip install pyvista), or take to_meshio()") from None
+        return pyvista.from_meshio(self.to_meshio())
+
+    def _of_faces(self, name, n_faces):
+        """Area in contact and least gap of each face of a mesh."""
+        area, gap = numpy.zeros(n_faces), numpy.full(n_faces, numpy.nan)
+        for contact in self.contacts:
+            for side, mesh in enumerate(contact.names, 1):
+                if mesh == name:
+                    faces = contact.overlaps[f"face_{side}"]
+                    numpy.add.at(area, faces, contact.overlaps["area"])
+                    numpy.fmin.at(gap, faces, contact.overlaps["gap"])
+        return area, gap
+
+
+def _answer(nearest):
+    """In the words of `abut detect`."""
+    one, two = nearest.names
+    if nearest.inside is not None:
+        return f"'{nearest.inside}' is wholly inside of '{two if nearest.inside == one else one}', {nearest.distance:.4g} m from its surface"
+    how = (f"are {nearest.distance:.4g} m apart" if nearest.distance > 0.0 else
+           f"cross each other, {nearest.depth:.4g} m deep," if nearest.depth > 0.0 else "touch each other")
+    return f"'{one}' and '{two}' {how} at ({', '.join(f'{x:.4g}' for x in nearest.points[0])})"
+
+
+def _import_meshio():
+    try:
+        import meshio
+    except ImportError:
+        raise ImportError("meshio is not installed; install it (apt install python3-meshio, or pip install meshio)") from None
+    return meshio
+
 
 # The faces of cells with a volume, in the order of meshio, which is VTK's.
 _FACES_OF_CELLS = {
@@ -107,10 +211,37 @@ def _boundary(points, blocks):
     return [face for face in seen.values() if face is not None]
 
 
+def _read(path):
+    """The mesh of a file, by meshio, which names no file in some of its errors."""
+    if not os.path.exists(path):
+        raise FileNotFoundError(f"{os.fspath(path)}: there is no such file. Check the path.")
+    meshio = _import_meshio()
+    try:
+        return meshio.read(path)
+    except (meshio.ReadError, ValueError, IndexError, SystemExit) as error:
+        raise ValueError(f"{os.fspath(path)}: meshio cannot read it ({error}). abut info tells what is wrong with it.") from None
+
+
+def _named(meshes):
+    """Meshes by their names, those of files without folder and ending; a number tells equal ones apart."""
+    if len(meshes) == 1 and isinstance(meshes[0], dict):
+        return dict(meshes[0])
+    if len(meshes) == 1 and isinstance(meshes[0], (list, tuple)):
+        meshes = meshes[0]
+    named = {}
+    for i, mesh in enumerate(meshes):
+        stem = pathlib.Path(mesh).stem if isinstance(mesh, (str, os.PathLike)) else f"mesh_{i}"
+        name = next(name for name in itertools.chain([stem], (f"{stem}_{k}" for k in itertools.count(2))) if name not in named)
+        named[name] = mesh
+    return named
+
+
 class _Surface:
     """Vertices (n, 3), and faces by offsets and corners."""
 
     def __init__(self, mesh):
+        if isinstance(mesh, (str, os.PathLike)):
+            mesh = _read(mesh)
         if isinstance(mesh, tuple):
             vertices, faces = mesh
         elif hasattr(mesh, "points") and hasattr(mesh, "cells"):
@@ -118,7 +249,7 @@ class _Surface:
         elif hasattr(mesh, "vertices") and hasattr(mesh, "faces"):
             vertices, faces = mesh.vertices, mesh.faces
         else:
-            raise TypeError(f"a mesh must have vertices and faces, or points and cells (meshio), or be a tuple "
+            raise TypeError(f"a mesh must be a path, have vertices and faces, or points and cells (meshio), or be a tuple "
                             f"(vertices, faces); this is a {type(mesh).__name__}")
         self.vertices = numpy.array(vertices, dtype=float)
         if self.vertices.ndim != 2 or self.vertices.shape[1] not in (2, 3):
@@ -194,7 +325,11 @@ class CollisionManager:
         ValueError
             If an array has another shape, or the transform turns the mesh inside out.
         """
-        self._surfaces[name] = _Surface(mesh)
+        try:
+            surface = _Surface(mesh)
+        except ValueError as error:
+            raise ValueError(f"'{name}': {error}") from None
+        self._surfaces[name] = surface
         self.set_transform(name, transform)
 
     def remove_object(self, name):
@@ -281,6 +416,17 @@ class CollisionManager:
     def names(self):
         """Names of the meshes, in the order in which they came."""
         return list(self._surfaces)
+
+    def surfaces(self):
+        """Makes arrays of all meshes where they are.
+
+        Returns
+        -------
+        dict of tuple
+            By name vertices (n, 3) [m], and faces, a list of their corners.
+        """
+        return {name: (self._placed[name], [face.tolist() for face in numpy.split(one.corners, one.offsets[1:-1])])
+                for name, one in self._surfaces.items()}
 
     def nearest(self):
         """Finds the two meshes that are nearest to each other.
@@ -417,7 +563,10 @@ class CollisionManager:
         one, two = (self._surfaces[name] for name in pair)
         distance, face_1, face_2, point_1, point_2 = _nearest(self._placed[pair[0]], one.offsets, one.corners,
                                                               self._placed[pair[1]], two.offsets, two.corners)
-        return Nearest(distance, pair, (face_1, face_2), (point_1, point_2), self._inside(pair) if distance > 0.0 else None)
+        inside = self._inside(pair) if distance > 0.0 else None
+        depth = -distance if distance > 0.0 and inside is None else _penetration_depth(
+            self._placed[pair[0]], one.offsets, one.corners, self._placed[pair[1]], two.offsets, two.corners)
+        return Nearest(distance, pair, (face_1, face_2), (point_1, point_2), inside, depth)
 
     def _inside(self, pair):
         """The name of the one of two meshes, whose surfaces are apart, that is wholly inside of the other one; None: neither is. One
@@ -435,13 +584,13 @@ class CollisionManager:
         return None
 
 
-def detect(meshes, transforms=None, distance=None):
+def detect(*meshes, transforms=None, distance=None):
     """Finds what is near between meshes.
 
     Parameters
     ----------
-    meshes : list or dict of meshes
-        Each is a body; a dict has their names.
+    *meshes : meshes, or one list or dict of them
+        Each is a body; a dict has their names. A path is a file that meshio reads, in metres.
     transforms : list or dict of array of float, (4, 4), optional
         One for each; None: where it is.
     distance : float, optional
@@ -458,8 +607,10 @@ def detect(meshes, transforms=None, distance=None):
         If a transform is of no mesh.
     TypeError
         If something is no mesh.
+    FileNotFoundError, ImportError
+        If a path names no file, or meshio is not installed.
     ValueError
-        If an array has another shape, or the number of transforms is not that of the meshes.
+        If an array has another shape, a file cannot be read, or the number of transforms is not that of the meshes.
 
     Examples
     --------
@@ -469,7 +620,7 @@ def detect(meshes, transforms=None, distance=None):
     >>> round(found.nearest.distance, 12)
     0.2
     """
-    named = dict(meshes) if isinstance(meshes, dict) else {f"mesh_{i}": mesh for i, mesh in enumerate(meshes)}
+    named = _named(meshes)
     if transforms is None:
         transforms = {}
     elif not isinstance(transforms, dict):
@@ -483,4 +634,4 @@ def detect(meshes, transforms=None, distance=None):
         manager._require(name)
     if distance is None:
         distance = manager._default_distance()
-    return Detected(distance, manager.nearest(), manager.contacts(distance))
+    return Detected(distance, manager.nearest(), manager.contacts(distance), manager.surfaces())
