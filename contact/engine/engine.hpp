@@ -59,7 +59,7 @@ template <int Dim>
 /// - `list`: takes on the pairs of a new list, and may leave out those that cannot act while no point is farther than a
 ///   reach from where it is; `list_remembered`: takes on pairs to
 ///   ask about, of a list that is not valid; `drop_list`;
-/// - `is_pressed_in`, `decide_first`: of a pair of the list, by its index;
+/// - `is_pressed_in`, `decide_first`: of a pair of the list, by its index; `set_born_offsets`: of all of them;
 /// - `sees_from_outside`: whether a pair that was no contact, since it lay inside of its body, has come out at the end of a
 ///   step: the list does not have it; `seen_from_outside`, `set_seen_from_outside`: all that have come out; `lies_inside`;
 /// - `end_step`: the last step has happened; `saved_interference`, `set_interference`: what it remembers of overlaps at
@@ -124,7 +124,8 @@ public:
             if (const FacetPair pair{Facet{facet_1}, Facet{facet_2}}; law_.is_wanted(pair)) found_.push_back(pair);
         keep_contacts(start);
         law_.list(found_, in_contact_, start, std::max(0.5 * candidates_.skin(), candidates_.report().motion));
-        pairs_.follow(found_, [&](std::size_t i) { return PairMemory{is_admitted_at_first(i, start)}; });
+        pairs_.follow(found_, [&](std::size_t i) { return memory_at_first(i, start); });
+        law_.set_born_offsets(pairs_.memory());
         law_.clear(step_);
         listed(law_);
         searched_at_.clear();
@@ -274,11 +275,11 @@ private:
 
     [[nodiscard]] bool is_new(Facet facet) const { return std::ranges::binary_search(new_facets_, facet); }
 
-    [[nodiscard]] bool is_admitted_at_first(std::size_t i, const State& start) {
+    [[nodiscard]] PairMemory memory_at_first(std::size_t i, const State& start) {
         const auto [facet_1, facet_2] = found_[i];
-        const FirstAdmission first = law_.decide_first(i, start, !has_searched_ || is_new(facet_1) || is_new(facet_2));
-        if (first == FirstAdmission::missed) ++report_.missed_contacts;
-        return first == FirstAdmission::admitted;
+        const FirstLook first = law_.decide_first(i, start, !has_searched_ || is_new(facet_1) || is_new(facet_2));
+        if (first.admission == FirstAdmission::missed) ++report_.missed_contacts;
+        return {.admitted = first.admission == FirstAdmission::admitted, .offset = first.offset};
     }
 
     [[nodiscard]] StateKey state_key() const {

@@ -12,7 +12,7 @@
 namespace abut::contact {
 namespace {
 
-constexpr std::uint32_t state_version = 9;
+constexpr std::uint32_t state_version = 10;
 
 /// A new counter needs its line in `for_each_counter`, or it is lost where a state is saved; then a new version, too.
 static_assert(sizeof(ContactReport) == 24 * sizeof(double));

@@ -51,7 +51,8 @@ public:
     void list_remembered(std::span<const FacetPair> pairs);
     void drop_list() { faces_.clear(); }
     [[nodiscard]] bool is_pressed_in(std::size_t pair, State u) const;
-    [[nodiscard]] FirstAdmission decide_first(std::size_t pair, State u, bool run_begins) const;
+    [[nodiscard]] FirstLook decide_first(std::size_t pair, State u, bool run_begins) const;
+    void set_born_offsets(std::span<const PairMemory>) {}
     // Of one body, faces that share a corner or are near on the surface are left out instead.
     [[nodiscard]] std::vector<FacetPair> seen_from_outside() const { return {}; }
     [[nodiscard]] bool lies_inside(FacetPair) const { return false; }

@@ -63,7 +63,9 @@ public:
         pairs_.assign(surface_, {});
     }
     [[nodiscard]] bool is_pressed_in(std::size_t pair, State x) const;
-    [[nodiscard]] FirstAdmission decide_first(std::size_t pair, State x, bool run_begins) const;
+    [[nodiscard]] FirstLook decide_first(std::size_t pair, State x, bool run_begins) const;
+    /// PairMemory::offset of all pairs of the list.
+    void set_born_offsets(std::span<const PairMemory> memory) { pairs_.set_born_offsets(memory); }
     [[nodiscard]] std::vector<FacetPair> seen_from_outside() const { return inside_.seen(); }
     [[nodiscard]] bool lies_inside(FacetPair pair) const { return inside_.has(pair); }
     void set_seen_from_outside(std::span<const FacetPair> pairs) { inside_.restore(pairs); }
@@ -103,10 +105,12 @@ private:
     void begin_interference(State x_0);
     [[noreturn]] void refuse_deep_interference(const NodalPair<Dim>& pair) const;
     void set_offsets(double dt);
+    [[nodiscard]] bool were_one_piece(const NodalPair<Dim>& pair) const;
 
     BevelledSurface<Dim> surface_;
     NodalOptions options_;
     Sharing* sharing_;
+    std::vector<std::int32_t> piece_;  // of each body, -1: none
     SideOutlines<Dim> sides_;
     InsidePairs<Dim> inside_;
     std::vector<NodalPair<Dim>> watched_;  // of these, that may be seen from outside while the list is valid
