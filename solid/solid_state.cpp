@@ -17,7 +17,7 @@
 namespace abut::solid {
 namespace {
 
-constexpr std::uint32_t version = 8;
+constexpr std::uint32_t version = 9;
 
 template <int Dim>
 std::string kind() {
