@@ -65,6 +65,7 @@ void PairStore::save(StateWriter& state) const {
         state.put(number_of(pairs_[i].facet_1));
         state.put(number_of(pairs_[i].facet_2));
         state.put(static_cast<std::uint8_t>(memory_[i].admitted));
+        state.put(memory_[i].offset);
     }
 }
 
@@ -74,15 +75,16 @@ PairStore PairStore::restored(StateReader& state, std::int32_t n_facets) {
     for (std::uint64_t i = 0; i < n; ++i) {  // `get` refuses to read past the end, whatever n claims
         const FacetPair pair{Facet{state.get<std::int32_t>()}, Facet{state.get<std::int32_t>()}};
         const auto admitted = state.get<std::uint8_t>();
+        const auto offset = state.get<double>();
         const bool is_in_range =
             number_of(pair.facet_1) >= 0 && pair.facet_1 < pair.facet_2 && number_of(pair.facet_2) < n_facets;
-        if (!is_in_range || admitted > 1 || (!store.pairs_.empty() && !(store.pairs_.back() < pair)))
+        if (!is_in_range || admitted > 1 || !(offset >= 0.0) || (!store.pairs_.empty() && !(store.pairs_.back() < pair)))
             throw BadInput("pair store: pair " + std::to_string(i) + " of a saved state, facets " +
                                std::to_string(number_of(pair.facet_1)) + " and " + std::to_string(number_of(pair.facet_2)) +
                                " of " + std::to_string(n_facets) + ", is out of range or out of order.",
                            {.face_1 = number_of(pair.facet_1), .face_2 = number_of(pair.facet_2)});
         store.pairs_.push_back(pair);
-        store.memory_.push_back({.admitted = admitted == 1});
+        store.memory_.push_back({.admitted = admitted == 1, .offset = offset});
     }
     return store;
 }

@@ -13,6 +13,8 @@ namespace abut::contact {
 struct PairMemory {
     /// Whether A > 0 and g < 0 means contact; decided only where A min(g, 0) = 0. docs/method.md, Contact.
     bool admitted = false;
+    /// Overlap that does not act, since the pair was in it when it became one [m] >= 0; 0 once it has been apart.
+    double offset = 0.0;
 
     friend bool operator==(const PairMemory&, const PairMemory&) = default;
 };

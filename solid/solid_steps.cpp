@@ -1,6 +1,7 @@
 // The steps of a solid: all cells with one, or each level of them with its own.
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <vector>
 
 #include "abut/base/error.hpp"
@@ -49,6 +50,15 @@ private:
     double dt_;
 };
 
+/// Keeps that half of the changes which loses most, none of a single one. Places whose faces are of one cell hold energy
+/// together: some of them may open with D < 0, and wait for the next step.
+void keep_larger_half(std::vector<BondChange>& changes) {
+    std::ranges::stable_sort(changes, std::ranges::greater{},
+                             [](const BondChange& change) { return change.start - change.end; });
+    changes.resize(changes.size() / 2);
+    std::ranges::sort(changes, {}, &BondChange::place);
+}
+
 }  // namespace
 
 // One step for all cells ---------------------------------------------------------------------------------------------
@@ -79,9 +89,15 @@ void Solid<Dim>::mean_force(std::span<const double> q_0, std::span<const double>
             ccg_.mean_gradient(ends, load, corrections(), gradient);
         bonds_->add_gradient(gradient);
     };
-    const std::vector<BondChange> changes = bonds_that_give_way({u_0, u_1}, start_load);
+    std::vector<BondChange> changes = bonds_that_give_way({u_0, u_1}, start_load);
     if (!changes.empty()) {
-        dissipated_.in_bonds += energy_lost_by(changes, {u_0, u_1}, start_load);
+        double lost = energy_lost_by(changes, {u_0, u_1}, start_load);
+        while (lost < 0.0) {
+            bonds_->set_shares(changes, Bonds<Dim>::When::start);
+            keep_larger_half(changes);
+            lost = changes.empty() ? 0.0 : energy_lost_by(changes, {u_0, u_1}, start_load);
+        }
+        dissipated_.in_bonds += lost;
         bonds_->set_shares(changes, Bonds<Dim>::When::middle);
         static_cast<void>(follow_frames(of_cells(u_0), of_cells(u_1)));
     }
@@ -91,19 +107,22 @@ void Solid<Dim>::mean_force(std::span<const double> q_0, std::span<const double>
     else
         take_gradient(loads_->end());
     finish_step({u_0, u_1}, time, dt, contact::TakenForce::mean, 1.0, gradient, force);
-    if (changes.empty()) return;
-    bonds_->set_shares(changes, Bonds<Dim>::When::end);
+    if (!changes.empty()) bonds_->set_shares(changes, Bonds<Dim>::When::end);
     const bool any_breaks = std::ranges::any_of(changes, [](const BondChange& change) { return change.end == 0.0; });
     if (contact_ && any_breaks) contact_->jumped(u_1, time + dt);  // more faces may touch than in its list
-    if (any_breaks) part_frames(u_1);
+    if (bonds_->may_be_loose()) part_frames(u_1);
 }
 
-/// Each part of what has come apart in a step that ended at q takes a frame of its own. What V loses by that is booked.
+/// Each part of what has come apart or become loose in a step that ended at q takes a frame of its own. What V loses by that
+/// is booked.
 template <int Dim>
 void Solid<Dim>::part_frames(std::span<const Vector<Dim>> q) {
-    if (bonds_->frame_groups() == frames_->united()) return;
+    const std::vector<std::size_t> loose = bonds_->loose_bonds(frames_->own_turns(of_cells(q)));
+    if (loose.empty() && bonds_->frame_groups() == frames_->united()) return;
     const double before = potential_here(q);
+    if (!loose.empty()) bonds_->loosen(loose);
     unite_frames();
+    if (contact_) contact_->jumped(q, time_);
     frames_->end_at(of_cells(q));
     dissipated_.at_splits += before - potential_here(q);
 }

@@ -105,7 +105,8 @@ public:
             if (const FacetPair pair{Facet{facet_1}, Facet{facet_2}}; law_.is_wanted(pair)) found_.push_back(pair);
         keep_contacts(start);
         law_.list(found_, in_contact_, start, std::max(0.5 * candidates_.skin(), candidates_.report().motion));
-        pairs_.follow(found_, [&](std::size_t i) { return PairMemory{is_admitted_at_first(i, start)}; });
+        pairs_.follow(found_, [&](std::size_t i) { return memory_at_first(i, start); });
+        if constexpr (LawWithMemory<Law>) law_.set_born_offsets(pairs_.memory());
         law_.clear(step_);
         listed(law_);
         searched_at_.clear();
@@ -275,11 +276,11 @@ private:
 
     [[nodiscard]] bool is_new(Facet facet) const { return std::ranges::binary_search(new_facets_, facet); }
 
-    [[nodiscard]] bool is_admitted_at_first(std::size_t i, const State& start) {
+    [[nodiscard]] PairMemory memory_at_first(std::size_t i, const State& start) {
         const auto [facet_1, facet_2] = found_[i];
-        const FirstAdmission first = law_.decide_first(i, start, !has_searched_ || is_new(facet_1) || is_new(facet_2));
-        if (first == FirstAdmission::missed) ++report_.missed_contacts;
-        return first == FirstAdmission::admitted;
+        const FirstLook first = law_.decide_first(i, start, !has_searched_ || is_new(facet_1) || is_new(facet_2));
+        if (first.admission == FirstAdmission::missed) ++report_.missed_contacts;
+        return {.admitted = first.admission == FirstAdmission::admitted, .offset = first.offset};
     }
 
     [[nodiscard]] StateKey state_key() const {

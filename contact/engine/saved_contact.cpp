@@ -13,7 +13,7 @@
 namespace abut::contact {
 namespace {
 
-constexpr std::uint32_t state_version = 9;
+constexpr std::uint32_t state_version = 10;
 
 /// A new counter needs its place in `ContactReport::fields`, or it is lost where a state is saved; then a new version, too.
 static_assert(sizeof(ContactReport) == 24 * sizeof(double));

@@ -50,7 +50,7 @@ concept EngineLaw = requires(L& law, const L& known, const typename L::State& st
     law.list_remembered(in_contact);
     law.drop_list();
     { known.is_pressed_in(pair, state) } -> std::same_as<bool>;
-    { known.decide_first(pair, state, run_begins) } -> std::same_as<FirstAdmission>;
+    { known.decide_first(pair, state, run_begins) } -> std::same_as<FirstLook>;
 
     // A step
 
@@ -61,15 +61,17 @@ concept EngineLaw = requires(L& law, const L& known, const typename L::State& st
     { law.step(number, path, memory, facets, step) } -> std::convertible_to<std::int64_t>;
 };
 
-/// A law of bodies that touch themselves or overlap at the start. It remembers more than pairs and facets do, and may end a
-/// list by itself.
+/// A law of bodies that touch themselves, overlap at the start or were bonded. It remembers more than pairs and facets
+/// do, and may end a list by itself.
 template <class L>
 concept LawWithMemory = EngineLaw<L> &&
     requires(L& law, const L& known, const typename L::State& state, const typename L::Path& path, FacetPair pair,
-             const LawMemory& memory, double dt) {
+             const LawMemory& memory, std::span<const PairMemory> of_pairs, double dt) {
     { known.memory() } -> std::same_as<LawMemory>;
     /// Throws BadInput for what `memory` cannot have given.
     law.set_memory(memory);
+    /// Takes PairMemory::offset of all pairs of the list.
+    law.set_born_offsets(of_pairs);
     /// Whether a pair of facets is no contact, since it lies inside of its body.
     { known.lies_inside(pair) } -> std::same_as<bool>;
     /// Whether a facet has turned since the last search by more than lists allow for.

@@ -52,11 +52,11 @@ bool FaceLaw<Dim>::is_pressed_in(const ContactPair<Dim>& pair, const Vector<Dim>
 }
 
 template <int Dim>
-FirstAdmission FaceLaw<Dim>::decide_first(std::size_t p, State u, bool run_begins) const {
+FirstLook FaceLaw<Dim>::decide_first(std::size_t p, State u, bool run_begins) const {
     const ContactPair<Dim>& pair = list_.pairs()[p];
     const Vector<Dim>&u_1 = u[pair.face_1], &u_2 = u[pair.face_2];
     const bool is_shallow = list_.position(surface_, pair, u_1, u_2).gap > -pair.admission_depth;
-    return first_admission(is_shallow, is_pressed_in(pair, u_1, u_2), run_begins);
+    return {first_admission(is_shallow, is_pressed_in(pair, u_1, u_2), run_begins)};
 }
 
 template <int Dim>

@@ -50,7 +50,7 @@ public:
     void list_remembered(std::span<const FacetPair> pairs);
     void drop_list() { faces_.clear(); }
     [[nodiscard]] bool is_pressed_in(std::size_t pair, State u) const;
-    [[nodiscard]] FirstAdmission decide_first(std::size_t pair, State u, bool run_begins) const;
+    [[nodiscard]] FirstLook decide_first(std::size_t pair, State u, bool run_begins) const;
 
     void clear(ContactStep<Dim>& step) const;
     std::int64_t step(double dt, const Path& path, std::span<PairMemory> memory, FacetStore& facets, ContactStep<Dim>& step);

@@ -46,8 +46,9 @@ NodeLaw<Dim>::NodeLaw(BevelledSurface<Dim> surface, const NodalOptions& options,
     : surface_(std::move(surface)),
       options_(options),
       sharing_(sharing),
+      piece_(pieces_of(acting(), options_)),
       sides_(acting().facets().view()),
-      inside_(acting().facets().view(), pieces_of(acting(), options_)),
+      inside_(acting().facets().view(), piece_),
       pairs_(options_.facing, options_.friction, options_.interference, sharing),
       ramps_(options_.interference),
       looks_away_(std::cos(std::acos(std::clamp(options_.facing.none, -1.0, 1.0)) - turns_in_all)),
@@ -262,18 +263,30 @@ bool NodeLaw<Dim>::sees_from_outside(const Path& path) {
     return any;
 }
 
-/// A pair of one body that is pressed in when the run begins lies inside of it.
+/// Whether bonds held two bodies together, directly or through others.
 template <int Dim>
-FirstAdmission NodeLaw<Dim>::decide_first(std::size_t p, State x, bool run_begins) const {
+bool NodeLaw<Dim>::were_one_piece(const NodalPair<Dim>& pair) const {
+    const auto piece_of = [&](std::int32_t facet) { return piece_[static_cast<std::size_t>(facets().body[facet])]; };
+    return pair.body_1 != pair.body_2 && piece_of(pair.facet_1) >= 0 && piece_of(pair.facet_1) == piece_of(pair.facet_2);
+}
+
+/// A pair of one body that is pressed in when the run begins lies inside of it. One of two bodies that a bond has held is
+/// pressed in where they come apart by shear: from there on it may not be pressed in deeper.
+template <int Dim>
+FirstLook NodeLaw<Dim>::decide_first(std::size_t p, State x, bool run_begins) const {
     const NodalPair<Dim>& pair = pairs_.pairs()[p];
-    if (pair.body_1 != pair.body_2) return contact::decide_first<Dim>(pair, x, sides_, run_begins);
+    if (pair.body_1 != pair.body_2) {
+        const FirstAdmission first = contact::decide_first<Dim>(pair, x, sides_, run_begins);
+        if (first != FirstAdmission::missed || !were_one_piece(pair)) return {first};
+        return {FirstAdmission::admitted, -geometry::pair_state<Dim>(pair.at(x), pair.law).gap};
+    }
     const geometry::PairCorners<Dim> corners = pair.at(x);
     const auto state = geometry::pair_state<Dim>(corners, pair.law);
     const double outside = outside_gap(facets(), FacetPair{Facet{pair.facet_1}, Facet{pair.facet_2}});
     if (state.energy > 0.0 && state.gap < outside)
-        return run_begins ? FirstAdmission::not_admitted
-                          : first_admission(state.gap > -pair.admission_depth, true, run_begins);
-    return may_touch<Dim>(pair, corners, state, sides_) ? FirstAdmission::admitted : FirstAdmission::not_admitted;
+        return {run_begins ? FirstAdmission::not_admitted
+                           : first_admission(state.gap > -pair.admission_depth, true, run_begins)};
+    return {may_touch<Dim>(pair, corners, state, sides_) ? FirstAdmission::admitted : FirstAdmission::not_admitted};
 }
 
 template <int Dim>
@@ -300,6 +313,7 @@ std::int64_t NodeLaw<Dim>::step(double dt, const Path& path, std::span<PairMemor
     set_offsets(dt);
     const std::int64_t inadmissible =
         law_.apply(acting(), sides_, pairs_, memory, facets, dt, path.x_0, path.x_1, path.take, step);
+    pairs_.end_born_offsets(path.x_1, memory);
     fold(step);
     return inadmissible;
 }

@@ -64,7 +64,9 @@ public:
         pairs_.assign(surface_, {});
     }
     [[nodiscard]] bool is_pressed_in(std::size_t pair, State x) const;
-    [[nodiscard]] FirstAdmission decide_first(std::size_t pair, State x, bool run_begins) const;
+    [[nodiscard]] FirstLook decide_first(std::size_t pair, State x, bool run_begins) const;
+    /// PairMemory::offset of all pairs of the list.
+    void set_born_offsets(std::span<const PairMemory> memory) { pairs_.set_born_offsets(memory); }
     [[nodiscard]] bool lies_inside(FacetPair pair) const { return inside_.has(pair); }
     [[nodiscard]] bool sees_from_outside(const Path& path);
     [[nodiscard]] std::span<const double> interference() const { return ramps_.overlaps(); }
@@ -102,10 +104,12 @@ private:
     void begin_interference(State x_0);
     [[noreturn]] void refuse_deep_interference(const NodalPair<Dim>& pair) const;
     void set_offsets(double dt);
+    [[nodiscard]] bool were_one_piece(const NodalPair<Dim>& pair) const;
 
     BevelledSurface<Dim> surface_;
     NodalOptions options_;
     Sharing* sharing_;
+    std::vector<std::int32_t> piece_;  // of each body, -1: none
     SideOutlines<Dim> sides_;
     InsidePairs<Dim> inside_;
     std::vector<NodalPair<Dim>> watched_;  // of these, that may be seen from outside while the list is valid

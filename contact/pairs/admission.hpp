@@ -9,6 +9,11 @@ enum class FirstAdmission {
     not_admitted,
     missed,  ///< not admitted, though it is so shallow that it must have been a contact before anybody looked
 };
+/// A look at a pair that was not in the list before.
+struct FirstLook {
+    FirstAdmission admission;
+    double offset = 0.0;  ///< PairMemory::offset [m]
+};
 /// A pair that is pressed in when it is first seen is no contact, unless the run only begins.
 [[nodiscard]] inline FirstAdmission first_admission(bool is_shallow, bool is_pressed_in, bool run_begins) {
     if (run_begins || !is_pressed_in) return is_shallow ? FirstAdmission::admitted : FirstAdmission::not_admitted;

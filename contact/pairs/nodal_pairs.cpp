@@ -149,7 +149,8 @@ void NodalPairs<Dim>::prune(PointsView<Dim> x_0, PointsView<Dim> x_1, std::span<
     for (std::size_t p = 0; p < pairs_.size(); ++p) {
         const bool is_kept_anyway = !pairs_[p].outlook.may_act;
         if (!outlooks_[p].may_act && !is_kept_anyway) {
-            memory[p].admitted = outlooks_[p].is_apart;
+            memory[p] = {.admitted = outlooks_[p].is_apart};
+            pairs_[p].law.offset = pairs_[p].interference >= 0 ? pairs_[p].law.offset : 0.0;
             continue;
         }
         in_reach_.push_back(pairs_[p]);
@@ -168,6 +169,31 @@ void NodalPairs<Dim>::set_offsets(std::span<const double> start, std::span<const
                 pair.offset_before = start[static_cast<std::size_t>(pair.interference)];
                 pair.law.offset = end[static_cast<std::size_t>(pair.interference)];
             }
+}
+
+template <int Dim>
+void NodalPairs<Dim>::set_born_offsets(std::span<const PairMemory> memory) {
+    any_born_offset_ = std::ranges::any_of(memory, [](const PairMemory& of_pair) { return of_pair.offset > 0.0; });
+    for (std::vector<NodalPair<Dim>>* pairs : {&pairs_, &in_reach_})
+        for (NodalPair<Dim>& pair : *pairs)
+            if (pair.interference < 0)
+                pair.offset_before = pair.law.offset = memory[static_cast<std::size_t>(pair.memory)].offset;
+}
+
+template <int Dim>
+void NodalPairs<Dim>::end_born_offsets(PointsView<Dim> x_1, std::span<PairMemory> memory) {
+    if (!any_born_offset_) return;
+    bool any_ends = false;
+    for (const NodalPair<Dim>& pair : in_reach_) {
+        double& offset = memory[static_cast<std::size_t>(pair.memory)].offset;
+        if (offset == 0.0) continue;
+        geometry::PairLaw<Dim> without = pair.law;
+        without.offset = 0.0;
+        if (geometry::pair_state<Dim>(pair.at(x_1), without).energy > 0.0) continue;
+        offset = 0.0;
+        any_ends = true;
+    }
+    if (any_ends) set_born_offsets(memory);
 }
 
 template <int Dim>

@@ -89,6 +89,10 @@ public:
 
     /// PairLaw::offset by InterferenceOptions::times at both ends of a step, of these pairs and those to come [m].
     void set_offsets(std::span<const double> start, std::span<const double> end);
+    /// PairLaw::offset by what each pair remembers, which has no interference (n_pairs).
+    void set_born_offsets(std::span<const PairMemory> memory);
+    /// Pairs that are apart where a step ends have no such offset from then on.
+    void end_born_offsets(PointsView<Dim> x_1, std::span<PairMemory> memory);
 
     [[nodiscard]] const std::vector<std::int32_t>& nodes() const { return nodes_; }        ///< increasing
     [[nodiscard]] const std::vector<std::int32_t>& bodies() const { return bodies_; }      ///< increasing
@@ -114,6 +118,7 @@ private:
     std::vector<BodyPair> body_pairs_;
     std::vector<std::int32_t> index_of_node_;  // in `nodes_`; that of others is not to be read
 
+    bool any_born_offset_ = false;
     std::vector<NodalPair<Dim>> in_reach_;              // while no node is farther than `prune_reach_` from `pruned_at_`
     std::vector<Vector<Dim>> pruned_at_;                // of each node
     double prune_reach_ = 0.0;                          // [m]

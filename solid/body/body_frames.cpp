@@ -121,6 +121,8 @@ BodyFrames<Dim>::BodyFrames(std::span<const Vector<Dim>> rest, std::span<const d
     arm_.resize(lane_width<Dim> * rest.size());
     weighted_arm_.resize(4 * rest.size());
     mass_.resize(turns_.size());
+    own_mass_.resize(turns_.size());
+    own_moment_.resize(turns_.size());
     for (std::size_t body = 0; body < turns_.size(); ++body)
         body_.resize(static_cast<std::size_t>(begin_[body + 1]), static_cast<std::int32_t>(body));
     std::vector<std::int32_t> alone(turns_.size());
@@ -156,10 +158,12 @@ void BodyFrames<Dim>::set_rest() {
         double mass = 0.0;
         Vector<Dim> moment = Vector<Dim>::Zero();
         for (const std::size_t body : group) {
-            mass += sum_of(body, 0.0, [&](std::ptrdiff_t i) { return masses_[i]; });
-            moment += sum_of(body, Vector<Dim>::Zero(), [&](std::ptrdiff_t i) -> Vector<Dim> {
+            own_mass_[body] = sum_of(body, 0.0, [&](std::ptrdiff_t i) { return masses_[i]; });
+            own_moment_[body] = sum_of(body, Vector<Dim>::Zero(), [&](std::ptrdiff_t i) -> Vector<Dim> {
                 return masses_[i] * (rest_points_[i] - origin);
             });
+            mass += own_mass_[body];
+            moment += own_moment_[body];
         }
         BodyFrame<Dim> frame;
         frame.centre = origin + moment / mass;
@@ -179,6 +183,7 @@ void BodyFrames<Dim>::set_rest() {
         for (const std::size_t body : group) {
             rest_[body] = frame;
             mass_[body] = mass;
+            own_moment_[body] -= own_mass_[body] * (frame.centre - origin);
         }
     }
 }
@@ -197,8 +202,7 @@ template <int Dim>
 template <class Add>
 auto BodyFrames<Dim>::moments(std::span<const std::size_t> group, const Add& add) const {
     const auto of_body = [&](std::size_t body) {
-        return part_.is_whole() ? sum_moments<Dim>(begin_[body], begin_[body + 1], add)
-                                : sum_moments<Dim>(part_, body, add);
+        return part_.is_whole() ? sum_moments<Dim>(begin_[body], begin_[body + 1], add) : sum_moments<Dim>(part_, body, add);
     };
     auto sums = of_body(group.front());
     for (const std::size_t body : group.subspan(1)) sums += of_body(body);
@@ -223,6 +227,25 @@ void BodyFrames<Dim>::place(std::span<const Vector<Dim>> q, std::vector<BodyFram
         frames[first].turn = nearest_rotation(frames[first].moment);
         for (const std::size_t body : group) frames[body] = frames[first];
     }
+}
+
+template <int Dim>
+std::vector<Matrix<Dim>> BodyFrames<Dim>::own_turns(std::span<const Vector<Dim>> q) const {
+    std::vector<Matrix<Dim>> turns(turns_.size(), Matrix<Dim>::Identity());
+    const std::vector<Vector<Dim>> origins = part_.of_first_cells(q);
+    for (const std::vector<std::size_t>& group : groups_)
+        for (const std::size_t body : group) {
+            turns[body] = end()[body].turn;
+            if (group.size() == 1 || !turns_[body]) continue;
+            const Lanes<Dim> origin = load_packed<Dim>(origins[body]);
+            const auto sums = moments(std::span(&body, 1), [&](Moments<Dim>& sum, std::ptrdiff_t i) {
+                sum.add(rest_arm(i) + load_packed<Dim>(q[i]) - origin, load_four(weighted_arm_, i));
+            });
+            const Matrix<Dim> about_own_centre =
+                sums.template leftCols<Dim>() - sums.col(Dim) * own_moment_[body].transpose() / own_mass_[body];
+            turns[body] = nearest_rotation(about_own_centre);
+        }
+    return turns;
 }
 
 template <int Dim>

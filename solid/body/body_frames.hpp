@@ -68,6 +68,10 @@ public:
     [[nodiscard]] std::span<const BodyFrame<Dim>> end() const { return is_standing_ ? state_ : end_; }
     [[nodiscard]] const FrameStep<Dim>& step(std::size_t body) const { return steps_[body]; }
 
+    /// The rotation of each body with a frame in common with others, by itself: the nearest one of its own points at q
+    /// (n_points) [m]; that of the frame where it is alone in it (n_bodies). A call of all ranks.
+    [[nodiscard]] std::vector<Matrix<Dim>> own_turns(std::span<const Vector<Dim>> q) const;
+
     // There
 
     /// u in some frames, as `start` or `end`, of some points; `u` has place for all (n_points) [m].
@@ -107,8 +111,10 @@ private:
     std::vector<std::int32_t> first_;               // body with the same frame, of each
     std::vector<std::vector<std::size_t>> groups_;  // bodies with one frame, in the order of the first ones
     std::vector<BodyFrame<Dim>> rest_;
-    LargeArray<double> mass_;         // of all with the frame of each body [kg]
-    std::vector<std::int32_t> body_;  // of each point
+    LargeArray<double> mass_;              // of all with the frame of each body [kg]
+    std::vector<double> own_mass_;         // of each body alone [kg]
+    std::vector<Vector<Dim>> own_moment_;  // sum of m X' over the points of each body [kg m]
+    std::vector<std::int32_t> body_;       // of each point
     std::vector<BodyFrame<Dim>> start_, end_, state_;
     std::vector<FrameStep<Dim>> steps_;
     std::vector<AxialVector<Dim>> lambda_;  // of each body, in the last `to_force`

@@ -28,6 +28,7 @@ template <int Dim>
 std::vector<BondChange> Bonds<Dim>::changes() const {
     std::vector<BondChange> changes;
     for (std::size_t p = 0; p < joints_.size(); ++p) {
+        if (!holds_as_joint(joints_[p].place)) continue;
         const Vector<Dim> traction = joints_[p].stiffness * jump_1_[p];
         const double energy = traction.dot(jump_1_[p]);
         if (energy > 0.0)
@@ -44,6 +45,7 @@ std::vector<BondChange> Bonds<Dim>::changes() const {
 
 template <int Dim>
 void Bonds<Dim>::set_shares(std::span<const BondChange> changes, When when) {
+    may_be_loose_ = may_be_loose_ || !changes.empty();
     for (const auto& [place, start, end] : changes)
         share_[place] = when == When::start ? start : when == When::end ? end : 0.5 * (start + end);
     in_middle_.clear();
@@ -104,9 +106,13 @@ void Bonds<Dim>::take_over(const Bonds& before, std::span<const std::int32_t> ol
         });
         if (from == before.places_.end())
             throw BadInput(bodies_.mesh().name + ": faces are bonded that were not. Keep bonds as they are.");
-        share_[p] = before.share_[static_cast<std::size_t>(from - before.places_.begin())];
+        const auto old = static_cast<std::size_t>(from - before.places_.begin());
+        share_[p] = before.share_[old];
+        loosened_[p] = before.loosened_[old];
         places_[p].strength = from->strength;  // drawn once, whatever numbers the faces have now
     }
+    may_be_loose_ = before.may_be_loose_;
+    make_springs();
 }
 
 #define ABUT_INSTANTIATE(Dim)                                                                            \

@@ -17,7 +17,8 @@ constexpr double affine_stiffness = 2.0;
 template <int Dim>
 BondSprings<Dim>::BondSprings(const Bodies<Dim>& bodies, Ccg<Dim>& ccg, const BodyFrames<Dim>& frames,
                               const RankPart<Dim>& part, std::span<const BondPlace<Dim>> places,
-                              std::span<const std::size_t> of_springs, const std::vector<double>& share)
+                              std::span<const std::size_t> of_springs, const std::vector<double>& share,
+                              std::span<const double> stiffness)
     : ccg_(ccg),
       frames_(frames),
       places_(places),
@@ -25,7 +26,7 @@ BondSprings<Dim>::BondSprings(const Bodies<Dim>& bodies, Ccg<Dim>& ccg, const Bo
       faces_(bodies.deformable(), part, places, of_springs),
       here_(faces_.size(), nowhere) {
     if (of_springs.empty()) return;
-    const std::vector<double> stiffness =
+    const std::vector<double> of_half_cells =
         faces_.of_owners(1, [&](std::size_t face) { return std::array{ccg.normal_stiffness(faces_[face])}; });
     const std::vector<double> centroids =
         faces_.of_owners(Dim, [&](std::size_t face) { return ccg.centroid(faces_[face]); });
@@ -37,11 +38,11 @@ BondSprings<Dim>::BondSprings(const Bodies<Dim>& bodies, Ccg<Dim>& ccg, const Bo
         for (std::size_t side = 0; side < 2; ++side) {
             const std::size_t face = faces_.position_of(places[place], side);
             const bool is_affine = bodies.is_finite(places[place].bodies[side]);
-            compliance += 1.0 / ((is_affine ? affine_stiffness : 1.0) * stiffness[face]);
+            compliance += 1.0 / ((is_affine ? affine_stiffness : 1.0) * of_half_cells[face]);
             spring.ends[side] = {face, places[place].position - centroid[face], places[place].position,
                                  static_cast<std::size_t>(bodies.deformable_body(places[place].bodies[side]))};
         }
-        spring.stiffness = places[place].area / compliance;
+        spring.stiffness = places[place].area * (stiffness[place] > 0.0 ? stiffness[place] : 1.0 / compliance);
         springs_.push_back(spring);
     }
     for (std::size_t i = 0; i < faces_.here().size(); ++i) here_[faces_.here()[i]] = i;

@@ -24,11 +24,12 @@ namespace abut::solid {
 template <int Dim>
 class BondSprings {
 public:
-    /// All but `of_springs` must outlive it; `frames` are led along each step before it. Of all places (n_places) those
-    /// that are springs, whose faces nothing holds, and the share of the pull that a place has. A call of all ranks.
+    /// All but `of_springs` and `stiffness` must outlive it; `frames` are led along each step before it. Of all places
+    /// (n_places) those that are springs, whose faces nothing holds, the share of the pull that a place has, and its
+    /// stiffness [Pa/m], 0: that of both half cells along the normal. A call of all ranks.
     BondSprings(const Bodies<Dim>& bodies, Ccg<Dim>& ccg, const BodyFrames<Dim>& frames, const RankPart<Dim>& part,
                 std::span<const BondPlace<Dim>> places, std::span<const std::size_t> of_springs,
-                const std::vector<double>& share);
+                const std::vector<double>& share, std::span<const double> stiffness);
 
     [[nodiscard]] bool any() const { return !springs_.empty(); }
     [[nodiscard]] const BondFaces<Dim>& faces() const { return faces_; }

@@ -18,7 +18,9 @@ namespace abut::solid {
 namespace {
 
 constexpr double least_share_of_stiffness =
-    1e-9;                       // of a half cell's mean one: directions in which it has none share the jump
+    1e-9;  // of a half cell's mean one: directions in which it has none share the jump
+// Of two grains against each other [rad]: strains in one frame are off by half the square of it.
+constexpr double loose_turn = 0.05;
 constexpr double flat = 1e-10;  // of the largest second moment: a cloud of cells has no width in such a direction
 
 template <int Dim>
@@ -49,13 +51,16 @@ Bonds<Dim>::Bonds(const Bodies<Dim>& bodies, Ccg<Dim>& ccg, const BodyFrames<Dim
       mesh_(bodies.deformable()),
       ccg_(ccg),
       frames_(frames),
+      part_(part),
       places_(bodies.bond_places()),
-      share_(places_.size(), 1.0) {
+      share_(places_.size(), 1.0),
+      loosened_(places_.size(), 0.0) {
     check_bodies();
-    std::vector<std::size_t> of_springs, of_joints;
-    for (std::size_t p = 0; p < places_.size(); ++p) (bodies.is_joint(places_[p]) ? of_joints : of_springs).push_back(p);
+    std::vector<std::size_t> of_joints;
+    for (std::size_t p = 0; p < places_.size(); ++p)
+        if (is_joint(p)) of_joints.push_back(p);
     check_metal(of_joints);
-    springs_ = std::make_unique<BondSprings<Dim>>(bodies, ccg, frames, part, places_, of_springs, share_);
+    make_springs();
     faces_.emplace(mesh_, part, places_, of_joints);
     dynamics::agreed(part.ranks(), [&] {
         for (const BondFaces<Dim>* faces : std::array<const BondFaces<Dim>*, 2>{&*faces_, &springs_->faces()})
@@ -74,6 +79,15 @@ Bonds<Dim>::Bonds(const Bodies<Dim>& bodies, Ccg<Dim>& ccg, const BodyFrames<Dim
     for (auto* of_face : {&of_face_, &delta_, &excess_, &gradient_}) of_face->resize(faces_->size());
     delta_here_.resize(faces_->here().size());
     check_fracture_energy();
+}
+
+/// Springs of the places that are no joints and not broken.
+template <int Dim>
+void Bonds<Dim>::make_springs() {
+    std::vector<std::size_t> of_springs;
+    for (std::size_t p = 0; p < places_.size(); ++p)
+        if (!is_joint(p) && !is_broken(p)) of_springs.push_back(p);
+    springs_ = std::make_unique<BondSprings<Dim>>(bodies_, ccg_, frames_, part_, places_, of_springs, share_, loosened_);
 }
 
 template <int Dim>
@@ -214,11 +228,44 @@ template <int Dim>
 std::vector<std::int32_t> Bonds<Dim>::frame_groups() const {
     DisjointSets held(static_cast<std::size_t>(mesh_.n_bodies()));
     for (std::size_t p = 0; p < places_.size(); ++p)
-        if (!is_broken(p) && bodies_.have_one_frame(places_[p]))
+        if (holds_as_joint(p) && bodies_.have_one_frame(places_[p]))
             held.join(bodies_.deformable_body(places_[p].bodies[0]), bodies_.deformable_body(places_[p].bodies[1]));
     std::vector<std::int32_t> groups;
     for (std::int32_t body = 0; body < mesh_.n_bodies(); ++body) groups.push_back(held.find(body));
     return groups;
+}
+
+template <int Dim>
+std::vector<std::size_t> Bonds<Dim>::loose_bonds(std::span<const Matrix<Dim>> turns) const {
+    const auto is_loose = [&](std::size_t p) {
+        const auto turn_of = [&](std::size_t side) -> const Matrix<Dim>& {
+            return turns[static_cast<std::size_t>(bodies_.deformable_body(places_[p].bodies[side]))];
+        };
+        return rotation_angle<Dim>(turn_of(0).transpose() * turn_of(1)) > loose_turn;
+    };
+    std::vector<std::size_t> loose;
+    for (std::size_t first = 0, end = 0; first < places_.size(); first = end) {
+        while (end < places_.size() && places_[end].bond == places_[first].bond) ++end;
+        bool holds = false, has_opened = false;
+        for (std::size_t p = first; p < end; ++p) {
+            holds = holds || holds_as_joint(p);
+            has_opened = has_opened || share_[p] < 1.0;
+        }
+        if (holds && has_opened && bodies_.have_one_frame(places_[first]) && is_loose(first))
+            loose.push_back(places_[first].bond);
+    }
+    return loose;
+}
+
+template <int Dim>
+void Bonds<Dim>::loosen(std::span<const std::size_t> bonds) {
+    for (std::size_t i = 0; i < joints_.size(); ++i) {
+        const std::size_t p = joints_[i].place;
+        if (!holds_as_joint(p) || !std::ranges::binary_search(bonds, places_[p].bond)) continue;
+        const Vector<Dim> along = jump_[i].isZero(0.0) ? places_[p].normal : jump_[i];
+        loosened_[p] = along.dot(joints_[i].stiffness * along) / along.squaredNorm();
+    }
+    make_springs();
 }
 
 // In one state, or along a step --------------------------------------------------------------------------------------
@@ -403,6 +450,7 @@ void Bonds<Dim>::save(StateWriter& state) const {
     std::vector<double> strengths;
     for (const BondPlace<Dim>& place : places_) strengths.push_back(place.strength);
     state.put_all(std::span<const double>(strengths));
+    state.put_all(std::span<const double>(loosened_));
 }
 
 template <int Dim>
@@ -416,7 +464,13 @@ void Bonds<Dim>::restore(StateReader& state) {
     const std::vector<double> strengths = state.get_all<double>();
     if (strengths.size() != share.size())
         throw BadInput(mesh_.name + ": the saved state of its bonds is damaged. Take another checkpoint.");
+    const std::vector<double> loosened = state.get_all<double>();
+    if (loosened.size() != share.size())
+        throw BadInput(mesh_.name + ": the saved state of its bonds is damaged. Take another checkpoint.");
     share_ = share;
+    loosened_ = loosened;
+    make_springs();
+    may_be_loose_ = std::ranges::any_of(share_, [](double s) { return s < 1.0; });
     for (std::size_t p = 0; p < places_.size(); ++p) places_[p].strength = strengths[p];  // drawn once
 }
 

@@ -106,6 +106,14 @@ public:
     /// Number of the first body that has the same frame, of each that deforms (n_bodies): as places of Bond::of_grains
     /// hold now.
     [[nodiscard]] std::vector<std::int32_t> frame_groups() const;
+    /// Bonds that hold grains in one frame, have begun to open and whose grains have turned against each other by more than
+    /// `loose_turn`, increasing. `turns`: rotation of each body that deforms (n_bodies).
+    [[nodiscard]] std::vector<std::size_t> loose_bonds(std::span<const Matrix<Dim>> turns) const;
+    /// Whether one that holds grains in one frame has begun to open.
+    [[nodiscard]] bool may_be_loose() const { return may_be_loose_; }
+    /// Springs hold what is left of these bonds from now on, so that grains may have frames of their own: in the state of
+    /// the last `stand_at` they have the energy that half cells had. A call of all ranks.
+    void loosen(std::span<const std::size_t> bonds);
 
     void save(StateWriter& state) const;
     void restore(StateReader& state);
@@ -135,6 +143,12 @@ private:
         double weight;
     };
 
+    void make_springs();
+    /// Whether it is the interface of half cells, and else a spring.
+    [[nodiscard]] bool is_joint(std::size_t place) const {
+        return bodies_.is_joint(places_[place]) && loosened_[place] == 0.0;
+    }
+    [[nodiscard]] bool holds_as_joint(std::size_t place) const { return is_joint(place) && !is_broken(place); }
     void check_bodies() const;
     void check_metal(std::span<const std::size_t> of_joints) const;
     void check(BoundaryFace face) const;
@@ -151,7 +165,10 @@ private:
     void take_jumps(std::span<const Vector<Dim>> of_sides, std::vector<Vector<Dim>>& jump) const;
     void set_corrections(std::span<const Vector<Dim>> jump, std::vector<Vector<Dim>>& delta,
                          std::vector<Vector<Dim>>& here) const;
-    [[nodiscard]] double share_of(const Joint& joint) const { return share_[joint.place]; }
+    /// 0 where the place is a spring by now.
+    [[nodiscard]] double share_of(const Joint& joint) const {
+        return loosened_[joint.place] == 0.0 ? share_[joint.place] : 0.0;
+    }
     [[nodiscard]] FaceCorrections<Dim> own_corrections() const { return {faces_->faces_here(), delta_here_, {}, {}}; }
     void check_fracture_energy() const;
     void append_change(std::size_t place, const Vector<Dim>& traction, double stiffness, const Vector<Dim>& normal,
@@ -162,18 +179,21 @@ private:
 
     const Bodies<Dim>& bodies_;
     const mesh::Mesh<Dim>& mesh_;  // of the bodies that deform
-    const Ccg<Dim>& ccg_;
+    Ccg<Dim>& ccg_;
     const BodyFrames<Dim>& frames_;
+    const RankPart<Dim>& part_;
     std::vector<BondPlace<Dim>> places_;
-    std::vector<double> share_;          // by place, from 1, whole, to 0, broken
+    std::vector<double> share_;     // by place, from 1, whole, to 0, broken
+    std::vector<double> loosened_;  // by place: its stiffness if it has become a spring [Pa/m]; 0: it has not
+    bool may_be_loose_ = false;
     std::vector<BondChange> in_middle_;  // whose share is the mean of both ends of a step
     std::unique_ptr<BondSprings<Dim>> springs_;
     std::optional<BondFaces<Dim>> faces_;  // of small bodies
     std::vector<BondedFace> of_faces_;     // of each
     std::vector<Joint> joints_;
     std::vector<Slope> slope_;
-    std::vector<std::int32_t> cells_;     // that own sides of joints depend on, increasing
-    std::vector<Vector<Dim>> in_frames_;  // displacements of these (n_cells) [m]; empty where no body turns
+    std::vector<std::int32_t> cells_;                  // that own sides of joints depend on, increasing
+    std::vector<Vector<Dim>> in_frames_;               // displacements of these (n_cells) [m]; empty where no body turns
     RankItems sides_;                                  // of joints: 2 joint + side
     std::vector<Vector<Dim>> of_side_0_, of_side_1_;   // y at the place, by side [m]
     std::vector<Vector<Dim>> jump_, jump_0_, jump_1_;  // Delta, by joint: as it counts, and at both ends of a step [m]

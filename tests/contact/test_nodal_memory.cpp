@@ -255,6 +255,31 @@ TEST_CASE("the run begins for a new face: it is in contact where its nodes are p
     CHECK_FALSE(deep.step(1.0, at(-0.25), at(-0.25)).is_active());
 }
 
+TEST_CASE(
+    "faces that were held together and lie inside of each other as they are let go bear k A/2 times the square of what they "
+    "are pressed in more, and of all of it once they have been apart",
+    "[contact][nodal]") {
+    const TwoFaces faces;
+    bool holds = true;
+    contact::NodalOptions options = with_skin(0.05);
+    options.pieces = {0, 0};
+    options.wanted = [&](Face, Face) { return !holds; };
+    const auto at = [&](double y) { return faces.at(0.0, y); };
+    NodalContact<2> contact(faces.scene.surface(), options);
+    contact.step(1.0, at(-0.05), at(-0.05));
+    holds = false;
+    contact.search(at(-0.05), at(-0.05));
+    CHECK(contact.step(1.0, at(-0.05), at(-0.05)).energy == 0.0);
+    NodalContact<2> restarted(faces.scene.surface(), options);
+    restarted.restore(contact.state());
+    CHECK(go(contact, faces, {0.0, -0.05}, {0.0, -0.08}).energy == Approx(0.5 * 1.5 * 0.03 * 0.03));
+    CHECK(go(restarted, faces, {0.0, -0.05}, {0.0, -0.08}).energy == contact.last().energy);
+    CHECK(contact.evaluate(at(-0.07)).energy == Approx(0.5 * 1.5 * 0.02 * 0.02));
+    go(contact, faces, {0.0, -0.08}, {0.0, 0.01});
+    CHECK(go(contact, faces, {0.0, 0.01}, {0.0, -0.05}).energy == Approx(0.5 * 1.5 * 0.05 * 0.05));
+    CHECK(contact.report().missed_contacts == 0);
+}
+
 TEST_CASE("forces on obstacles that a host has appended to its nodes are left out of its own", "[contact][nodal]") {
     TwoFaces faces;
     auto scene = faces.scene;
