@@ -26,6 +26,7 @@ constexpr double cfl = 0.9;  // of the steps to rest
 constexpr double settled =
     1e-11;  // of the largest peak of the kinetic energy; a rigid body that rocks on a plane stays above 1e-12
 constexpr std::int64_t window = 500;  // steps: where peaks do not fall by a tenth from one to the next, no more is to be had
+constexpr int most_standstills = 10;  // such windows: a vibration turns over from rest to rest
 constexpr std::int64_t most_rise = 20'000;  // steps without a peak: the bodies fall or slide
 constexpr std::int64_t most_steps = 200'000;
 constexpr std::int64_t between_looks = 50;  // steps
@@ -66,8 +67,12 @@ public:
         if (largest_ <= still_) return true;
         begin_ = step;
         const double before = std::exchange(in_window_before_, std::exchange(in_window_, 0.0));
-        return are_settled() && (in_window_before_ > 0.9 * before || step > most_steps);
+        const bool falls = in_window_before_ <= 0.9 * before;
+        if (!falls) ++standstills_;
+        return are_settled() && (!falls || step > most_steps);
     }
+    /// Whether peaks have not fallen in several windows.
+    [[nodiscard]] bool stand_still() const { return standstills_ >= most_standstills; }
     /// Whether the last window had low ones alone.
     [[nodiscard]] bool are_settled() const { return in_window_before_ <= settled * largest_; }
 
@@ -77,16 +82,17 @@ private:
     double largest_ = 0.0;
     double in_window_ = 0.0;
     double in_window_before_ = std::numeric_limits<double>::infinity();
+    int standstills_ = 0;
 };
 
-/// Finds where the kinetic energy has passed a peak, by the mean of two steps: a swing from step to step is no peak. Every
-/// other peak is found a step later: else a vibration that turns over once from rest to rest would stay.
+/// Finds where the kinetic energy has passed a peak, by the mean of two steps: a swing from step to step is no peak.
 class PeakFinder {
 public:
-    /// Takes the energy after a step [J].
-    [[nodiscard]] bool has_passed(double kinetic) {
+    /// Takes the energy after a step [J]. `in_turn`: every other peak is found a step later, so that no vibration turns over
+    /// once from each rest to the next, and loses nothing.
+    [[nodiscard]] bool has_passed(double kinetic, bool in_turn) {
         const double mean = 0.5 * (kinetic + std::exchange(last_, kinetic));
-        if (mean <= peak_) return waited_++ >= peaks_ % 2;
+        if (mean <= peak_) return !in_turn || waited_++ >= peaks_ % 2;
         peak_ = mean;
         return false;
     }
@@ -373,7 +379,7 @@ Settled settle(const Scene<Dim>& scene, const solid::SolidOptions<Dim>& options,
         const bool rises = motion.steps() - peak_at > most_rise, is_still = rises && creep(solid, motion, dt);
         if (takes_long || (rises && !is_still)) refuse(scene, solid, motion, q_before);
         if (motion.steps() == most_steps / 2) q_before.assign(motion.q().begin(), motion.q().end());
-        if (!finder.has_passed(motion.kinetic_energy()) && !is_still) continue;
+        if (!finder.has_passed(motion.kinetic_energy(), peaks.stand_still()) && !is_still) continue;
         is_last = is_still || peaks.is_last(finder.peak(), motion.steps());
         if (is_last) result.report.speed = std::ranges::max(speeds(solid, motion.p_after()));
         motion.bring_to_rest();
