@@ -12,8 +12,8 @@ struct GrainOptions {
     std::uint32_t seed = 0;  ///< another one gives other grains of the same size
 };
 
-/// Fewest cells of a grain: smaller ones join a neighbour. It is twice the Dim + 1
-/// cells, itself included, that the gradient of a cell needs.
+/// Fewest cells of a grain: smaller ones join a neighbour, and so do those whose centroids lie in one plane. It is twice the
+/// Dim + 1 cells, itself included, that the gradient of a cell needs.
 template <int Dim>
 inline constexpr std::int32_t least_cells_of_grain = 2 * (Dim + 1);
 

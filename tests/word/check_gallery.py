@@ -14,9 +14,9 @@ SCENES = HERE.parent.parent / "scenes"
 sys.path.insert(0, str(HERE.parent / "support"))
 from abut_runs import Claims, Run, main, require, scenes_that_warn  # noqa: E402
 
-SLOW = {"bimetal_strip", "cattaneo_mindlin", "cattaneo_mindlin_3d", "circling_table", "crushed_lattice", "folded_plate", "hertz",
-        "oblique_balls", "press_fit", "pressed_spring", "resting_pile", "rolled_sheet", "rolling_ball", "rolling_disc", "skidding_ball",
-        "slipping_cylinders_3d", "taylor_bar"}
+SLOW = {"bimetal_strip", "broken_beam", "cattaneo_mindlin", "cattaneo_mindlin_3d", "circling_table", "crushed_lattice",
+        "expanding_ring", "folded_plate", "hertz", "oblique_balls", "press_fit", "pressed_spring", "resting_pile", "rolled_sheet",
+        "rolling_ball", "rolling_disc", "skidding_ball", "slipping_cylinders_3d", "spalling_plate", "taylor_bar"}
 WARN = scenes_that_warn()
 claim = Claims()
 
