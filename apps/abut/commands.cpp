@@ -120,6 +120,13 @@ void add_commands(CommandParser& parser, CommandLine& line) {
     parser.explain_unknown(where_in_laboratory);
 }
 
+/// The file, or that with .toml behind it where this one alone is there.
+fs::path scene_file(const fs::path& given) {
+    fs::path with_ending = given;
+    with_ending += ".toml";
+    return !fs::exists(given) && fs::exists(with_ending) ? with_ending : given;
+}
+
 /// Drops an option of the scene where one on the command line excludes it.
 void drop_excluded(const CommandParser& command, run::RunOptions& options) {
     if (command.at("--steps").is_given()) options.time = run::not_given;
@@ -245,6 +252,7 @@ int run_abut(int argc, char** argv) {
     const auto add_options = [&](CommandParser& parser) { add_commands(parser, line); };
     return run_program(program, argc, argv, add_options, [&] {
         program.messages = line.messages;
+        line.scene = scene_file(line.scene);
         if (!line.run->is_given() && !line.restart->is_given()) refuse_ranks("this command");
         if (line.run->is_given() && !line.sweep.empty()) {
             refuse_ranks("--sweep");
