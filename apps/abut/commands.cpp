@@ -66,7 +66,9 @@ const Program abut_program{.name = "abut",
 
 void add_scene_options(CommandParser& command, CommandLine& line) {
     command.path("scene", line.scene, "the scene, a TOML file").required().takes("FILE");
-    command.texts("--set", line.set, "a value in place of that of the file, bodies.left.density=2; may be repeated")
+    command
+        .texts("--set", line.set,
+               "a value in place of that of the file, bodies.left.density=2; may be repeated; by default none")
         .several()
         .takes("KEY=VALUE");
     add_preset_option(command, line.options, OptionDepth::expert);
@@ -76,7 +78,7 @@ void add_scene_options(CommandParser& command, CommandLine& line) {
     command.at("--out").by_default("out/SCENE");
     command
         .texts("--lab", line.laboratory,
-               "a key of [laboratory], which compares methods: --lab overlap=frozen; may be repeated")
+               "a key of [laboratory], which compares methods: --lab overlap=frozen; may be repeated; by default none")
         .several()
         .takes("KEY=VALUE")
         .group("Laboratory")
@@ -91,9 +93,9 @@ void add_commands(CommandParser& parser, CommandLine& line) {
     add_scene_options(*line.run, line);
     add_message_options(*line.run, line.messages);
     line.run
-        ->texts(
-            "--sweep", line.sweep,
-            "a run for each value, or combination of them, in a folder of its own, and sweep.csv for all; may be repeated")
+        ->texts("--sweep", line.sweep,
+                "a run for each value, or combination of them, in a folder of its own, and sweep.csv for all; may be "
+                "repeated; by default none")
         .several()
         .takes("KEY=A,B,...");
     line.check = &parser.add_command("check", "lists every error of a scene at once, or estimates the cost of its run");
