@@ -66,7 +66,9 @@ const Program abut_program{.name = "abut",
 
 void add_scene_options(CommandParser& command, CommandLine& line) {
     command.path("scene", line.scene, "the scene, a TOML file").required().takes("FILE");
-    command.texts("--set", line.set, "a value in place of that of the file, bodies.left.density=2; may be repeated")
+    command
+        .texts("--set", line.set,
+               "a value in place of that of the file, bodies.left.density=2; may be repeated; by default none")
         .several()
         .takes("KEY=VALUE");
     add_preset_option(command, line.options, OptionDepth::expert);
@@ -76,7 +78,7 @@ void add_scene_options(CommandParser& command, CommandLine& line) {
     command.at("--out").by_default("out/SCENE");
     command
         .texts("--lab", line.laboratory,
-               "a key of [laboratory], which compares methods: --lab overlap=frozen; may be repeated")
+               "a key of [laboratory], which compares methods: --lab overlap=frozen; may be repeated; by default none")
         .several()
         .takes("KEY=VALUE")
         .group("Laboratory")
@@ -91,9 +93,9 @@ void add_commands(CommandParser& parser, CommandLine& line) {
     add_scene_options(*line.run, line);
     add_message_options(*line.run, line.messages);
     line.run
-        ->texts(
-            "--sweep", line.sweep,
-            "a run for each value, or combination of them, in a folder of its own, and sweep.csv for all; may be repeated")
+        ->texts("--sweep", line.sweep,
+                "a run for each value, or combination of them, in a folder of its own, and sweep.csv for all; may be "
+                "repeated; by default none")
         .several()
         .takes("KEY=A,B,...");
     line.check = &parser.add_command("check", "lists every error of a scene at once, or estimates the cost of its run");
@@ -118,6 +120,13 @@ void add_commands(CommandParser& parser, CommandLine& line) {
     add_options(*line.detect, line.detection);
     add_asked(parser, line.asked);
     parser.explain_unknown(where_in_laboratory);
+}
+
+/// The file, or that with .toml behind it where this one alone is there.
+fs::path scene_file(const fs::path& given) {
+    fs::path with_ending = given;
+    with_ending += ".toml";
+    return !fs::exists(given) && fs::exists(with_ending) ? with_ending : given;
 }
 
 /// Drops an option of the scene where one on the command line excludes it.
@@ -245,6 +254,7 @@ int run_abut(int argc, char** argv) {
     const auto add_options = [&](CommandParser& parser) { add_commands(parser, line); };
     return run_program(program, argc, argv, add_options, [&] {
         program.messages = line.messages;
+        line.scene = scene_file(line.scene);
         if (!line.run->is_given() && !line.restart->is_given()) refuse_ranks("this command");
         if (line.run->is_given() && !line.sweep.empty()) {
             refuse_ranks("--sweep");

@@ -6,7 +6,7 @@
 namespace abut::apps {
 
 [[nodiscard]] inline std::string info_line(const std::string& name, const std::string& value) {
-    return fmt::format("  {:<18}{}\n", name, value);
+    return fmt::format("  {:<17} {}\n", name, value);
 }
 
 }  // namespace abut::apps

@@ -162,7 +162,7 @@ Json seconds_json(const DetectTimes& seconds) {
             {"writing", seconds.writing}};
 }
 
-void print_line(const std::string& name, const std::string& value) { say(fmt::format("  {:<44}{}\n", name, value)); }
+void print_line(const std::string& name, const std::string& value) { say(fmt::format("  {:<43} {}\n", name, value)); }
 
 /// The health of the files, and what was done about it.
 void print_inputs(const Bodies& bodies) {

@@ -100,7 +100,8 @@ std::string defaults_of_options() {
                     return py::object(py::cast(defaults.*member));
             },
             field.field);
-        text += (text.empty() ? "" : ", ") + std::string(field.name) + "=" + std::string(py::str(py::repr(value)));
+        if (!text.empty()) text += ", ";
+        text.append(field.name).append("=").append(std::string(py::str(py::repr(value))));
     }
     return text;
 }

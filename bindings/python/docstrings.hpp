@@ -811,9 +811,9 @@ Parameters
 inline constexpr const char* scene_parameters = R"(mesh : Mesh2D or Mesh3D
     Bodies.
 materials : list of Material
-    One per body.
+    One per body; simulate takes one for all of them, too.
 velocity : array of float, (n_bodies, dim)
-    Velocity of each body at the start [m/s].
+    Velocity of each body at the start [m/s]; simulate begins at rest without it.
 acceleration : array of float, (n_bodies, dim), optional
     Acceleration by gravity [m/s^2].
 held : dict of array of float, (dim,)

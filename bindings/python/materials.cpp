@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "abut/base/error.hpp"
+#include "abut/base/nearest_word.hpp"
 #include "abut/solid/material/known_materials.hpp"
 #include "abut/solid/material/material_numbers.hpp"
 #include "docstrings.hpp"
@@ -63,6 +64,14 @@ std::vector<solid::HardeningPoint> hardening_table(const py::handle& rows) {
     return table;
 }
 
+/// " Did you mean 'young'?"; empty: no value is called nearly so.
+std::string hint(const std::string& word) {
+    std::vector<std::string> known{"law", "hardening_table", "axis_1", "axis_2"};
+    for (const solid::MaterialNumber& number : solid::material_numbers) known.emplace_back(number.name);
+    const auto nearest = nearest_word(word, known);
+    return nearest ? " Did you mean '" + *nearest + "'?" : "";
+}
+
 solid::Material material_of(const std::optional<std::string>& name, const py::kwargs& values) {
     const solid::KnownMaterial* known = name ? &known_by(*name) : nullptr;
     solid::Material material = known ? known->material : solid::Material{};
@@ -80,7 +89,7 @@ solid::Material material_of(const std::optional<std::string>& name, const py::kw
         else if (number != solid::material_numbers.end())
             material.*(number->member) = material_value(*number, value);
         else
-            throw py::type_error("Material has no value '" + word + "'");
+            throw py::type_error("Material has no value '" + word + "'." + hint(word));
     }
     if (values.contains("yield_stress")) return material;
     if (!material.hardening_table.empty())

@@ -8,6 +8,7 @@
 #include <map>
 #include <utility>
 
+#include "abut/base/counted.hpp"
 #include "abut/mesh/io/read_mesh.hpp"
 #include "abut/mesh/io/write_vtu.hpp"
 #include "abut/mesh/mesh.hpp"
@@ -246,8 +247,8 @@ void add_mesh(py::module_& module, const char* name) {
             },
             "label"_a)
         .def("__repr__", [name](const Mesh<Dim>& mesh) {
-            return text_of("<abut.solid." + std::string(name) + " '" + mesh.name + "': " + std::to_string(mesh.n_cells()) +
-                           " cells, " + std::to_string(mesh.n_bodies()) + " bodies>");
+            return text_of("<abut.solid." + std::string(name) + " '" + mesh.name + "': " + counted(mesh.n_cells(), "cell") +
+                           ", " + counted(mesh.n_bodies(), "body") + ">");
         });
     module.def(
         "combine",

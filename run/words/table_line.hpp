@@ -7,7 +7,7 @@
 namespace abut::run {
 
 [[nodiscard]] inline std::string table_line(const std::string& name, const std::string& value) {
-    return fmt::format("  {:<40}{}\n", name, value);
+    return fmt::format("  {:<39} {}\n", name, value);
 }
 
 }  // namespace abut::run

@@ -130,6 +130,16 @@ class Meshes(unittest.TestCase):
 
 
 class Runs(unittest.TestCase):
+    def test_one_material_is_that_of_all_bodies_and_without_velocities_they_begin_at_rest(self):
+        bodies = solid.combine([solid.structured_box(lower=(2.0 * i, 0), upper=(2.0 * i + 1, 1), counts=(2, 2)) for i in range(2)])
+        stuff = solid.Material(young=1e6, density=1000)
+        short, long = (solid.simulate(bodies, *given, acceleration=[(0, -10), (0, -10)], time=0.01, frames=0)
+                       for given in ((stuff,), ([stuff, stuff], np.zeros((2, 2)))))
+        np.testing.assert_array_equal(short["displacement"], long["displacement"])
+        self.assertIn("4 cells, 1 body>", repr(solid.structured_box(lower=(0, 0), upper=(1, 1), counts=(2, 2))))
+        with self.assertRaisesRegex(TypeError, "has no value 'yung'. Did you mean 'young'?"):
+            solid.Material(yung=1)
+
     def test_a_thrown_body_follows_a_parabola(self):
         for mesh, v, g in ((solid.disc(size=0.4), (1.0, 2.0), (0.0, -10.0)),
                            (solid.sphere(size=0.6), (1.0, 2.0, 0.5), (0.0, -10.0, 1.0))):

@@ -142,6 +142,15 @@ TEST_CASE("a sweep runs all combinations, and its table says what became of each
     CHECK(has(wrong("--sweep run.cfl=0.5 --sweep run.cfl=0.4").error, "given twice"));
 }
 
+TEST_CASE("a scene is found without its ending", "[programs][abut]") {
+    const Folder folder("abut_without_ending");
+    const std::string name = (folder.path() / "ball").string();
+    REQUIRE(run_program("abut", fmt::format("new '{}'", name), "").exit_code == 0);
+    const auto outcome = run_program("abut", fmt::format("check '{}'", name), "");
+    CHECK(outcome.exit_code == 0);
+    CHECK(has(outcome.out, "ball.toml: no fault found"));
+}
+
 TEST_CASE("abut new writes a scene that has no fault and runs, and no file twice", "[programs][abut]") {
     const Folder folder("abut_new");
     const auto file = folder.path() / "mine.toml";

@@ -397,7 +397,7 @@ TEST_CASE("a run says how much has left, and warns above a hundredth", "[run][er
     const bool warned = std::ranges::any_of(warnings, [](const auto& w) { return w.kind == run::WarningKind::erosion; });
     CHECK(warned == (n == 3));  // of 120 cells that fly alike
     CHECK_THAT(run::closing_table("test", scene, result),
-               Catch::Contains(n == 3 ? "3 cells, 2.5 % of the mass, 2.5 % of the energy" : "1 cells, 0.833 % of the mass"));
+               Catch::Contains(n == 3 ? "3 cells, 2.5 % of the mass, 2.5 % of the energy" : "1 cell, 0.833 % of the mass"));
     CHECK_THAT(run::summary_json("test", scene, result), Catch::Contains("\"mass_share\": 0.0"));
 }
 

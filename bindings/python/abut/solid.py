@@ -1,11 +1,13 @@
 """Meshes, solids of linear elasticity in contact, and their runs. docs/languages.md walks through it."""
+import re
+
 import numpy as np
 
 from . import _scenes, _show
 
 _solid = _scenes.built_solid()  # says what is missing where this is contact alone
 from ._solid import (Material, Memm2D, Memm3D, Mesh2D, Mesh3D, State2D, State3D, box, combine, cylinder, disc, known_materials, memm,
-                     read_mesh, simulate, sphere, structured_box)
+                     read_mesh, sphere, structured_box)
 
 __all__ = ["Material", "Memm2D", "Memm3D", "Mesh2D", "Mesh3D", "State2D", "State3D", "box", "combine", "cylinder", "disc",
            "known_materials", "memm", "mesh", "read_mesh", "simulate", "sphere", "structured_box"]
@@ -66,6 +68,22 @@ def mesh(points, cells=None, body=None, body_names=(), groups=None, **options):
         points = of_meshio.pop("points")
         given = {**of_meshio, **{name: value for name, value in given.items() if value is not None and len(value)}}
     return _solid.mesh(points, **given, **options)
+
+
+def simulate(mesh, materials, velocity=None, *, acceleration=None, held={}, rollers=(), traction={}, temperature_rise={}, displacement=None,
+             added_velocity=None, contact=True, energy_scale=None, look=None, **kwargs):
+    n_bodies, dim = len(mesh.body_names), mesh.points.shape[1]
+    if isinstance(materials, Material):
+        materials = [materials] * n_bodies
+    if velocity is None:
+        velocity = np.zeros((n_bodies, dim))
+    return _solid.simulate(mesh, list(materials), velocity, acceleration=acceleration, held=held, rollers=list(rollers), traction=traction,
+                           temperature_rise=temperature_rise, displacement=displacement, added_velocity=added_velocity, contact=contact,
+                           energy_scale=energy_scale, look=look, **kwargs)
+
+
+# Without the signatures that stand in front of it: of both dimensions there is one text.
+simulate.__doc__ = re.split(r"^\d+\. simulate\(.*$", _solid.simulate.__doc__, flags=re.M)[1].strip() + "\n"
 
 
 def _reduced(mesh):

@@ -163,7 +163,7 @@ def disc(centre: Sequence[float] = ..., radius: float = ..., size: float = ..., 
 def cylinder(centre: Sequence[float] = ..., radius: float = ..., length: float = ..., size: float = ..., variant: int = ...,
              name: str = ...) -> Mesh3D: ...
 def sphere(centre: Sequence[float] = ..., radius: float = ..., size: float = ..., variant: int = ..., name: str = ...) -> Mesh3D: ...
-def simulate(mesh: Union[Mesh2D, Mesh3D], materials: Sequence[Material], velocity: ArrayLike, *,
+def simulate(mesh: Union[Mesh2D, Mesh3D], materials: Union[Material, Sequence[Material]], velocity: Optional[ArrayLike] = ..., *,
              acceleration: Optional[ArrayLike] = ..., held: Mapping[str, ArrayLike] = ..., rollers: Sequence[str] = ...,
              traction: Mapping[str, ArrayLike] = ..., temperature_rise: Mapping[str, _Rise] = ..., displacement: _Field = ...,
              added_velocity: _Field = ..., contact: bool = ..., energy_scale: Optional[float] = ...,
