@@ -263,6 +263,13 @@ std::vector<Warning> warnings_after(const RunResult<Dim>& result) {
                         "is left depends on the size of cells there. Take smaller cells where they leave, or a higher limit "
                         "(erosion)",
                         shares.mass, shares.energy, large_eroded_share));
+    if (const double share = std::abs(loss.at_splits) / result.accounts.energy_in_play; share > large_split_share)
+        add(WarningKind::splits, share, large_split_share,
+            fmt::format(
+                "fragments that came apart or turned against each other changed V by {:.2g} of the energy in play as "
+                "they took frames of their own, {:g} is safe: strains are linear in a frame. Take larger grains, or "
+                "finite kinematics",
+                share, large_split_share));
     add_sightings(counts, result);
     counts.add(WarningKind::missed_contacts, Severity::warning, contact.missed_contacts,
                fmt::format("{} missed, 0 are allowed: the energy is not exact",

