@@ -23,6 +23,7 @@
 #include "abut/solid/kinematics/properties.hpp"
 #include "abut/solid/outside_faces.hpp"
 #include "abut/solid/outside_view.hpp"
+#include "abut/solid/step_of_breaking.hpp"
 #include "arguments.hpp"
 
 namespace abut::c_layer {
@@ -223,7 +224,7 @@ void SolidRun<Dim>::begin(const abut_solid_options& given) {
     solid::SolidOptions<Dim> options = options_of(given);
     if (options.contact) mesh::check_apart(mesh_, "", options.contact->search.broad_phase);
     auto solid = std::make_unique<solid::Solid<Dim>>(mesh_, std::move(options));
-    stable_dt_ = dynamics::stable_step(*solid).dt;
+    stable_dt_ = solid::step_of_breaking(*solid).dt;
     const double dt = given.dt > 0.0 ? given.dt : (given.cfl > 0.0 ? given.cfl : dynamics::StepOptions{}.cfl) * stable_dt_;
     require_stable(dt, stable_dt_, "abut_solid_options.dt");
     const bool rubs = given.contact != 0 && given.friction > 0.0;

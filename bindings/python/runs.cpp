@@ -25,6 +25,7 @@
 #include "abut/solid/contact_view.hpp"
 #include "abut/solid/options/option_words.hpp"
 #include "abut/solid/outside_view.hpp"
+#include "abut/solid/step_of_breaking.hpp"
 #include "abut/solid/stepped_run.hpp"
 #include "docstrings.hpp"
 #include "in_use.hpp"
@@ -171,7 +172,7 @@ class Memm {
 public:
     Memm(run::Scene<Dim> scene, const run::RunOptions& given) : scene_(std::move(scene)), options_(checked(scene_, given)) {
         auto solid = std::make_unique<solid::Solid<Dim>>(scene_.mesh, run::solid_options(scene_, options_));
-        stable_dt_ = dynamics::stable_step(*solid).dt;
+        stable_dt_ = solid::step_of_breaking(*solid).dt;
         std::vector<double> q = run::displacement_at_start(scene_, *solid);
         const std::vector<double> p = run::momentum_at_start(scene_, *solid);
         run_.emplace(std::move(solid), std::move(q), p, run::choose_step(options_, stable_dt_),
@@ -243,7 +244,7 @@ public:
             auto next = std::make_unique<mesh::Mesh<Dim>>(std::move(mesh));
             left = run_->change(std::make_unique<solid::Solid<Dim>>(*next, run_->solid().options()), old_cells);
             mesh_ = std::move(next);
-            stable_dt_ = dynamics::stable_step(run_->solid()).dt;
+            stable_dt_ = solid::step_of_breaking(run_->solid()).dt;
         }
         return py::dict("cells"_a = left.cells, "mass"_a = left.mass,
                         "momentum"_a = py::array_t<double>(py::ssize_t{Dim}, left.momentum.data()),

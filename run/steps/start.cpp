@@ -23,6 +23,7 @@
 #include "abut/solid/kinematics/properties.hpp"
 #include "abut/solid/local_steps.hpp"
 #include "abut/solid/options/made_features.hpp"
+#include "abut/solid/step_of_breaking.hpp"
 
 namespace abut::run {
 namespace {
@@ -105,7 +106,7 @@ Start<Dim>::Start(const Scene<Dim>& of, const RunOptions& given, std::optional<P
     solid = std::make_unique<solid::Solid<Dim>>(share.part, chosen, share.ranks);
     result.pilot = std::move(pilot);
     if (!share.ranks.is_one()) on_first(share.ranks, [&] { whole.emplace(scene.mesh, run::solid_options(scene, options)); });
-    result.stable = dynamics::stable_step(*solid);
+    result.stable = solid::step_of_breaking(*solid);
     result.finest_dt = result.dt = choose_step(options, result.stable.dt);
     if (options.integrator == SolidIntegrator::memm_async) set_local_steps();
     result.steps = choose_steps(options, scene.time, result.dt);
