@@ -147,7 +147,13 @@ void Solid<Dim>::unite_frames() {
 template <int Dim>
 void Solid<Dim>::meet_other_ranks() {
     check_rows_of_ranks(*part_, bodies_->deformable(), ccg_);
-    part_->fill_only(ccg_.compute_only(part_->own_cells()));
+    std::vector<std::int32_t> cells = ccg_.compute_only(part_->own_cells());
+    for (const BoundaryFace face : part_->own_faces()) {  // what bonds ask of them: rows have cells of no weight, too
+        const auto of_row = ccg_.cells_of(face);
+        cells.insert(cells.end(), of_row.begin(), of_row.end());
+    }
+    sort_unique(cells);
+    part_->fill_only(cells);
     ccg_.watch_only(part_->own_faces());
 }
 

@@ -47,7 +47,7 @@ TEST_CASE("every scene of the project has no fault, starts, and keeps its pseudo
         file.dimension() == 2 ? run_some_steps<2>(file) : run_some_steps<3>(file);
         ++n;
     }
-    CHECK(n == 55);
+    CHECK(n == 57);
 }
 
 TEST_CASE("a bar of grains breaks half a pulse from its free end, and the piece flies off with the momentum of the striker",

@@ -1,4 +1,5 @@
 // Scenes of the project whose bodies break.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstdint>
@@ -92,6 +93,33 @@ TEST_CASE("a plate spalls as deep as its striker is thick, and the piece has the
     CHECK(result.fragments[1].mass == Approx(thickness * width * width).epsilon(1e-12));
     CHECK(result.fragments[1].velocity[0] == Approx(of_piece).epsilon(0.04));
     CHECK(result.ledger.momentum_drift() <= 1e-13 * speed * thickness * width * width);
+}
+
+TEST_CASE(
+    "a ball that goes through a plate keeps a speed between those of one that takes its plug along and throws it ahead",
+    "[input][scenes][fracture]") {
+    const double speed = 20.0, plug = 0.1 * 0.03 * 2400.0;  // as wide as the ball
+    const input::SceneFile file = scene_file("pierced_plate");
+    const run::Scene<2> scene = file.scene<2>();
+    const auto result = run::simulate<2>(scene, file.options());
+    check_balance(result, 1.2 * 0.03 * 2400.0);
+    const auto ball = std::ranges::find(scene.mesh.body_names, "ball") - scene.mesh.body_names.begin();
+    const auto& end = result.end[static_cast<std::size_t>(ball)];
+    CHECK(end.velocity[0] < speed * end.mass / (end.mass + plug));
+    CHECK(end.velocity[0] > speed * (end.mass - plug) / (end.mass + plug));
+    CHECK(result.ledger.momentum_drift() <= 1e-13 * speed * end.mass);
+}
+
+TEST_CASE("a disc that shatters on a floor keeps its energy with what breaks, rubs and falls",
+          "[input][scenes][fracture][long]") {
+    const auto result = result_of<2>("shattered_disc");
+    const double radius = 0.1;
+    double mass = 0.0;
+    for (const auto& fragment : result.fragments) mass += fragment.mass;
+    check_balance(result, mass);
+    CHECK(mass == Approx(std::numbers::pi * radius * radius * 2500.0).epsilon(0.01));  // its rim is a polygon
+    CHECK(result.fragments.size() >= 20);
+    CHECK(result.dissipated.by_friction > 0.0);
 }
 
 TEST_CASE("a wall whose mortar breaks is bitwise the same on one thread, and after a start from its state",

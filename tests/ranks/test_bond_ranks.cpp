@@ -120,6 +120,23 @@ TEMPLATE_TEST_CASE_SIG("a body that breaks into fragments has the bits of one ra
     CHECK(report.active_pairs_max > 0);  // which it is only where a bond is broken
 }
 
+TEST_CASE("a round body in grains has the bits of one rank, also where a bonded face rests on a cell that no force needs",
+          "[ranks][solid][bonds][fracture]") {
+    const ranks::Communicator all = test::world();
+    const auto whole = mesh::disc({.radius = 0.5, .size = 0.05});  // on two ranks there is such a face
+    const auto grains = mesh::grains_of<2>(whole, {.size = 0.2});
+    std::vector<std::string> names;
+    for (std::int32_t i = 0; i <= *std::ranges::max_element(grains); ++i) names.push_back(std::to_string(i));
+    const auto mesh = mesh::split_body<2>(whole, grains, names);
+    solid::SolidOptions<2> options;
+    options.materials.assign(names.size(), {.young = 1.0, .poisson = 0.25, .density = 1.0});
+    options.kinematics.assign(names.size(), solid::Kinematics::floating);
+    for (const auto& sides : mesh.report.joined_bodies)
+        options.bonds.push_back({.sides = sides, .strength = 0.01, .of_grains = true});
+    const std::vector<Vector<2>> velocity(names.size(), Vector<2>::Zero());
+    check_same_bits<2>(all, mesh, options, velocity, 20, parts(all, mesh), {.waves = 0.002, .spin = 0.1});
+}
+
 TEMPLATE_TEST_CASE_SIG("several materials in one body have the bits of one rank, with the filter and neutral restarts",
                        "[ranks][solid][bonds][pieces]", ((int Dim), Dim), 2, 3) {
     const ranks::Communicator all = test::world();

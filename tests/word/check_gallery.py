@@ -16,7 +16,7 @@ from abut_runs import Claims, Run, main, require, scenes_that_warn  # noqa: E402
 
 SLOW = {"bimetal_strip", "broken_beam", "cattaneo_mindlin", "cattaneo_mindlin_3d", "circling_table", "crushed_lattice",
         "expanding_ring", "folded_plate", "hertz", "oblique_balls", "press_fit", "pressed_spring", "resting_pile", "rolled_sheet",
-        "rolling_ball", "rolling_disc", "skidding_ball", "slipping_cylinders_3d", "spalling_plate", "taylor_bar"}
+        "rolling_ball", "rolling_disc", "shattered_disc", "skidding_ball", "slipping_cylinders_3d", "spalling_plate", "taylor_bar"}
 WARN = scenes_that_warn()
 claim = Claims()
 
