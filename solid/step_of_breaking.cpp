@@ -1,8 +1,6 @@
 #include "abut/solid/step_of_breaking.hpp"
 
-#include <cmath>
-#include <utility>
-
+#include "abut/solid/bond_view.hpp"
 #include "abut/solid/solid.hpp"
 
 namespace abut::solid {
@@ -10,10 +8,10 @@ namespace abut::solid {
 template <int Dim>
 dynamics::StableStep step_of_breaking(Solid<Dim>& solid) {
     const dynamics::StableStep together = dynamics::stable_step(solid);
-    SolidOptions<Dim> options = solid.options();
-    if (std::erase_if(options.bonds, [](const Bond& bond) { return std::isfinite(bond.strength); }) == 0) return together;
-    Solid<Dim> apart(solid.mesh(), std::move(options), solid.ranks());
-    const dynamics::StableStep of_parts = dynamics::stable_step(apart);
+    if (!solid.bonds().may_break()) return together;
+    Solid<Dim> broken(solid.mesh(), solid.options(), solid.ranks());
+    broken.break_bonds();
+    const dynamics::StableStep of_parts = dynamics::stable_step(broken);
     return of_parts.dt < together.dt ? of_parts : together;
 }
 

@@ -474,6 +474,13 @@ void Bonds<Dim>::restore(StateReader& state) {
     for (std::size_t p = 0; p < places_.size(); ++p) places_[p].strength = strengths[p];  // drawn once
 }
 
+template <int Dim>
+void Bonds<Dim>::break_all() {
+    for (std::size_t p = 0; p < places_.size(); ++p)
+        if (std::isfinite(places_[p].strength)) share_[p] = 0.0;
+    make_springs();
+}
+
 template class Bonds<2>;
 template class Bonds<3>;
 

@@ -115,6 +115,8 @@ public:
     /// the last `stand_at` they have the energy that half cells had. A call of all ranks.
     void loosen(std::span<const std::size_t> bonds);
 
+    /// All places with a strength are broken, and nothing is booked. A call of all ranks.
+    void break_all();
     void save(StateWriter& state) const;
     void restore(StateReader& state);
     /// `old_boundary`: of each boundary face of the mesh its index in that of `before`, -1: it was not there. Throws
