@@ -284,8 +284,8 @@ public:
     BoxesOfSides(const mesh::Mesh<Dim>& mesh, std::size_t n_obstacles)
         : mesh_(mesh), n_bodies_and_obstacles_(mesh.n_bodies() + static_cast<std::int32_t>(n_obstacles)) {}
 
-    /// Whether the boxes are side by side: apart or in each other by at most a tenth of the smallest face along one axis,
-    /// and not beside each other along any other, as bricks are that touch with more than an edge.
+    /// Whether the boxes touch with more than an edge: along at most one axis they are apart, or in each other, by no more
+    /// than a tenth of the smallest face, and along all others they overlap by more.
     [[nodiscard]] bool are_side_by_side(std::int32_t first, std::int32_t second) {
         const Side &a = of(first), &b = of(second);
         const double near = largest_gap * std::min(a.face_size, b.face_size);

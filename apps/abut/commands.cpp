@@ -126,7 +126,9 @@ void add_commands(CommandParser& parser, CommandLine& line) {
 fs::path scene_file(const fs::path& given) {
     fs::path with_ending = given;
     with_ending += ".toml";
-    return !fs::exists(given) && fs::exists(with_ending) ? with_ending : given;
+    std::error_code unknown;
+    const bool is_there = fs::exists(given, unknown) && !fs::is_directory(given, unknown);
+    return !is_there && fs::is_regular_file(with_ending, unknown) ? with_ending : given;
 }
 
 /// Drops an option of the scene where one on the command line excludes it.

@@ -56,7 +56,8 @@ ABUT_API int abut_solid_bond(abut_solid* solid, const char* side_1, const char* 
 
 /* A body that may break is cut into grains when this is called: bodies "<body>.1", "<body>.2", ..., which are bonded with each other
    where they have faces in common (docs/method.md, Break-up). "<body>" still names all of them together, in the functions below, and its
-   groups of faces stay. It is the only body of its box or file, its kinematics are "floating" or "finite", and contact acts. */
+   groups of faces stay: a bond to it names one of these, or a piece. It is the only body of its box or file, its kinematics are
+   "floating" or "finite", and contact acts. */
 typedef struct abut_fracture {
     size_t struct_size;
     double grain;           /* size of the pieces: edge of a square or cube as large [m]. Cracks follow their faces */

@@ -106,6 +106,10 @@ void SolidRun<Dim>::add(mesh::Mesh<Dim> mesh, const abut_material& material, con
 template <int Dim>
 void SolidRun<Dim>::set_fracture(const std::string& body, const abut_fracture& fracture) {
     check(fracture);
+    const auto has_it = [&](const auto& mesh) { return std::ranges::count(mesh.body_names, body) > 0; };
+    if (std::ranges::count_if(meshes_, has_it) + std::ranges::count(fractures_, body, &Fracture::body) > 1)
+        throw BadInput("abut_solid_set_fracture: several bodies are called '" + body +
+                       "', and their pieces could not be told apart. Give them different names.");
     std::size_t first = 0, at = 0;  // bodies before those of the mesh
     while (at < meshes_.size() && meshes_[at].body_names != std::vector{body})
         first += static_cast<std::size_t>(meshes_[at++].n_bodies());

@@ -1,14 +1,12 @@
 #include "abut/contact/engine/saved_contact.hpp"
 
 #include <string>
-#include <type_traits>
 #include <utility>
 
 #include "abut/base/error.hpp"
 #include "abut/base/ids.hpp"
 #include "abut/base/state_bytes.hpp"
 #include "abut/base/state_fields.hpp"
-#include "abut/contact/engine/report_counters.hpp"
 
 namespace abut::contact {
 namespace {

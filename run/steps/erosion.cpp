@@ -7,11 +7,11 @@
 #include <utility>
 
 #include "abut/base/error.hpp"
-#include "abut/dynamics/stable_step.hpp"
 #include "abut/mesh/without_cells.hpp"
 #include "abut/run/result.hpp"
 #include "abut/run/scene.hpp"
 #include "abut/run/watch/step_figures.hpp"
+#include "abut/solid/step_of_breaking.hpp"
 
 namespace abut::run {
 namespace {
@@ -126,7 +126,7 @@ template <int Dim>
 void Erosion<Dim>::require_stable(solid::Solid<Dim>& solid) {
     const double worst = worst_weight_of(solid);
     if (worst >= worst_weight_) return;
-    const double dt = start_.options.allow_unstable ? start_.result.dt : dynamics::stable_step(solid).dt;
+    const double dt = start_.options.allow_unstable ? start_.result.dt : solid::step_of_breaking(solid).dt;
     if (start_.result.dt > dt)
         throw LimitExceeded(
             fmt::format("erosion: the stable step of what is left is {:.4g} s, and the run takes {:.4g} s. Take a cfl of "

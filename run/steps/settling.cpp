@@ -26,7 +26,7 @@ constexpr double cfl = 0.9;  // of the steps to rest
 constexpr double settled =
     1e-11;  // of the largest peak of the kinetic energy; a rigid body that rocks on a plane stays above 1e-12
 constexpr std::int64_t window = 500;  // steps: where peaks do not fall by a tenth from one to the next, no more is to be had
-constexpr int most_standstills = 10;  // such windows: a vibration turns over from rest to rest
+constexpr int most_standstills = 10;  // such windows in all: from there on rests are a step later in turn
 constexpr std::int64_t most_rise = 20'000;  // steps without a peak: the bodies fall or slide
 constexpr std::int64_t most_steps = 200'000;
 constexpr std::int64_t between_looks = 50;  // steps
@@ -71,7 +71,7 @@ public:
         if (!falls) ++standstills_;
         return are_settled() && (!falls || step > most_steps);
     }
-    /// Whether peaks have not fallen in several windows.
+    /// Whether that many windows in all had peaks that did not fall.
     [[nodiscard]] bool stand_still() const { return standstills_ >= most_standstills; }
     /// Whether the last window had low ones alone.
     [[nodiscard]] bool are_settled() const { return in_window_before_ <= settled * largest_; }
@@ -326,7 +326,8 @@ void require_holds(const Scene<Dim>& scene, solid::Solid<Dim>& solid, std::span<
     }
 }
 
-/// Whether no body has gone far in the most steps that a peak may take: what loads that balance nearly leave would turn it.
+/// Whether no body goes farther than `balanced_path` of its radius in the most steps that a peak may take: loads that nearly
+/// balance move it no more.
 template <int Dim>
 bool creep(const solid::Solid<Dim>& solid, const dynamics::Memm<solid::Solid<Dim>>& motion, double dt) {
     const std::vector<double> of_body = speeds(solid, motion.p_after());
