@@ -12,6 +12,7 @@
 #include "abut/input/scene_file.hpp"
 #include "abut/run/observer.hpp"
 #include "abut/run/steps/simulation.hpp"
+#include "support/keep.hpp"
 
 namespace {
 
@@ -29,7 +30,7 @@ run::RunResult<Dim> result_of(const std::string& name) {
     return run::simulate<Dim>(file.scene<Dim>(), file.options());
 }
 
-/// What every run with break-up keeps: pseudo-energy with what is dissipated and done from outside, contacts, and mass.
+/// Every run with break-up keeps this: pseudo-energy with what is dissipated and done from outside, contacts, and mass.
 template <int Dim>
 void check_balance(const run::RunResult<Dim>& result, double mass) {
     CHECK(result.ledger.pseudo_energy_drift() <= 1e-12 * result.ledger.largest_energy());
@@ -39,21 +40,6 @@ void check_balance(const run::RunResult<Dim>& result, double mass) {
     for (const auto& fragment : result.fragments) of_fragments += fragment.mass;
     CHECK(of_fragments == Approx(mass).epsilon(1e-11));  // meshes in files have twelve digits
 }
-
-/// Keeps the state of a run after a step.
-template <int Dim>
-class Keep : public run::Observer<Dim> {
-public:
-    explicit Keep(std::int64_t step) : step_(step) {}
-    [[nodiscard]] bool wants_look(std::int64_t) const override { return false; }
-    [[nodiscard]] bool wants_checkpoint(std::int64_t step, bool) const override { return step == step_; }
-    void keep(const run::Checkpoint& checkpoint) override { kept = checkpoint; }
-
-    std::optional<run::Checkpoint> kept;
-
-private:
-    std::int64_t step_;
-};
 
 }  // namespace
 
@@ -139,7 +125,7 @@ TEST_CASE("a wall whose mortar breaks is bitwise the same on one thread, and aft
         for (std::size_t i = 0; i < whole.fragments.size(); ++i)
             CHECK(other.fragments[i].velocity == whole.fragments[i].velocity);
     };
-    Keep<2> keep(whole.steps / 2);
+    test::Keep<2> keep(whole.steps / 2);
     options.threads = 1;
     check_same(run::simulate<2>(scene, options, keep));
     REQUIRE(keep.kept);

@@ -31,7 +31,7 @@ void on_first(const ranks::Communicator& all, Do&& what) {
     all.agree(error);
 }
 
-/// What the first rank computes, a vector of plain values, on all of them; it throws nothing.
+/// A vector of plain values that the first rank computes, on all of them; `compute` throws nothing.
 template <class Values, class Compute>
 [[nodiscard]] Values of_first(const ranks::Communicator& all, Compute&& compute) {
     Values values;

@@ -16,6 +16,7 @@
 #include "abut/run/words/warnings.hpp"
 #include "abut/solid/cell_view.hpp"
 #include "run/folder.hpp"
+#include "support/keep.hpp"
 
 namespace {
 
@@ -109,21 +110,6 @@ void check_balance(const run::RunResult<Dim>& result) {
     CHECK(result.accounts.momentum_drift <= 1e-13 * momentum);
     CHECK(result.contact.missed_contacts == 0);
 }
-
-/// Keeps the checkpoint of a step.
-template <int Dim>
-class Keep : public run::Observer<Dim> {
-public:
-    explicit Keep(std::int64_t step) : step_(step) {}
-    [[nodiscard]] bool wants_look(std::int64_t) const override { return false; }
-    [[nodiscard]] bool wants_checkpoint(std::int64_t step, bool) const override { return step == step_; }
-    void keep(const run::Checkpoint& checkpoint) override { kept = checkpoint; }
-
-    std::optional<run::Checkpoint> kept;
-
-private:
-    std::int64_t step_;
-};
 
 /// Asks to stop after some step.
 class StopAtStep : public run::Observer<2> {
@@ -269,7 +255,7 @@ TEMPLATE_TEST_CASE_SIG("a run that goes on after cells have left is bitwise that
     const run::RunResult<Dim> whole = run::simulate<Dim>(scene, options, nobody);
     const auto& cells = whole.erosion.cells;
     REQUIRE(cells.front().step < cells.back().step);
-    Keep<Dim> keep((cells.front().step + cells.back().step) / 2);
+    test::Keep<Dim> keep((cells.front().step + cells.back().step) / 2);
     static_cast<void>(run::simulate<Dim>(scene, options, keep));
     REQUIRE(keep.kept);
     const run::RunResult<Dim> rest = run::simulate<Dim>(scene, options, nobody, &*keep.kept);
