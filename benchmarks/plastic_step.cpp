@@ -37,7 +37,7 @@ constexpr double yield = 1e-3;
 
 solid::Material material_of(solid::MaterialLaw law) {
     solid::Material material{.young = 1.0, .poisson = 0.3, .density = 1.0, .law = law};
-    if (law == solid::MaterialLaw::j2) material.yield_stress = yield;
+    if (law == solid::MaterialLaw::j2) material.flow.yield_stress = yield;
     return material;
 }
 

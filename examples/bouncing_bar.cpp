@@ -50,10 +50,10 @@ int main() {
 
     const double speed = std::sqrt(2.0 * gravity * height), wave_speed = std::sqrt(young / density);
     const double exact = 2.0 * density * length * (speed + gravity * length / wave_speed);
-    const double drift = result.ledger.pseudo_energy_drift() / result.scale.value;
+    const double drift = result.ledger.pseudo_energy_drift() / result.energy.scale.value;
     std::printf("first contact    %8.4f s         %8.4f\n", begin, speed / gravity);
     std::printf("impulse          %8.3f N s/m^2   %8.3f\n", impulse, exact);
     std::printf("drift of H~ / H0 %8.1e           round-off\n", drift);
-    const bool good = std::abs(begin - speed / gravity) < 2.0 * result.dt && std::abs(impulse - exact) < 0.01 * exact;
+    const bool good = std::abs(begin - speed / gravity) < 2.0 * result.run.dt && std::abs(impulse - exact) < 0.01 * exact;
     return good && drift < 1e-11 ? 0 : 1;
 }

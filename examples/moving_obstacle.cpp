@@ -41,7 +41,7 @@ int main() {
     const auto& first = result.ledger.entries().front();
     const auto& last = result.ledger.entries().back();
     const double gained = last.pseudo_energy - first.pseudo_energy, exact = 2.0 * mass * speed * speed;
-    const double left = result.end[0].velocity.x();
+    const double left = result.bodies.end[0].velocity.x();
     std::printf("work of the wall   %.12f J/m   %.4f\n", last.work, exact);
     std::printf("energy gained, H~  %.12f J/m   the same to round-off\n", gained);
     std::printf("speed of the block %.6f m/s        %.4f\n", left, 2.0 * speed);

@@ -72,7 +72,7 @@ int main() {
     const double foot = scene.mesh.face_measure[scene.mesh.group("foot").faces.front()] * nx;
     const Vector<2> exact = centre.time * velocity + 0.5 * centre.time * centre.time * gravity;
     std::printf("%d cells of '%s', %d steps of %.3g s\n", scene.mesh.n_cells(), scene.mesh.body_names.front().c_str(),
-                static_cast<int>(result.steps), result.dt);
+                static_cast<int>(result.run.steps), result.run.dt);
     std::printf("length of 'foot' %.6f m          %.6f\n", foot, width);
     std::printf("mass             %.6f kg/m      %.6f\n", centre.mass, 2.0 * width * height);
     std::printf("centre moved by  (%.9f, %.9f) m   (%.9f, %.9f)\n", centre.displacement.x(), centre.displacement.y(),

@@ -40,18 +40,20 @@ int main() {
         std::printf("warning: %s\n", warning.text.c_str());
 
     const dynamics::Ledger<2>& ledger = result.ledger;
-    const double drift = ledger.pseudo_energy_drift() / result.scale.value;
-    const double momentum = ledger.momentum_drift() / (result.start[0].mass * speed);
+    const double drift = ledger.pseudo_energy_drift() / result.energy.scale.value;
+    const double momentum = ledger.momentum_drift() / (result.bodies.start[0].mass * speed);
     std::printf("%d cells, %lld steps of %.3g s, %lld contact events\n", scene.mesh.n_cells(),
-                static_cast<long long>(result.steps), result.dt, static_cast<long long>(result.contact.events));
+                static_cast<long long>(result.run.steps), result.run.dt,
+                static_cast<long long>(result.contact.report.events));
     std::printf("drift of H~ / K0        %8.1e   round-off\n", drift);
     std::printf("drift of momentum / m v %8.1e   round-off\n", momentum);
-    std::printf("max (H - H~) / K0       %8.1e   what H~ does not see\n", ledger.energy_excess() / result.scale.value);
+    std::printf("max (H - H~) / K0       %8.1e   what H~ does not see\n",
+                ledger.energy_excess() / result.energy.scale.value);
 
     const Vector<2> expected(-0.0278, -0.0394);  // of the left disc
     bool good = drift < 1e-12 && momentum < 1e-12;
     for (std::size_t body = 0; body < 2; ++body) {
-        const Vector<2> v = result.end[body].velocity, w = body == 0 ? expected : Vector<2>(-expected);
+        const Vector<2> v = result.bodies.end[body].velocity, w = body == 0 ? expected : Vector<2>(-expected);
         std::printf("speed of %-5s (%.4f, %.4f) m/s   (%.4f, %.4f)\n", scene.mesh.body_names[body].c_str(), v.x(), v.y(),
                     w.x(), w.y());
         good = good && (v - w).norm() < 0.03 * speed;

@@ -125,7 +125,7 @@ Keys<Section> material_values() {
     using From = Make<Section>;
     Keys<Section> keys;
     for (const solid::MaterialNumber& number : solid::material_numbers) {
-        const auto value = [member = number.member](Section& section) -> double& { return section.material.*member; };
+        const auto value = [in = number.at.in](Section& section) -> double& { return in(section.material); };
         Key<Section> key = From::number(number.name, value, number.limits, number.help);
         keys.push_back(number.required ? required(std::move(key)) : std::move(key));
     }
@@ -142,21 +142,22 @@ Keys<Section> material_values() {
                     "hardening_table", "list of [plastic strain, stress]",
                     "of j2, in the place of yield_stress and of what rises: where it flows after a plastic strain, from 0 "
                     "on, straight between rows and constant behind the last [Pa]",
-                    [](Section& section) -> std::vector<solid::HardeningPoint>& { return section.material.hardening_table; },
+                    [](Section& section) -> std::vector<solid::HardeningPoint>& { return section.material.flow.table; },
                     read_hardening));
     const auto behind_angle = std::ranges::find(keys, std::string("axis_angle"), &Key<Section>::name) + 1;
-    const auto axis = [](const char* name, std::array<double, 3> solid::Material::*member, const char* by_default,
+    const auto axis = [](const char* name, std::array<double, 3> solid::Orthotropy::*member, const char* by_default,
                          const char* help) {
         Key<Section> key = key_of<Section>(
             name, "list of 3 numbers", help,
-            [member](Section& section) -> std::array<double, 3>& { return section.material.*member; }, read_axis);
+            [member](Section& section) -> std::array<double, 3>& { return section.material.orthotropic.*member; },
+            read_axis);
         key.by_default = by_default;
         return key;
     };
     keys.insert(behind_angle,
-                {axis("axis_1", &solid::Material::axis_1, "[1, 0, 0]",
+                {axis("axis_1", &solid::Orthotropy::axis_1, "[1, 0, 0]",
                       "of orthotropic in 3D: direction of axis 1 at rest, of any length"),
-                 axis("axis_2", &solid::Material::axis_2, "[0, 1, 0]",
+                 axis("axis_2", &solid::Orthotropy::axis_2, "[0, 1, 0]",
                       "of orthotropic in 3D: direction of axis 2, at a right angle to it; axis 3 completes both")});
     return keys;
 }

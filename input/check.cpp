@@ -71,10 +71,10 @@ std::string duration(double seconds) {
 /// The least share of the exact inertia that a body has, and which body it is.
 template <int Dim>
 std::string text_of_inertia(const run::Scene<Dim>& scene, const run::RunResult<Dim>& result) {
-    if (result.inertia.empty()) return "";
-    const auto least = std::ranges::min_element(result.inertia, {}, &solid::BodyInertia<Dim>::least);
+    if (result.bodies.inertia.empty()) return "";
+    const auto least = std::ranges::min_element(result.bodies.inertia, {}, &solid::BodyInertia<Dim>::least);
     if (least->least() >= run::enough_inertia) return fmt::format("{:.3g} of the exact one, or more", least->least());
-    const auto body = static_cast<std::size_t>(least - result.inertia.begin());
+    const auto body = static_cast<std::size_t>(least - result.bodies.inertia.begin());
     return fmt::format("{:.3g} of the exact one: '{}', which is {}", least->least(), scene.mesh.body_names[body],
                        run::name_of(run::kinematics_of(scene, result, body)));
 }
@@ -98,17 +98,17 @@ template <int Dim>
 std::string damping_of_friction(const run::Scene<Dim>& scene, const run::RunResult<Dim>& result) {
     constexpr double part_of_step = 0.9, z = (1.0 - part_of_step * part_of_step) / (2.0 * part_of_step);
     const run::RunOptions& options = result.options;
-    if (!scene.contact || !run::has_friction(scene, options) || !(result.stable.omega_max > 0.0)) return "";
+    if (!scene.contact || !run::has_friction(scene, options) || !(result.run.stable.omega_max > 0.0)) return "";
     const auto of_all = run::kinematics_of_all(options.kinematics);
     bool any_deforms = false;
     for (std::size_t body = 0; body < scene.solid.materials.size(); ++body) {
         if (!solid::properties_of(of_all.value_or(scene.solid.kinematics[body])).deforms) continue;
-        if (scene.solid.materials[body].is_damped()) return "";
+        if (scene.solid.materials[body].damping.any()) return "";
         any_deforms = true;
     }
     if (!any_deforms) return "";
     return fmt::format("none where bodies rub: take stiffness_damping = {:.2g} for them ({:g} of this step){}",
-                       2.0 * z / result.stable.omega_max, part_of_step,
+                       2.0 * z / result.run.stable.omega_max, part_of_step,
                        options.settle ? "" : ", and settle = true in [run] if they begin at rest");
 }
 
@@ -150,9 +150,9 @@ public:
         estimate_.inertia = text_of_inertia(scene, result);
         estimate_.edges = text_of_edges(scene.mesh);
         estimate_.across = text_of_across(scene, result);
-        estimate_.bonds = run::bonded_text<Dim>(result.bonds);
-        estimate_.stable_dt = result.stable.dt;
-        estimate_.dt = run::choose_step(options_, result.stable.dt);
+        estimate_.bonds = run::bonded_text<Dim>(result.bonds.coverage);
+        estimate_.stable_dt = result.run.stable.dt;
+        estimate_.dt = run::choose_step(options_, result.run.stable.dt);
         estimate_.steps = std::isnan(options_.time) ? options_.steps : run::steps_until(options_.time, estimate_.dt);
         estimate_.fewer_steps = ways_to_fewer_steps(options_, estimate_.steps, Dim);
         estimate_.end = static_cast<double>(estimate_.steps) * estimate_.dt;

@@ -18,7 +18,7 @@ std::string table_of_materials() {
     std::string text = "| material | young | poisson | density | yield_stress | source |\n|---|---|---|---|---|---|\n";
     for (const solid::KnownMaterial& known : solid::known_materials())
         text += fmt::format("| `{}` | {} | {:g} | {:g} kg/m^3 | {} | {} |\n", known.name, stress(known.material.young),
-                            known.material.poisson, known.material.density, stress(known.yield_stress), known.source);
+                            known.material.poisson, known.material.density, stress(known.flow.yield_stress), known.source);
     return text;
 }
 

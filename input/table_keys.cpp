@@ -97,9 +97,9 @@ void take_material(BodySettings& body, const Node& name, const std::string& path
 /// Takes the yield stress of the table, or of a material known by its name, with its hardening and rates, where the law
 /// needs one and the scene gives none.
 void take_yield_stress(BodySettings& body, const std::vector<MaterialSettings>& materials) {
-    if (body.material.law != solid::MaterialLaw::j2 || body.material.yield_stress > 0.0) return;
-    if (const auto& table = body.material.hardening_table; !table.empty()) {
-        body.material.yield_stress = table.front().stress;
+    if (body.material.law != solid::MaterialLaw::j2 || body.material.flow.yield_stress > 0.0) return;
+    if (const auto& table = body.material.flow.table; !table.empty()) {
+        body.material.flow.yield_stress = table.front().stress;
         return;
     }
     if (std::ranges::find(materials, body.material_name, &MaterialSettings::name) != materials.end()) return;

@@ -152,7 +152,7 @@ RunOptions with_restart(RunOptions options, const Scene<Dim>& scene) {
 
 template <int Dim>
 solid::Kinematics kinematics_of(const Scene<Dim>& scene, const RunResult<Dim>& result, std::size_t body) {
-    if (result.pilot) return result.pilot->bodies[body].picked;
+    if (result.run.pilot) return result.run.pilot->bodies[body].picked;
     const auto own = solid::kinematics_of(scene.solid.kinematics, body);
     return kinematics_of_all(result.options.kinematics).value_or(own);
 }

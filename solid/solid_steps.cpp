@@ -311,7 +311,7 @@ StepEnds<Dim> Solid<Dim>::step_ends(const Ends& ends, const BoundaryLoad<Dim>& s
     return {ends_in_frames_[0], ends_in_frames_[1], &start_load, &loads_->end(), dt};
 }
 
-/// Adds the forces of Material::mass_damping.
+/// Adds the forces of Damping::mass.
 template <int Dim>
 void Solid<Dim>::add_drag(const Ends& ends, double dt, std::span<Vector<Dim>> force) {
     if (!ccg_.any_damped()) return;

@@ -75,7 +75,7 @@ private:
 std::vector<run::Finding> findings(const Impacts& impacts, const run::RunResult<2>& result) {
     const auto impulses = impacts.complete();
     const double largest =
-        result.scale.value + result.ledger.energy_excess();  // H~ is 0: the energy of the fall comes on top
+        result.energy.scale.value + result.ledger.energy_excess();  // H~ is 0: the energy of the fall comes on top
     const run::Value first = impulses.empty() ? run::Value() : run::Value(impulses.front());
     return {{"impacts", "impacts that are over", static_cast<std::int64_t>(impulses.size())},
             {"impulse_first", "impulse of the first one [N s/m]", first},

@@ -46,7 +46,7 @@ struct LongScene {
 /// Keeps the ledger of a run of solids until it ends, or breaks off.
 struct Recorder : run::Observer<2> {
     void record(const dynamics::LedgerEntry<2>& entry, const run::RunResult<2>& result) override {
-        if (ledger.entries().empty()) scale = result.scale.value;
+        if (ledger.entries().empty()) scale = result.energy.scale.value;
         ledger.record(entry);
     }
     dynamics::Ledger<2> ledger;

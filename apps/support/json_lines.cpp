@@ -52,8 +52,8 @@ void JsonLines<Dim>::settling(std::int64_t step, double speed) {
 template <int Dim>
 void JsonLines<Dim>::begin(const run::Scene<Dim>& scene, const run::RunResult<Dim>& result) {
     scene_ = &scene;
-    n_steps_ = result.steps;
-    time_left_ = TimeLeft(result.steps);
+    n_steps_ = result.run.steps;
+    time_left_ = TimeLeft(result.run.steps);
     start_ = last_ = Clock::now();
     print_line({{"event", "start"},
                 {"program", program_},
@@ -62,9 +62,9 @@ void JsonLines<Dim>::begin(const run::Scene<Dim>& scene, const run::RunResult<Di
                 {"cells", scene.mesh.n_cells()},
                 {"boundary_faces", scene.mesh.boundary_faces.size()},
                 {"bodies", scene.mesh.body_names},
-                {"steps", result.steps},
-                {"dt", result.dt},
-                {"energy_scale", {{"name", result.scale.name}, {"value", json_number(result.scale.value)}}},
+                {"steps", result.run.steps},
+                {"dt", result.run.dt},
+                {"energy_scale", {{"name", result.energy.scale.name}, {"value", json_number(result.energy.scale.value)}}},
                 {"out", result.options.out.string()}});
     print_warnings(run::warnings_before(scene, result));
 }
@@ -99,15 +99,15 @@ void JsonLines<Dim>::end(const run::RunResult<Dim>& result, int exit_code) {
     print_warnings(run::warnings_after(result));
     const auto said = scene_ != nullptr ? std::optional(run::verdict(*scene_, result)) : std::nullopt;
     print_line({{"event", "end"},
-                {"complete", result.complete},
-                {"steps", result.steps},
+                {"complete", result.run.complete},
+                {"steps", result.run.steps},
                 {"time", result.ledger.entries().back().time},
                 {"pseudo_energy_drift", json_number(result.ledger.pseudo_energy_drift())},
                 {"energy_drift", json_number(result.ledger.energy_drift())},
                 {"energy_excess_max", json_number(result.ledger.energy_excess())},
                 {"parasitic_max", json_number(result.ledger.parasitic())},
-                {"events", result.contact.events},
-                {"missed_contacts", result.contact.missed_contacts},
+                {"events", result.contact.report.events},
+                {"missed_contacts", result.contact.report.missed_contacts},
                 {"good", said && said->good},
                 {"verdict", said ? Json(said->text) : Json()},
                 {"seconds", result.seconds.total},

@@ -48,8 +48,9 @@ std::vector<run::Warning> only(std::vector<run::Warning> warnings, std::initiali
 template <int Dim>
 void RunLog<Dim>::begin(const run::Scene<Dim>& scene, const run::RunResult<Dim>& result) {
     spdlog::info("{}, {}; {} of {:.4g} s", counted(scene.mesh.n_cells(), "cell"),
-                 counted(std::ssize(scene.mesh.boundary_faces), "boundary face"), counted(result.steps, "step"), result.dt);
-    if (result.pilot) spdlog::info("kinematics: {}", run::text_of(*result.pilot, scene.mesh.body_names));
+                 counted(std::ssize(scene.mesh.boundary_faces), "boundary face"), counted(result.run.steps, "step"),
+                 result.run.dt);
+    if (result.run.pilot) spdlog::info("kinematics: {}", run::text_of(*result.run.pilot, scene.mesh.body_names));
     log_warnings(run::warnings_before(scene, result));
 }
 

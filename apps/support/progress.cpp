@@ -84,12 +84,12 @@ void ShowProgress<Dim>::settling(std::int64_t step, double speed) {
 template <int Dim>
 void ShowProgress<Dim>::begin(const run::Scene<Dim>&, const run::RunResult<Dim>& result) {
     settling_.reset();
-    progress_.emplace(result.steps);
+    progress_.emplace(result.run.steps);
 }
 
 template <int Dim>
 void ShowProgress<Dim>::record(const dynamics::LedgerEntry<Dim>&, const run::RunResult<Dim>& result) {
-    drift_ = result.scale.over(result.ledger.pseudo_energy_drift());
+    drift_ = result.energy.scale.over(result.ledger.pseudo_energy_drift());
 }
 
 template <int Dim>

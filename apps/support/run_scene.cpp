@@ -125,9 +125,9 @@ void run_and_write(const Program& program, const run::RunOptions& options,
     const SceneShare<Dim> share(scene->mesh, kinematics_of(*scene, options));
     run::RunResult<Dim> result =
         simulate_into(*files, *scene, options, from ? &*from : nullptr, share.get(), program.messages, lines);
-    if (!result.complete)
+    if (!result.run.complete)
         spdlog::warn("{}: the run ends after step {}; its files hold what was computed until then{}",
-                     name_of_signal(noted_signal()), result.steps, how_to_go_on(options));
+                     name_of_signal(noted_signal()), result.run.steps, how_to_go_on(options));
     result.seconds.mesh = seconds;
     result.seconds.total += seconds;
     files->finish(*scene, result);

@@ -71,7 +71,7 @@ void set_number(BodyValues& values, const std::string& key, double value) {
                            (remedy.empty() ? "" : " " + remedy),
                        {.value = value});
     }
-    values.material.*number.member = value;
+    number.at.in(values.material) = value;
 }
 
 void set_text(BodyValues& values, const std::string& key, const std::string& text) {
@@ -96,12 +96,13 @@ void set_numbers(BodyValues& values, const std::string& key, std::span<const dou
     };
     if (key == "axis_1" || key == "axis_2") {
         require(numbers.size() == 3, "3");
-        std::ranges::copy(numbers, (key == "axis_1" ? values.material.axis_1 : values.material.axis_2).begin());
+        solid::Orthotropy& axes = values.material.orthotropic;
+        std::ranges::copy(numbers, (key == "axis_1" ? axes.axis_1 : axes.axis_2).begin());
     } else if (key == "hardening_table") {
         require(!numbers.empty() && numbers.size() % 2 == 0, "rows of two, plastic strain and stress");
-        values.material.hardening_table.clear();
+        values.material.flow.table.clear();
         for (std::size_t i = 0; i < numbers.size(); i += 2)
-            values.material.hardening_table.push_back({numbers[i], numbers[i + 1]});
+            values.material.flow.table.push_back({numbers[i], numbers[i + 1]});
     } else {
         throw BadInput("a body has no list '" + key + "'. There are 'axis_1', 'axis_2' and 'hardening_table'.");
     }
@@ -109,9 +110,9 @@ void set_numbers(BodyValues& values, const std::string& key, std::span<const dou
 
 solid::Material material_of(const BodyValues& values) {
     solid::Material material = values.material;
-    if (material.law != solid::MaterialLaw::j2 || material.yield_stress > 0.0) return material;
-    if (!material.hardening_table.empty())
-        material.yield_stress = material.hardening_table.front().stress;
+    if (material.law != solid::MaterialLaw::j2 || material.flow.yield_stress > 0.0) return material;
+    if (!material.flow.table.empty())
+        material.flow.yield_stress = material.flow.table.front().stress;
     else if (values.known != nullptr)
         solid::take_flow(material, *values.known);
     return material;

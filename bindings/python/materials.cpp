@@ -81,19 +81,19 @@ solid::Material material_of(const std::optional<std::string>& name, const py::kw
         if (word == "law")
             material.law = material_law(py::cast<std::string>(value));
         else if (word == "hardening_table")
-            material.hardening_table = hardening_table(value);
+            material.flow.table = hardening_table(value);
         else if (word == "axis_1")
-            material.axis_1 = py::cast<std::array<double, 3>>(value);
+            material.orthotropic.axis_1 = py::cast<std::array<double, 3>>(value);
         else if (word == "axis_2")
-            material.axis_2 = py::cast<std::array<double, 3>>(value);
+            material.orthotropic.axis_2 = py::cast<std::array<double, 3>>(value);
         else if (number != solid::material_numbers.end())
-            material.*(number->member) = material_value(*number, value);
+            number->at.in(material) = material_value(*number, value);
         else
             throw py::type_error("Material has no value '" + word + "'." + hint(word));
     }
     if (values.contains("yield_stress")) return material;
-    if (!material.hardening_table.empty())
-        material.yield_stress = material.hardening_table.front().stress;
+    if (!material.flow.table.empty())
+        material.flow.yield_stress = material.flow.table.front().stress;
     else if (known && material.law == solid::MaterialLaw::j2)
         solid::take_flow(material, *known);
     return material;
@@ -102,9 +102,9 @@ solid::Material material_of(const std::optional<std::string>& name, const py::kw
 py::dict all_known() {
     py::dict all;
     for (const solid::KnownMaterial& known : solid::known_materials())
-        all[py::str(known.name)] =
-            py::dict("young"_a = known.material.young, "poisson"_a = known.material.poisson,
-                     "density"_a = known.material.density, "yield_stress"_a = known.yield_stress, "source"_a = known.source);
+        all[py::str(known.name)] = py::dict("young"_a = known.material.young, "poisson"_a = known.material.poisson,
+                                            "density"_a = known.material.density, "yield_stress"_a = known.flow.yield_stress,
+                                            "source"_a = known.source);
     return all;
 }
 
@@ -123,9 +123,9 @@ void add_materials(py::module_& module) {
         const std::string unit = number.limits.unit;
         const std::string doc = sentence(number.help + (unit.empty() ? "" : " [" + unit + "]"));
         of_material.def_property(
-            number.name, [member = number.member](const solid::Material& material) { return material.*member; },
+            number.name, number.at.of,
             [&number](solid::Material& material, const py::object& value) {
-                material.*(number.member) = material_value(number, value);
+                number.at.in(material) = material_value(number, value);
             },
             doc.c_str());
     }
@@ -135,20 +135,27 @@ void add_materials(py::module_& module) {
         "Law beyond isotropic elasticity of small strains.\n\n"
         "'st_venant_kirchhoff', of finite bodies 'neo_hookean' or 'mooney_rivlin', or 'j2', which yields, or 'orthotropic', "
         "which has other moduli along axes of its own.");
-    of_material.def_readwrite("axis_1", &solid::Material::axis_1,
-                              "Direction of axis 1 at rest (3,), of any length, of orthotropic in 3D.");
-    of_material.def_readwrite("axis_2", &solid::Material::axis_2,
-                              "Direction of axis 2 (3,), at a right angle to axis 1, of orthotropic in 3D.");
+    const auto axis = [&](const char* name, std::array<double, 3> solid::Orthotropy::*member, const char* doc) {
+        of_material.def_property(
+            name, [member](const solid::Material& material) { return material.orthotropic.*member; },
+            [member](solid::Material& material, const std::array<double, 3>& given) {
+                material.orthotropic.*member = given;
+            },
+            doc);
+    };
+    axis("axis_1", &solid::Orthotropy::axis_1, "Direction of axis 1 at rest (3,), of any length, of orthotropic in 3D.");
+    axis("axis_2", &solid::Orthotropy::axis_2,
+         "Direction of axis 2 (3,), at a right angle to axis 1, of orthotropic in 3D.");
     of_material.def_property(
         "hardening_table",
         [](const solid::Material& material) {
             std::vector<std::pair<double, double>> rows;
-            for (const auto& [strain, stress] : material.hardening_table) rows.emplace_back(strain, stress);
+            for (const auto& [strain, stress] : material.flow.table) rows.emplace_back(strain, stress);
             return rows;
         },
         [](solid::Material& material, const py::object& rows) {
-            material.hardening_table = hardening_table(rows);
-            if (!material.hardening_table.empty()) material.yield_stress = material.hardening_table.front().stress;
+            material.flow.table = hardening_table(rows);
+            if (!material.flow.table.empty()) material.flow.yield_stress = material.flow.table.front().stress;
         },
         "Rows [plastic strain, stress at which it flows there [Pa]], of j2.\n\n"
         "It takes the place of yield_stress and of what rises. Strains begin at 0; stresses are straight between rows, and "

@@ -38,7 +38,7 @@ public:
         forces_ = run::ContactForces<Dim>(scene, result);
         names_ = scene.mesh.body_names;
         for (std::size_t i = 0; i < scene.solid.obstacles.size(); ++i) names_.push_back(run::name_of_obstacle(scene, i));
-        n_steps_ = result.steps;
+        n_steps_ = result.run.steps;
         n_frames_ = result.options.times.empty() ? result.options.frames : 0;
     }
     void cells_left(const solid::Solid<Dim>& solid, std::span<const std::int32_t> first_cells) override {

@@ -132,7 +132,7 @@ public:
 
     void begin(const run::Scene<Dim>&, const run::RunResult<Dim>& result) override { result_ = &result; }
     void look(const dynamics::RunView<Dim>& view, solid::Solid<Dim>& solid) override {
-        if (view.steps == result_->steps) final_displacement = solid.cells().displacement(view.q);
+        if (view.steps == result_->run.steps) final_displacement = solid.cells().displacement(view.q);
         if (!has_look_) return;
         const py::gil_scoped_acquire lock;
         const py::object answer = shown_to<Dim>(look_, view, solid);

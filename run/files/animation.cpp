@@ -170,7 +170,7 @@ template <int Dim>
 void Animation<Dim>::look_up(const Scene<Dim>& scene, const RunResult<Dim>& result) {
     maker_.emplace(scene, result);
     obstacles_ = scene.solid.obstacles;
-    n_spread_ = n_steps_ = result.steps;
+    n_spread_ = n_steps_ = result.run.steps;
 }
 
 template <int Dim>

@@ -21,7 +21,7 @@ solid::BodyImpulse<Dim> none_yet(const solid::BodyImpulse<Dim>& pair) {
 
 template <int Dim>
 ContactForces<Dim>::ContactForces(const Scene<Dim>& scene, const RunResult<Dim>& result)
-    : interval_(scene.outputs.interval > 0 ? scene.outputs.interval : result.options.interval), n_steps_(result.steps) {}
+    : interval_(scene.outputs.interval > 0 ? scene.outputs.interval : result.options.interval), n_steps_(result.run.steps) {}
 
 template <int Dim>
 bool ContactForces<Dim>::wants_look(std::int64_t step) const {

@@ -202,7 +202,7 @@ void Frames<Dim>::begin(const Scene<Dim>& scene, const RunResult<Dim>& result) {
         std::iota(first_cells_.begin(), first_cells_.end(), 0.0);
     }
     at_times_ = !result.options.times.empty();
-    n_spread_ = n_steps_ = result.steps;
+    n_spread_ = n_steps_ = result.run.steps;
 }
 
 template <int Dim>

@@ -115,7 +115,7 @@ template <int Dim>
 Probes<Dim>::Probes(const Scene<Dim>& scene, const RunResult<Dim>& result)
     : forces_(scene, result),
       interval_(scene.outputs.interval > 0 ? scene.outputs.interval : result.options.interval),
-      n_steps_(result.steps) {
+      n_steps_(result.run.steps) {
     for (const Probe<Dim>& probe : scene.outputs.probes) {
         try {
             probes_.push_back(watched(scene.mesh, probe));

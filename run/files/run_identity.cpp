@@ -60,8 +60,8 @@ std::string identity(const Scene<Dim>& scene, const RunResult<Dim>& result) {
                    {"bodies", scene.mesh.body_names},
                    {"cells", scene.mesh.n_cells()},
                    {"checksum of the meshes", checksum(scene.mesh)},
-                   {"step [s]", result.dt},
-                   {"steps", result.steps}};
+                   {"step [s]", result.run.dt},
+                   {"steps", result.run.steps}};
     if (!scene.solid.bonds.empty()) of_run["checksum of the bonds"] = checksum_of_bonds<Dim>(scene.solid);
     if (Json limits = erosion_limits(scene); !limits.empty()) of_run["limits of erosion"] = std::move(limits);
     of_run.update(to_json(scene.options));

@@ -27,9 +27,9 @@ double normal_impulse(const solid::Solid<Dim>& solid) {
 template <int Dim>
 void Snapshots<Dim>::begin(const Scene<Dim>& scene, const RunResult<Dim>& result) {
     maker_.emplace(scene, result);
-    middle_step_ = result.steps / 2;
+    middle_step_ = result.run.steps / 2;
     const std::int64_t interval = result.options.interval;
-    every_ = interval * std::max<std::int64_t>(1, result.steps / (interval * looks_per_run));
+    every_ = interval * std::max<std::int64_t>(1, result.run.steps / (interval * looks_per_run));
 }
 
 template <int Dim>

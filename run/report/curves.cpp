@@ -68,7 +68,7 @@ std::array<Plot, 2> energy_plots(std::span<const dynamics::LedgerEntry<Dim>> ent
 
 template <int Dim>
 Markup energy_pictures(const RunResult<Dim>& result) {
-    const auto [energies, errors] = energy_plots<Dim>(result.ledger.entries(), result.scale);
+    const auto [energies, errors] = energy_plots<Dim>(result.ledger.entries(), result.energy.scale);
     return figure(energies,
                   "Kinetic and potential energy, their sum H, and the pseudo-energy H~ that the scheme conserves.") +
            figure(errors,
@@ -81,7 +81,7 @@ template <int Dim>
 Markup contact_picture(const RunResult<Dim>& result) {
     const Entries<Dim> entries = result.ledger.entries();
     const auto pairs = values<Dim>(entries, [](const auto& entry) { return static_cast<double>(entry.active_pairs); });
-    if (result.contact.active_pairs_max == 0) return {};
+    if (result.contact.report.active_pairs_max == 0) return {};
     return figure({.title = "Pairs in contact over time",
                    .x_label = "time [s]",
                    .y_label = "pairs in contact",

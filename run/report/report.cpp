@@ -80,12 +80,12 @@ Markup figure_row(const Figures& figures, const char* what, const char* path, co
 template <int Dim>
 Markup energies_part(const Figures& figures, const RunResult<Dim>& result) {
     const auto energy = [&](const char* what, const char* path) {
-        return row({what, figures.at(path) + " J", figures.over(path, result.scale)});
+        return row({what, figures.at(path) + " J", figures.over(path, result.energy.scale)});
     };
     const Markup numbers = table(
-        {"greatest of the run", "", "over " + result.scale.name},
+        {"greatest of the run", "", "over " + result.energy.scale.name},
         {row({"kinetic energy at the start", figures.at("kinetic_initial") + " J", ""}),
-         row({"scale of energies, " + result.scale.name, figures.at("energy_scale.value") + " J", ""}),
+         row({"scale of energies, " + result.energy.scale.name, figures.at("energy_scale.value") + " J", ""}),
          energy("drift of the pseudo-energy, |H~ - H~0 - W|", "pseudo_energy_drift"),
          energy("error of the energy, |H - H0 - W|", "energy_drift"), energy("excess H - H~", "energy_excess_max"),
          row({"parasitic mode, |e|/m", figures.at("parasitic_max") + " m/s", ""}),
@@ -114,7 +114,7 @@ Markup erosion_part(const Figures& figures) {
 template <int Dim>
 Markup bodies_part(const Figures& figures, const Scene<Dim>& scene, const RunResult<Dim>& result) {
     std::vector<Markup> rows;
-    for (std::size_t body = 0; body < result.start.size(); ++body) {
+    for (std::size_t body = 0; body < result.bodies.start.size(); ++body) {
         const auto at = [&](const char* key) { return figures.at(fmt::format("bodies.{}.{}", body, key)); };
         const auto cells = std::ranges::count(scene.mesh.cell_body, static_cast<std::int32_t>(body));
         rows.push_back(row({at("name"), name_of(kinematics_of(scene, result, body)), fmt::format("{}", cells), at("mass"),
@@ -134,20 +134,20 @@ std::vector<std::string> said_of(const solid::Material& material, bool is_finite
         is_finite || yields || !material.is_isotropic() ? word_of(solid::material_law_words, material.law) : "";
     if (is_finite && material.law == solid::MaterialLaw::mooney_rivlin)
         law += fmt::format(", share {:g}", material.second_share);
-    if (!material.is_isotropic())
-        law += fmt::format(", E {:g}, {:g}, {:g}, nu {:g}, {:g}, {:g}, G {:g}, {:g}, {:g}", material.young, material.young_2,
-                           material.young_3, material.poisson, material.poisson_13, material.poisson_23, material.shear_12,
-                           material.shear_13, material.shear_23);
+    if (const solid::Orthotropy& of = material.orthotropic; !material.is_isotropic())
+        law +=
+            fmt::format(", E {:g}, {:g}, {:g}, nu {:g}, {:g}, {:g}, G {:g}, {:g}, {:g}", material.young, of.young_2,
+                        of.young_3, material.poisson, of.poisson_13, of.poisson_23, of.shear_12, of.shear_13, of.shear_23);
     if (yields)
-        law += fmt::format(", yields at {:g} Pa{}", material.yield_stress,
-                           material.knows_rates() ? ", faster flow at more" : "");
+        law += fmt::format(", yields at {:g} Pa{}", material.flow.yield_stress,
+                           material.flow.knows_rates() ? ", faster flow at more" : "");
     const auto add = [&law](double value, const char* format) {
         if (value > 0.0) law += fmt::format(fmt::runtime(law.empty() ? format + 2 : format), value);
     };
-    add(material.mass_damping, ", drag {:g} 1/s");
-    add(material.stiffness_damping, ", damped by {:g} s");
-    add(material.linear_viscosity, ", linear viscosity {:g}");
-    add(material.quadratic_viscosity, ", quadratic viscosity {:g}");
+    add(material.damping.mass, ", drag {:g} 1/s");
+    add(material.damping.stiffness, ", damped by {:g} s");
+    add(material.damping.linear_viscosity, ", linear viscosity {:g}");
+    add(material.damping.quadratic_viscosity, ", quadratic viscosity {:g}");
     return {fmt::format("{:g}", material.young), fmt::format("{:g}", material.poisson),
             fmt::format("{:g}", material.density),
             fmt::format("{:.4g}", std::sqrt(material.wave_modulus() / material.density)), law};
@@ -157,7 +157,7 @@ std::vector<std::string> said_of(const solid::Material& material, bool is_finite
 template <int Dim>
 Markup materials_part(const Scene<Dim>& scene, const RunResult<Dim>& result) {
     std::vector<std::pair<std::vector<std::string>, std::string>> of_bodies;
-    for (std::size_t body = 0; body < result.start.size(); ++body) {
+    for (std::size_t body = 0; body < result.bodies.start.size(); ++body) {
         const bool is_finite = solid::properties_of(kinematics_of(scene, result, body)).finite_strains;
         const std::vector<std::string> said = said_of(scene.solid.materials[body], is_finite);
         const auto known = std::ranges::find_if(of_bodies, [&](const auto& other) { return other.first == said; });
@@ -185,7 +185,7 @@ Markup contact_part(const Figures& figures, const Scene<Dim>& scene, const RunRe
     const Markup forces =
         sources.forces.empty()
             ? Markup()
-            : force_pictures(sources.forces, {.steps = result.steps, .interval = interval, .dt = result.dt});
+            : force_pictures(sources.forces, {.steps = result.run.steps, .interval = interval, .dt = result.run.dt});
     return section("Contact",
                    contact_picture(result) + forces +
                        table({"", ""}, {figure_row(figures, "openings, closings and slips within steps", "events", ""),
@@ -294,7 +294,7 @@ Markup bonds_part(const Figures& figures, const Scene<Dim>& scene) {
 template <int Dim>
 Markup fragments_part(const Figures& figures, const RunResult<Dim>& result) {
     std::vector<Markup> rows;
-    for (std::size_t i = 0; i < result.fragments.size(); ++i) {
+    for (std::size_t i = 0; i < result.bonds.fragments.size(); ++i) {
         const auto figure = [&](const char* key) { return figures.at(fmt::format("fragments.{}.{}", i, key)); };
         rows.push_back(row({figure("body"), figure("bodies"), figure("cells"), figure("mass"), figure("centre"),
                             figure("velocity"), figure("spin")}));
@@ -323,9 +323,10 @@ Markup settings_part(const Figures& figures, const Scene<Dim>& scene, const RunR
         const Markup shown_value = figures.at("options." + name);
         const bool chosen_by_run =
             (name == "skin" && result.options.contact.search.skin == 0.0) ||
-            (name == "interval" && result.options.interval == records_interval<Dim>(result.steps, result.options.restart)) ||
+            (name == "interval" &&
+             result.options.interval == records_interval<Dim>(result.run.steps, result.options.restart)) ||
             (name == "threads" && result.options.threads == 0) ||
-            (name == "law" && result.asked_law == solid::ContactLaw::automatic);
+            (name == "law" && result.contact.asked_law == solid::ContactLaw::automatic);
         if (own.contains(name) || name == "time" || name == "steps" || name == "out")
             of_scene.push_back(row({name, shown_value}));
         else if (chosen_by_run || (by_default.contains(name) && by_default.at(name) == value))
@@ -391,7 +392,7 @@ std::string report_html(const std::string& program, const Scene<Dim>& scene, con
                         materials_part(scene, result) + contact_part(figures, scene, result, sources) +
                         friction_part(figures, scene, result) + plasticity_part(figures) + damping_part(figures) +
                         erosion_part<Dim>(figures) + bonds_part(figures, scene) + fragments_part(figures, result) +
-                        probes_part(scene, sources) + findings_part(figures, result.findings) +
+                        probes_part(scene, sources) + findings_part(figures, result.watch.findings) +
                         settings_part(figures, scene, result) + seconds_part(figures) + files_part(files);
     return "<!DOCTYPE html>\n" + page((scene.title.empty() ? program : scene.title) + ": report of a run", body).html() +
            "\n";

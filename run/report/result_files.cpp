@@ -26,7 +26,7 @@ const std::vector<std::string> texts_beside{"scene.toml", "restart.json"};
 template <int Dim>
 std::string title_of(const std::string& program, const Scene<Dim>& scene, const RunResult<Dim>& result) {
     return fmt::format("{}, {}D, {}, {}, {}", program, Dim, name_of(result.options.integrator),
-                       counted(scene.mesh.n_cells(), "cell"), counted(result.steps, "step"));
+                       counted(scene.mesh.n_cells(), "cell"), counted(result.run.steps, "step"));
 }
 
 }  // namespace
@@ -55,7 +55,7 @@ template <int Dim>
 void ResultFiles<Dim>::begin(const Scene<Dim>& scene, const RunResult<Dim>& result) {
     const Stopwatch watch(seconds_);
     energies_.begin(scene, result);
-    n_steps_ = result.steps;
+    n_steps_ = result.run.steps;
     has_begun_ = true;
     if (!scene.outputs.probes.empty()) probes_.emplace(out_ / "probes.csv").begin(scene, result);
     if (scene.outputs.forces) forces_.emplace(out_ / "forces.csv").begin(scene, result);
@@ -190,7 +190,7 @@ void ResultFiles<Dim>::resume(const Scene<Dim>& scene, const RunResult<Dim>& res
     remove_files(out_, {"summary.json", "report.html", "energy.csv", "energy.svg"});
     remove_failure(out_, name_);
     energies_.resume(scene, result, state);
-    n_steps_ = result.steps;
+    n_steps_ = result.run.steps;
     has_begun_ = true;
     if (!scene.outputs.probes.empty()) probes_.emplace(out_ / "probes.csv").resume(scene, result, state);
     if (scene.outputs.forces) forces_.emplace(out_ / "forces.csv").resume(scene, result, state);
@@ -210,7 +210,7 @@ void ResultFiles<Dim>::finish(const Scene<Dim>& scene, RunResult<Dim>& result) {
         if (probes_) probes_->finish();
         if (forces_) forces_->finish();
         if (animation_) animation_->finish();
-        write_energy_picture<Dim>(out_, title_of(program_, scene, result), result.ledger.entries(), result.scale);
+        write_energy_picture<Dim>(out_, title_of(program_, scene, result), result.ledger.entries(), result.energy.scale);
     }
     result.seconds.output += seconds_ + seconds;
     result.seconds.total += seconds;
@@ -221,7 +221,7 @@ void ResultFiles<Dim>::finish(const Scene<Dim>& scene, RunResult<Dim>& result) {
                                 .probes = probes_ ? out_ / "probes.csv" : std::filesystem::path()};
     write_whole(out_ / "report.html", report_html(program_, scene, result, files_of_report(), sources));
     write_whole(out_ / "summary.json", summary_json(program_, scene, result));
-    if (result.complete && !keep_last_) checkpoints_.remove(texts_beside);
+    if (result.run.complete && !keep_last_) checkpoints_.remove(texts_beside);
     lock_.reset();
 }
 

@@ -126,13 +126,13 @@ template <int Dim>
 void Erosion<Dim>::require_stable(solid::Solid<Dim>& solid) {
     const double worst = worst_weight_of(solid);
     if (worst >= worst_weight_) return;
-    const double dt = start_.options.allow_unstable ? start_.result.dt : solid::step_of_breaking(solid).dt;
-    if (start_.result.dt > dt)
+    const double dt = start_.options.allow_unstable ? start_.result.run.dt : solid::step_of_breaking(solid).dt;
+    if (start_.result.run.dt > dt)
         throw LimitExceeded(
             fmt::format("erosion: the stable step of what is left is {:.4g} s, and the run takes {:.4g} s. Take a cfl of "
                         "{:.2g}.",
-                        dt, start_.result.dt, 0.9 * start_.options.cfl * dt / start_.result.dt),
-            {.value = start_.result.dt, .allowed = dt});
+                        dt, start_.result.run.dt, 0.9 * start_.options.cfl * dt / start_.result.run.dt),
+            {.value = start_.result.run.dt, .allowed = dt});
     worst_weight_ = worst;
 }
 

@@ -26,12 +26,12 @@ void check_output_times(const RunOptions& options, double end) {
 
 template <int Dim>
 bool OutputTimes<Dim>::is_at_or_before(double time, double node) const {
-    return time <= node + same_as_node * start_.result.dt;
+    return time <= node + same_as_node * start_.result.run.dt;
 }
 
 template <int Dim>
 bool OutputTimes<Dim>::is_due(double node, std::int64_t steps) const {
-    return n_shown_ < start_.options.times.size() && (steps >= start_.result.steps || is_at_or_before(next(), node));
+    return n_shown_ < start_.options.times.size() && (steps >= start_.result.run.steps || is_at_or_before(next(), node));
 }
 
 template <int Dim>

@@ -173,7 +173,7 @@ Trial try_kind(const Scene<Dim>& scene, const RunOptions& given, BodyKinematics 
     options.time = not_given;
     options.steps = timed_steps;
     try {
-        const double dt = simulate<Dim>(scene, options, look).dt;
+        const double dt = simulate<Dim>(scene, options, look).run.dt;
         return {dt, look.seconds_per_step};
     } catch (const BadInput&) {
         return {};
@@ -239,10 +239,10 @@ PilotReport look_at_all_kinds(Scene<Dim> scene, const RunOptions& options) {
     Lookout<Dim> lookout(bodies_at_rest(scene));
     const RunResult<Dim> pilot = run_rigid<Dim>(scene, options, length, lookout);
     return {.bodies = picked(strain_shares(of_floating.start, lookout), lookout.rotation),
-            .steps = pilot.steps,
+            .steps = pilot.run.steps,
             .small = small.seconds(length),
             .floating = floating.seconds(length),
-            .rigid = sum(pilot.times)};
+            .rigid = sum(pilot.seconds.solid)};
 }
 
 }  // namespace

@@ -53,12 +53,12 @@ RunResult<Dim> simulated(const Scene<Dim>& scene, const RunOptions& given, Obser
         }
         RunResult<Dim>& result = start->result;
         if (options.interval == 0 && from && options.other_end) options.interval = recorded_interval(from->run);
-        if (options.interval == 0) options.interval = records_interval<Dim>(result.steps, options.restart);
+        if (options.interval == 0) options.interval = records_interval<Dim>(result.run.steps, options.restart);
         result.options = options;
-        result.asked_law = options.law;
+        result.contact.asked_law = options.law;
         if (start->solid->contact().reconstruction()) result.options.law = solid::ContactLaw::reconstruction;
         if (start->solid->contact().pair_potential()) result.options.law = solid::ContactLaw::pair_potential;
-        result.threads = static_cast<int>(global_control::active_value(global_control::max_allowed_parallelism));
+        result.run.threads = static_cast<int>(global_control::active_value(global_control::max_allowed_parallelism));
         result.seconds.setup = seconds.setup;
         require_even_cells(scene, result);
         take_steps(*start, observer, from);

@@ -15,7 +15,7 @@ namespace abut::run {
 /// the observers.
 ///
 /// An observer that asks to stop ends the run after its present step, or before the first one: that step is recorded as the
-/// last one, and all figures of the result are those until then; RunResult::complete is false if steps were left.
+/// last one, and all figures of the result are those until then; RunSteps::complete is false if steps were left.
 ///
 /// Throws BadInput with place, value, limit and remedy for options that do not go together, for bodies that overlap
 /// where the scene has contact, and for a time step above the stable one. An error within a step says in front of its

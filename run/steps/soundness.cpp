@@ -15,7 +15,7 @@ constexpr double sound_share = 0.5;
 template <int Dim>
 double Soundness<Dim>::scale() const {
     const RunResult<Dim>& result = start_.result;
-    return std::max({result.accounts.energy_in_play, result.scale.value, result.rest_energy});
+    return std::max({result.energy.accounts.energy_in_play, result.energy.scale.value, result.energy.at_rest});
 }
 
 template <int Dim>
@@ -31,8 +31,8 @@ template <int Dim>
 bool Soundness<Dim>::is_alive(double excess_before) const {
     const RunResult<Dim>& result = start_.result;
     const auto& entries = result.ledger.entries();
-    const bool at_end = entries.size() > 1 && entries.back().step == result.steps;
-    const bool moved = result.accounts.energy_in_play > result.rest_energy;
+    const bool at_end = entries.size() > 1 && entries.back().step == result.run.steps;
+    const bool moved = result.energy.accounts.energy_in_play > result.energy.at_rest;
     return run::is_alive(entries.back(), scale(), at_end && moved ? result.ledger.energy_excess() : excess_before);
 }
 

@@ -22,7 +22,7 @@ public:
     /// The present state is sound.
     template <class Integrator>
     void keep(const Integrator& integrator) {
-        sound_.keep(integrator, start_.result.dt);
+        sound_.keep(integrator, start_.result.run.dt);
     }
     [[nodiscard]] const dynamics::IntegratorState& state() const { return sound_.state(); }  ///< of the points of this rank
     void replace(dynamics::IntegratorState state) { sound_.replace(std::move(state)); }

@@ -76,8 +76,8 @@ EnergyScale known_scale(EnergyScale scale, const RunResult<Dim>& result) {
     if (scale.name.empty())
         throw BadInput("Scene::energy_scale has no name. Give a letter and what stands below it, such as H0.");
     if (scale.value != 0.0) return scale;
-    if (result.accounts.energy_in_play <= result.rest_energy) return scale;
-    scale.value = result.accounts.energy_in_play;
+    if (result.energy.accounts.energy_in_play <= result.energy.at_rest) return scale;
+    scale.value = result.energy.accounts.energy_in_play;
     if (scale.name == EnergyScale{}.name && scale.value > (1.0 + rounding) * result.ledger.entries().front().kinetic)
         scale.name = "E";
     return scale;
@@ -104,30 +104,30 @@ Start<Dim>::Start(const Scene<Dim>& of, const RunOptions& given, std::optional<P
     const solid::SolidOptions<Dim> chosen = solid_options<Dim>(scene, options, pilot);
     if (pilot) solid::require_together(scene.mesh, chosen, features_of(scene, options, chosen, share.ranks));
     solid = std::make_unique<solid::Solid<Dim>>(share.part, chosen, share.ranks);
-    result.pilot = std::move(pilot);
+    result.run.pilot = std::move(pilot);
     if (!share.ranks.is_one()) on_first(share.ranks, [&] { whole.emplace(scene.mesh, run::solid_options(scene, options)); });
-    result.stable = solid::step_of_breaking(*solid);
-    result.finest_dt = result.dt = choose_step(options, result.stable.dt);
+    result.run.stable = solid::step_of_breaking(*solid);
+    result.run.finest_dt = result.run.dt = choose_step(options, result.run.stable.dt);
     if (options.integrator == SolidIntegrator::memm_async) set_local_steps();
-    result.steps = choose_steps(options, scene.time, result.dt);
-    check_output_times(options, static_cast<double>(result.steps) * result.dt);
-    result.rest_energy =
-        rest_energy(scene.mesh, solid->options().materials, std::min(result.finest_dt, result.stable.dt), result.steps);
+    result.run.steps = choose_steps(options, scene.time, result.run.dt);
+    check_output_times(options, static_cast<double>(result.run.steps) * result.run.dt);
+    result.energy.at_rest = rest_energy(scene.mesh, solid->options().materials,
+                                        std::min(result.run.finest_dt, result.run.stable.dt), result.run.steps);
     const solid::Solid<Dim>& seen = whole ? *whole : *solid;
-    result.stencils = seen.ccg().stencil_report();
-    result.boundary_stencils = seen.ccg().boundary().report;
+    result.bodies.stencils = seen.ccg().stencil_report();
+    result.bodies.boundary_stencils = seen.ccg().boundary().report;
     for (std::size_t body = 0; body < solid->options().materials.size(); ++body)
         if (solid::properties_of(solid->options().kinematics, body).finite_strains &&
-            solid->options().materials[body].kinematic_hardening > 0.0)
-            result.finite_kinematic_hardening = true;
-    result.all_may_turn = solid::all_bodies(solid->options().kinematics, &solid::KinematicsProperties::turns);
+            solid->options().materials[body].flow.kinematic_hardening > 0.0)
+            result.bodies.finite_kinematic_hardening = true;
+    result.bodies.all_may_turn = solid::all_bodies(solid->options().kinematics, &solid::KinematicsProperties::turns);
     for (std::size_t body = 0; body < solid->options().materials.size(); ++body)
-        result.may_turn.push_back(solid::properties_of(solid->options().kinematics, body).turns);
-    if (share.ranks.rank() == 0) result.inertia = solid::inertia_of_bodies(seen);
-    result.blind_corners = solid->contact().blind_corners();
-    result.unseen_edges = solid->contact().unseen_edges();
-    if (share.ranks.rank() == 0) result.unjoined = mesh::find_unjoined_faces(scene.mesh, bonded_faces(seen));
-    result.bonds = bond_coverage(scene, *solid);
+        result.bodies.may_turn.push_back(solid::properties_of(solid->options().kinematics, body).turns);
+    if (share.ranks.rank() == 0) result.bodies.inertia = solid::inertia_of_bodies(seen);
+    result.contact.blind_corners = solid->contact().blind_corners();
+    result.contact.unseen_edges = solid->contact().unseen_edges();
+    if (share.ranks.rank() == 0) result.bodies.unjoined = mesh::find_unjoined_faces(scene.mesh, bonded_faces(seen));
+    result.bonds.coverage = bond_coverage(scene, *solid);
     set_outside();
     set_state();
     if (options.settle) settle(observer);
@@ -137,7 +137,7 @@ Start<Dim>::Start(const Scene<Dim>& of, const RunOptions& given, std::optional<P
 template <int Dim>
 void Start<Dim>::set_outside() {
     const solid::SolidOptions<Dim>& given = solid->options();
-    auto& forces = result.forces_from_outside;
+    auto& forces = result.energy.forces_from_outside;
     const auto add_if = [](std::vector<std::string>& list, bool acts, const char* what) {
         if (acts) list.emplace_back(what);
     };
@@ -148,26 +148,27 @@ void Start<Dim>::set_outside() {
     add_if(forces, !given.boundary.traction.empty(), "tractions");
     add_if(forces, bool(given.body_load), "loads on the volume");
     add_if(forces, std::ranges::any_of(given.springs, to_ground), "springs to the ground");
-    add_if(forces, std::ranges::any_of(given.materials, [](const auto& one) { return one.mass_damping > 0.0; }),
+    add_if(forces, std::ranges::any_of(given.materials, [](const auto& one) { return one.damping.mass > 0.0; }),
            "mass_damping");
     const bool meets_obstacles = scene.contact && !given.obstacles.empty();
     // The filter holds momentum along what nothing holds, and an obstacle does.
-    result.accounts_for_outside =
+    result.energy.accounts_for_outside =
         forces.empty() && !(options.filter && meets_obstacles) &&
         (options.integrator == SolidIntegrator::memm || options.integrator == SolidIntegrator::leapfrog);
     add_if(forces, std::ranges::any_of(given.acceleration, [](const auto& g) { return !g.isZero(0.0); }), "gravity");
     add_if(forces, meets_obstacles, "obstacles");
-    result.moments_from_outside = forces;
-    add_if(result.moments_from_outside, !given.moments.empty(), "moments");
-    const bool keeps_moments =
-        result.all_may_turn && given.springs.empty() && (!scene.contact || solid->contact().pair_potential() != nullptr) &&
-        options.integrator == SolidIntegrator::memm && options.precision == solid::Precision::double_precision;
-    if (!keeps_moments || !result.moments_from_outside.empty()) return;
+    result.energy.moments_from_outside = forces;
+    add_if(result.energy.moments_from_outside, !given.moments.empty(), "moments");
+    const bool keeps_moments = result.bodies.all_may_turn && given.springs.empty() &&
+                               (!scene.contact || solid->contact().pair_potential() != nullptr) &&
+                               options.integrator == SolidIntegrator::memm &&
+                               options.precision == solid::Precision::double_precision;
+    if (!keeps_moments || !result.energy.moments_from_outside.empty()) return;
     double sum = 0.0;
     for (std::size_t c = 0; c < scene.mesh.cell_measure.size(); ++c)
         sum += given.materials[static_cast<std::size_t>(scene.mesh.cell_body[c])].density * scene.mesh.cell_measure[c] *
                scene.mesh.cell_centroid[c].squaredNorm();
-    result.moment_scale = std::sqrt(2.0 * sum);
+    result.energy.moment_scale = std::sqrt(2.0 * sum);
 }
 
 template <int Dim>
@@ -188,14 +189,14 @@ void Start<Dim>::settle(Observer<Dim>& observer) {
         if (scene.contact)
             on_first(ranks, [&] {
                 check_start_contact<Dim>(scene, whole ? *whole : *solid, all.q, std::max(kinetic, scene.energy_scale.value),
-                                         result.rest_energy);
+                                         result.energy.at_rest);
             });
-        Settled settled = run::settle(scene, solid->options(), first_share, q, result.stable.dt, observer);
+        Settled settled = run::settle(scene, solid->options(), first_share, q, result.run.stable.dt, observer);
         q = std::move(settled.q);
         solid->restore(settled.solid, q);
-        result.settling = settled.report;
+        result.run.settling = settled.report;
     }
-    result.settling->seconds = seconds;
+    result.run.settling->seconds = seconds;
 }
 
 /// The solid before goes first: there is never more than one of them.
@@ -219,14 +220,14 @@ void Start<Dim>::take_rest(std::unique_ptr<const Scene<Dim>> of, std::unique_ptr
 template <int Dim>
 void Start<Dim>::set_local_steps() {
     auto local =
-        solid::local_steps(*solid, result.stable,
+        solid::local_steps(*solid, result.run.stable,
                            {.most_levels = options.levels == 0 ? solid::LocalStepOptions{}.most_levels : options.levels,
                             .contact_margin = options.contact_margin,
                             .contact_levels = options.contact_levels});
     local_steps = std::move(local.steps);
-    result.level_cells = std::move(local.cells);
-    result.dt *= local.dt / result.stable.dt;
-    result.finest_dt = result.dt / local_steps.parts.back();
+    result.run.level_cells = std::move(local.cells);
+    result.run.dt *= local.dt / result.run.stable.dt;
+    result.run.finest_dt = result.run.dt / local_steps.parts.back();
 }
 
 template <int Dim>

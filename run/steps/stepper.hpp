@@ -49,7 +49,7 @@ public:
     /// In the step that begins now.
     [[nodiscard]] std::string at_this_step(const std::string& what) const {
         return fmt::format("step {}, t = {:.4g} s (steps of {:.4g} s, stable are {:.4g} s): {}", integrator_->steps() + 1,
-                           integrator_->time(), start_.result.dt, start_.result.stable.dt, what);
+                           integrator_->time(), start_.result.run.dt, start_.result.run.stable.dt, what);
     }
 
     // Other states and solids

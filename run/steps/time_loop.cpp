@@ -64,15 +64,16 @@ public:
           erosion_(start) {}
 
     void run(const Checkpoint* from) {
-        whole_.show(*stepper_, [&](const auto& run, auto& solid) { result_.start = solid::body_motions<Dim>(run, solid); });
+        whole_.show(*stepper_,
+                    [&](const auto& run, auto& solid) { result_.bodies.start = solid::body_motions<Dim>(run, solid); });
         if (from)
             resume(*from);
         else
             begin();
-        while (stepper_->steps() < result_.steps) {
+        while (stepper_->steps() < result_.run.steps) {
             step();
             attend();
-            if (balance_.is_due(stepper_->steps()) && stepper_->steps() < result_.steps) rebalance();
+            if (balance_.is_due(stepper_->steps()) && stepper_->steps() < result_.run.steps) rebalance();
         }
         end();
     }
@@ -100,7 +101,7 @@ private:
         } catch (const std::exception& error) {
             throw std::runtime_error(stepper_.at_this_step(error.what()));
         }
-        if (scene_.after_step) scene_.after_step(solid(), result_.dt);
+        if (scene_.after_step) scene_.after_step(solid(), result_.run.dt);
     }
 
     // Cells that leave
@@ -136,7 +137,7 @@ private:
 
     /// All that is due after a step, for the ledger and for the observer.
     void attend() {
-        const bool records = stepper_->steps() % options_.interval == 0 || stepper_->steps() == result_.steps;
+        const bool records = stepper_->steps() % options_.interval == 0 || stepper_->steps() == result_.run.steps;
         if (records) record();
         const Wanted wanted = ask(records);
         look(wanted);
@@ -149,9 +150,9 @@ private:
         return Wanted::of(first_says(solid().ranks(), [&] {
             const std::int64_t step = stepper_->steps();
             Wanted wanted;
-            wanted.stop = step < result_.steps && observer_.asks_to_stop();
+            wanted.stop = step < result_.run.steps && observer_.asks_to_stop();
             wanted.look = observer_.wants_look(step);
-            wanted.measure = records && step > 0 && step < result_.steps && watches_.is_look_due(step);
+            wanted.measure = records && step > 0 && step < result_.run.steps && watches_.is_look_due(step);
             wanted.piece = observer_.wants_piece(step);
             wanted.checkpoint = step > 0 && observer_.wants_checkpoint(step, wanted.stop);
             observer_.progress(step, stepper_->time());
@@ -211,26 +212,26 @@ private:
 
     /// Here; what was not recorded is, so that the last entry is the last step.
     void stop(bool recorded) {
-        result_.steps = stepper_->steps();
-        result_.complete = false;
+        result_.run.steps = stepper_->steps();
+        result_.run.complete = false;
         if (!recorded) record();
     }
 
     void end() {
         show_end();
         take_figures();
-        result_.times = stepper_.times();
+        result_.seconds.solid = stepper_.times();
         if (balance_.is_on()) balance_.end(solid().ranks(), stepper_.own_seconds());
         result_.rebalancing = balance_.report();
         whole_.on_first([&] {
-            if (scene_.findings) result_.findings = scene_.findings(result_);
+            if (scene_.findings) result_.watch.findings = scene_.findings(result_);
         });
     }
     /// The last state, to those who look on.
     void show_end() {
         const contact::ContactReport contact = solid().contact().report();
         whole_.show(*stepper_, [&](const auto& run, auto& solid) {
-            result_.end = solid::body_motions<Dim>(run, solid);
+            result_.bodies.end = solid::body_motions<Dim>(run, solid);
             take_fragments(run, solid);
             watches_.end(run, solid, contact);
             observer_.end(run, solid);
@@ -238,20 +239,20 @@ private:
     }
     void take_fragments(const dynamics::RunView<Dim>& run, const solid::Solid<Dim>& solid) {
         if (!solid.bonds().may_break()) return;
-        result_.fragments = solid::fragments<Dim>(run, solid);
-        result_.broken_bonds = solid.bonds().broken_share();
+        result_.bonds.fragments = solid::fragments<Dim>(run, solid);
+        result_.bonds.broken_share = solid.bonds().broken_share();
     }
     /// Figures of the whole run that solid and watches have.
     void take_figures() {
         watches_.take_figures();
-        result_.local_rotations = solid().local_rotations(stepper_->q());
-        result_.finite = solid().cells().finite_extremes();
-        result_.dissipated = solid().dissipated();
-        result_.contact = solid().contact().report();
+        result_.bodies.local_rotations = solid().local_rotations(stepper_->q());
+        result_.bodies.finite = solid().cells().finite_extremes();
+        result_.energy.dissipated = solid().dissipated();
+        result_.contact.report = solid().contact().report();
         if (const auto* by_nodes = solid().contact().pair_potential())
-            result_.overlaps.assign(by_nodes->interference().begin(), by_nodes->interference().end());
-        result_.skin = solid().contact().skin();
-        result_.evaluations = solid().evaluations();
+            result_.contact.overlaps.assign(by_nodes->interference().begin(), by_nodes->interference().end());
+        result_.contact.skin = solid().contact().skin();
+        result_.run.evaluations = solid().evaluations();
     }
 
     // Checkpoints
@@ -262,7 +263,7 @@ private:
                               .solid = solid().state(),
                               .ledger = ledger_rows(result_.ledger),
                               .restarts = stepper_.restarts(),
-                              .inadmissible_overlaps_max = result_.inadmissible_overlaps_max,
+                              .inadmissible_overlaps_max = result_.contact.inadmissible_overlaps_max,
                               .looks = {},
                               .observers = {}};
         whole_.on_first([&] { keep_looks(checkpoint); });
@@ -287,19 +288,19 @@ private:
         record_rows(from.ledger, result_.ledger);
         get_value(looks, watches_);
         looks.finish();
-        result_.scale = known_scale<Dim>(scene_.energy_scale, result_);
-        result_.inadmissible_overlaps_max = from.inadmissible_overlaps_max;
-        result_.resumed_after = stepper_->steps();
+        result_.energy.scale = known_scale<Dim>(scene_.energy_scale, result_);
+        result_.contact.inadmissible_overlaps_max = from.inadmissible_overlaps_max;
+        result_.run.resumed_after = stepper_->steps();
         times_.skip(stepper_->time(), stepper_->steps());
         soundness_.keep(*stepper_);
         whole_.on_first([&] { resume_observer(from.observers); });
     }
     void require_later_end(const dynamics::IntegratorState& motion) const {
-        if (motion.steps <= result_.steps) return;
-        throw BadInput(
-            fmt::format("the run is to end at step {}, t = {:.6g} s, and the checkpoint is of step {}, t = {:.6g} s. "
-                        "Give a later end.",
-                        result_.steps, static_cast<double>(result_.steps) * result_.dt, motion.steps, motion.time));
+        if (motion.steps <= result_.run.steps) return;
+        throw BadInput(fmt::format(
+            "the run is to end at step {}, t = {:.6g} s, and the checkpoint is of step {}, t = {:.6g} s. "
+            "Give a later end.",
+            result_.run.steps, static_cast<double>(result_.run.steps) * result_.run.dt, motion.steps, motion.time));
     }
     /// Solid, integrator and remedies do.
     void go_on_from(const Checkpoint& from) {
@@ -325,7 +326,7 @@ private:
         measure();
         look_around();
         const auto& entries = result_.ledger.entries();
-        result_.scale = known_scale<Dim>(scene_.energy_scale, result_);
+        result_.energy.scale = known_scale<Dim>(scene_.energy_scale, result_);
         if (entries.size() == 1 && scene_.contact && !options_.settle) check_contact(entries.front());
         whole_.on_first([&] { observer_.record(entries.back(), result_); });
         soundness_.judge(*stepper_, excess_before);
@@ -337,15 +338,15 @@ private:
         result_.ledger.record(dynamics::measure(*stepper_, solid(), stepper_.restarts(), result_.erosion.left));
         const dynamics::LedgerEntry<Dim>& entry = result_.ledger.entries().back();
         const dynamics::RunView<Dim> now(*stepper_);
-        result_.accounts.record(
+        result_.energy.accounts.record(
             entry, largest_speed(now, solid()),
             momentum_from_outside(stepper_->time(), scene_.mesh.n_bodies(), solid()) + result_.erosion.impulse_of_weight);
-        result_.contact = solid().contact().report();
-        result_.sliding.record(result_.contact);
+        result_.contact.report = solid().contact().report();
+        result_.contact.sliding.record(result_.contact.report);
         watches_.record(entry, stepper_->q());
-        result_.compressed = most_compressed(scene_, solid());
-        result_.inadmissible_overlaps_max =
-            std::max(result_.inadmissible_overlaps_max, result_.contact.inadmissible_overlaps);
+        result_.watch.compressed = most_compressed(scene_, solid());
+        result_.contact.inadmissible_overlaps_max =
+            std::max(result_.contact.inadmissible_overlaps_max, result_.contact.report.inadmissible_overlaps);
     }
 
     void look_around() {
@@ -359,7 +360,7 @@ private:
     void check_contact(const dynamics::LedgerEntry<Dim>& at_start) {
         const double scale = std::max(at_start.kinetic, scene_.energy_scale.value);
         whole_.show(*stepper_, [&](const auto& run, auto& solid) {
-            check_start_contact<Dim>(scene_, solid, run.q, scale, result_.rest_energy);
+            check_start_contact<Dim>(scene_, solid, run.q, scale, result_.energy.at_rest);
         });
     }
 
@@ -384,7 +385,7 @@ void take_steps(Start<Dim>& start, Observer<Dim>& observer, const Checkpoint* fr
     const SolidIntegrator scheme = start.options.integrator;
     const double gauge = scheme == SolidIntegrator::bilbao ? run::gauge(start) : 0.0;
     dynamics::with_scheme<solid::Solid<Dim>>(scheme, {.gauge = gauge}, [&](const auto& make) {
-        const auto make_at = [&](Start<Dim>& s) { return make(*s.solid, s.q, s.momentum, s.result.dt, s.local_steps); };
+        const auto make_at = [&](Start<Dim>& s) { return make(*s.solid, s.q, s.momentum, s.result.run.dt, s.local_steps); };
         TimeLoop<Dim, decltype(make_at(start))>(start, observer, make_at).run(from);
     });
 }

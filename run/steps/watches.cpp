@@ -36,8 +36,8 @@ void Watches<Dim>::take_rest() {
 
 template <int Dim>
 void Watches<Dim>::record(const dynamics::LedgerEntry<Dim>& entry, std::span<const double> q) {
-    friction_.record(entry, start_.solid->contact().impulses(), start_.result.accounts.speed);
-    if (!start_.result.all_may_turn) record_turned(q);
+    friction_.record(entry, start_.solid->contact().impulses(), start_.result.energy.accounts.speed);
+    if (!start_.result.bodies.all_may_turn) record_turned(q);
 }
 
 template <int Dim>
@@ -45,35 +45,35 @@ void Watches<Dim>::record_turned(std::span<const double> q) {
     RunResult<Dim>& result = start_.result;
     const std::vector<double> angles = start_.solid->rotations(q);
     for (std::size_t body = 0; body < angles.size(); ++body)
-        if (!result.may_turn[body] && angles[body] > result.turned.angle)
-            result.turned = {quoted_name(start_.scene, static_cast<std::int32_t>(body)), angles[body]};
+        if (!result.bodies.may_turn[body] && angles[body] > result.watch.turned.angle)
+            result.watch.turned = {quoted_name(start_.scene, static_cast<std::int32_t>(body)), angles[body]};
 }
 
 /// At the end, and at evenly spaced records before it: a look at fine motion costs about a tenth of a step, and the lists
 /// for the first one less than a step (27,000 bricks, or as many tetrahedra).
 template <int Dim>
 bool Watches<Dim>::is_sighting_due(std::int64_t step) const {
-    const std::int64_t interval = start_.options.interval, steps = start_.result.steps;
+    const std::int64_t interval = start_.options.interval, steps = start_.result.run.steps;
     const std::int64_t every = interval * std::max<std::int64_t>(1, steps / (interval * sightings_per_run));
     return step % every == 0 || step == steps;
 }
 
 template <int Dim>
 void Watches<Dim>::look_at_obstacles(std::span<const double> q, double time) {
-    obstacles_.look(*start_.solid, q, time, start_.result.sightings.past_rims);
+    obstacles_.look(*start_.solid, q, time, start_.result.watch.sightings.past_rims);
 }
 
 template <int Dim>
 void Watches<Dim>::look_for_crossings(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) {
     whole_.evaluate(run, solid);
-    self_->look(solid, run.q, run.time, run.steps, start_.result.sightings);
+    self_->look(solid, run.q, run.time, run.steps, start_.result.watch.sightings);
 }
 
 /// Neighbours of cells are listed at the first look.
 template <int Dim>
 void Watches<Dim>::look_at_fine_motion(const dynamics::RunView<Dim>& run, const solid::Solid<Dim>& solid) {
     if (!fine_motion_) fine_motion_.emplace(solid.mesh());
-    double& most = start_.result.fine_energy_max;
+    double& most = start_.result.energy.fine_max;
     most = std::max(most, fine_motion_->energy(run, solid));
 }
 
@@ -82,19 +82,19 @@ void Watches<Dim>::look_at_surfaces_of(const dynamics::RunView<Dim>& run, solid:
     RunResult<Dim>& result = start_.result;
     const Stopwatch watch(result.seconds.looks);
     whole_.evaluate(run, solid);
-    surfaces_->look(run, solid, result.accounts.speed, result.contact.active_pairs > 0);
+    surfaces_->look(run, solid, result.energy.accounts.speed, result.contact.report.active_pairs > 0);
 }
 
 template <int Dim>
 void Watches<Dim>::end(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid, const contact::ContactReport& contact) {
     whole_.evaluate(run, solid);
-    surfaces_->end(run, solid, start_.result.accounts.speed, contact.active_pairs > 0, contact.active_pairs_max > 0);
+    surfaces_->end(run, solid, start_.result.energy.accounts.speed, contact.active_pairs > 0, contact.active_pairs_max > 0);
 }
 
 template <int Dim>
 void Watches<Dim>::take_figures() const {
-    start_.result.looks = surfaces_->looks();
-    start_.result.weak_friction = friction_.weakest();
+    start_.result.watch.looks = surfaces_->looks();
+    start_.result.watch.weak_friction = friction_.weakest();
 }
 
 template class Watches<2>;

@@ -58,8 +58,8 @@ public:
     /// Memory of all watches and of the accounts of the result: that of a checkpoint.
     static auto fields(auto& self) {
         auto& result = self.start_.result;
-        return std::tie(result.accounts, result.sliding, *self.surfaces_, result.sightings, result.turned, self.friction_,
-                        result.fine_energy_max);
+        return std::tie(result.energy.accounts, result.contact.sliding, *self.surfaces_, result.watch.sightings,
+                        result.watch.turned, self.friction_, result.energy.fine_max);
     }
 
 private:

@@ -8,7 +8,7 @@ struct EnergyScale {
     std::string name = "K0";  ///< a letter and its index
     /// [J]; 0: the largest of kinetic energy, V and work from outside so far (Accounts::energy_in_play), which is K0 as
     /// long as nothing acts from outside and nothing is strained at the start, and is called E where it is more;
-    /// RunResult::rest_energy and less count as nothing
+    /// RunEnergy::at_rest and less count as nothing
     double value = 0.0;
 
     /// An energy over the scale [-]; 0 as long as nothing has moved.

@@ -46,17 +46,18 @@ void refuse_diverged(const Scene<Dim>& scene, const RunResult<Dim>& result, doub
                 "step {}, t = {:.4g} s: the run has diverged: H - H~ came to {:.3g} J, and the energy in play, {:.3g} "
                 "J, is allowed: the motion swings from step to step and is no solution, though H~ stays. {} Steps are "
                 "{:.4g} s long, stable are {:.4g} s. {}",
-                entry.step, entry.time, excess, scale, worst_is, result.dt, result.stable.dt,
-                result.dt > result.stable.dt ? "Lower --cfl or --dt."
-                                             : "If bodies meet with edges or tips, blunt them or refine there; else take " +
-                                                   calming_choices(result.options) + "."),
+                entry.step, entry.time, excess, scale, worst_is, result.run.dt, result.run.stable.dt,
+                result.run.dt > result.run.stable.dt
+                    ? "Lower --cfl or --dt."
+                    : "If bodies meet with edges or tips, blunt them or refine there; else take " +
+                          calming_choices(result.options) + "."),
             {.cell = worst.cell, .value = excess, .allowed = scale});
     throw Diverged(
         fmt::format("step {}, t = {:.4g} s: the run has diverged: H is {:.3g} J, {:.3g} J of it work from outside, "
                     "and H~ {:.3g} J; {:g} times the energy in play, {:.3g} J, is allowed. {} Steps are {:.4g} s "
                     "long, stable are {:.4g} s: lower --cfl or --dt.",
                     entry.step, entry.time, entry.energy, entry.work, entry.pseudo_energy, divergence_factor, scale,
-                    worst_is, result.dt, result.stable.dt),
+                    worst_is, result.run.dt, result.run.stable.dt),
         {.cell = worst.cell, .value = own_energy(entry), .allowed = divergence_factor * scale});
 }
 

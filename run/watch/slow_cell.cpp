@@ -73,7 +73,7 @@ void require_even_cells(const Scene<Dim>& scene, const RunResult<Dim>& result) {
         fmt::format("{}: a wave takes {:.3g} s through it, {:.2g} of the median of its body, {:g} is needed: the step of "
                     "the whole run is as short, {:.3g} s. Give the mesh cells of more even size there, by another `size` or "
                     "without slivers in its surface. Whoever wants the mesh as it is gives the step by --dt",
-                    name_of_cell(scene.mesh, slow->cell), slow->time, slow->of_body, least_cell_share, result.dt),
+                    name_of_cell(scene.mesh, slow->cell), slow->time, slow->of_body, least_cell_share, result.run.dt),
         {.cell = slow->cell, .value = slow->of_body, .allowed = least_cell_share});
 }
 

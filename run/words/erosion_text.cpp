@@ -30,8 +30,8 @@ constexpr std::array reasons{ReasonWords{solid::LeavingReason::strain, "strain",
 template <int Dim>
 ErodedShares eroded_shares(const RunResult<Dim>& result) {
     double mass = 0.0;
-    for (const solid::BodyMotion<Dim>& body : result.start) mass += body.mass;
-    const double energy = result.accounts.energy_in_play;
+    for (const solid::BodyMotion<Dim>& body : result.bodies.start) mass += body.mass;
+    const double energy = result.energy.accounts.energy_in_play;
     const dynamics::Left<Dim>& left = result.erosion.left;
     return {.mass = mass > 0.0 ? left.mass / mass : 0.0, .energy = energy > 0.0 ? std::abs(left.energy()) / energy : 0.0};
 }

@@ -36,23 +36,24 @@ std::vector<double> numbers(const Vector<Dim>& vector) {
 /// Time in contact, search included, over the time of the bulk [-].
 template <int Dim>
 double contact_share(const RunResult<Dim>& result) {
-    return (result.times.contact + result.times.search) / result.times.bulk;
+    return (result.seconds.solid.contact + result.seconds.solid.search) / result.seconds.solid.bulk;
 }
 
 template <int Dim>
 Json bodies_json(const Scene<Dim>& scene, const RunResult<Dim>& result) {
     Json bodies = Json::array();
-    for (std::size_t body = 0; body < result.start.size(); ++body)
+    for (std::size_t body = 0; body < result.bodies.start.size(); ++body)
         bodies.push_back(
             {{"name", scene.mesh.body_names[body]},
-             {"mass", result.start[body].mass},
-             {"velocity_initial", numbers<Dim>(result.start[body].velocity)},
-             {"velocity_final", numbers<Dim>(result.end[body].velocity)},
-             {"rotation_final", result.end[body].rotation},
-             {"spin_initial", std::vector<double>(result.start[body].spin.begin(), result.start[body].spin.end())},
-             {"spin_final", std::vector<double>(result.end[body].spin.begin(), result.end[body].spin.end())},
-             {"local_rotation_final", result.local_rotations[body]},
-             {"inertia_share", body < result.inertia.size() ? result.inertia[body].least() : 1.0}});
+             {"mass", result.bodies.start[body].mass},
+             {"velocity_initial", numbers<Dim>(result.bodies.start[body].velocity)},
+             {"velocity_final", numbers<Dim>(result.bodies.end[body].velocity)},
+             {"rotation_final", result.bodies.end[body].rotation},
+             {"spin_initial",
+              std::vector<double>(result.bodies.start[body].spin.begin(), result.bodies.start[body].spin.end())},
+             {"spin_final", std::vector<double>(result.bodies.end[body].spin.begin(), result.bodies.end[body].spin.end())},
+             {"local_rotation_final", result.bodies.local_rotations[body]},
+             {"inertia_share", body < result.bodies.inertia.size() ? result.bodies.inertia[body].least() : 1.0}});
     return bodies;
 }
 
@@ -81,10 +82,14 @@ Json settling_json(const SettlingReport& settling) {
 template <int Dim>
 Json seconds_json(const RunResult<Dim>& result) {
     const auto& seconds = result.seconds;
-    return {{"total", seconds.total},          {"mesh", seconds.mesh},
-            {"setup", seconds.setup},          {"bulk", result.times.bulk},
-            {"contact", result.times.contact}, {"search", result.times.search},
-            {"ledger", seconds.ledger},        {"output", seconds.output},
+    return {{"total", seconds.total},
+            {"mesh", seconds.mesh},
+            {"setup", seconds.setup},
+            {"bulk", result.seconds.solid.bulk},
+            {"contact", result.seconds.solid.contact},
+            {"search", result.seconds.solid.search},
+            {"ledger", seconds.ledger},
+            {"output", seconds.output},
             {"looks", seconds.looks}};
 }
 
@@ -111,23 +116,23 @@ Json options_json(const Scene<Dim>& scene, const RunResult<Dim>& result) {
     else
         all["time"] = std::isnan(options.time) ? scene.time : options.time;
     all.update(to_json(named_values(options)));
-    all["skin"] = result.skin;
-    all["threads"] = result.threads;
+    all["skin"] = result.contact.skin;
+    all["threads"] = result.run.threads;
     return all;
 }
 
 template <int Dim>
 Json run_json(const RunResult<Dim>& result) {
     const auto& last = result.ledger.entries().back();
-    return {{"steps", result.steps},
-            {"complete", result.complete},
-            {"resumed_after", result.resumed_after},
-            {"dt", result.dt},
-            {"stable_dt", result.stable.dt},
-            {"dt_over_stable_dt", result.dt / result.stable.dt},
-            {"finest_dt", result.finest_dt},
-            {"level_cells", result.level_cells},
-            {"force_evaluations", result.evaluations},
+    return {{"steps", result.run.steps},
+            {"complete", result.run.complete},
+            {"resumed_after", result.run.resumed_after},
+            {"dt", result.run.dt},
+            {"stable_dt", result.run.stable.dt},
+            {"dt_over_stable_dt", result.run.dt / result.run.stable.dt},
+            {"finest_dt", result.run.finest_dt},
+            {"level_cells", result.run.level_cells},
+            {"force_evaluations", result.run.evaluations},
             {"time", last.time}};
 }
 
@@ -135,18 +140,18 @@ template <int Dim>
 Json energies_json(const RunResult<Dim>& result) {
     const auto& ledger = result.ledger;
     const auto number = [](double value) { return std::isnan(value) ? Json() : Json(value); };
-    const auto if_kept = [&](double drift) { return result.moments_from_outside.empty() ? Json(drift) : Json(); };
+    const auto if_kept = [&](double drift) { return result.energy.moments_from_outside.empty() ? Json(drift) : Json(); };
     return {{"kinetic_initial", ledger.entries().front().kinetic},
-            {"energy_scale", {{"name", result.scale.name}, {"value", result.scale.value}}},
+            {"energy_scale", {{"name", result.energy.scale.name}, {"value", result.energy.scale.value}}},
             {"pseudo_energy_drift", ledger.pseudo_energy_drift()},
             {"energy_drift", ledger.energy_drift()},
             {"energy_excess_max", ledger.energy_excess()},
             {"parasitic_max", ledger.parasitic()},
-            {"fine_energy_max", result.fine_energy_max},
-            {"energy_in_play", result.accounts.energy_in_play},
-            {"speed_max", result.accounts.speed},
-            {"forces_from_outside", result.forces_from_outside},
-            {"moments_from_outside", result.moments_from_outside},
+            {"fine_energy_max", result.energy.fine_max},
+            {"energy_in_play", result.energy.accounts.energy_in_play},
+            {"speed_max", result.energy.accounts.speed},
+            {"forces_from_outside", result.energy.forces_from_outside},
+            {"moments_from_outside", result.energy.moments_from_outside},
             {"momentum_drift_max", number(momentum_drift(result))},
             {"angular_momentum_drift_max", if_kept(ledger.angular_momentum_drift())},
             {"rest_angular_momentum_drift_max", if_kept(ledger.rest_angular_momentum_drift())},
@@ -177,33 +182,33 @@ Json restarts_json(const RunResult<Dim>& result) {
 
 template <int Dim>
 Json counts_json(const RunResult<Dim>& result) {
-    const auto& contact = result.contact;
+    const auto& contact = result.contact.report;
     return {{"events", contact.events},
             {"active_pairs_max", contact.active_pairs_max},
             {"active_pairs_final", result.ledger.entries().back().active_pairs},
             {"missed_contacts", contact.missed_contacts},
-            {"not_admitted_max", result.inadmissible_overlaps_max},
+            {"not_admitted_max", result.contact.inadmissible_overlaps_max},
             {"candidates", contact.candidates_max},
             {"rebuilds", contact.rebuilds},
-            {"blind_corners", result.blind_corners.size()},
+            {"blind_corners", result.contact.blind_corners.size()},
             {"compression_max", contact.compression_max},
             {"sliding_ratio_max", contact.sliding_ratio_max},
             {"slipped_pairs", contact.slipped_pairs},
             {"slipped_compression_max", contact.slipped_compression_max},
             {"compressed_steps", contact.compressed_steps},
             {"tilted_pairs_max", contact.tilted_pairs_max},
-            {"stencil_faces", result.stencils.faces},
-            {"stencil_extrapolations", result.stencils.extrapolated},
-            {"stencil_worst_weight", result.stencils.worst_weight},
-            {"stencil_lowered_floor", result.stencils.lowered_floor},
-            {"boundary_stencil_extrapolations", result.boundary_stencils.extrapolated},
-            {"boundary_stencil_worst_weight", result.boundary_stencils.worst_weight}};
+            {"stencil_faces", result.bodies.stencils.faces},
+            {"stencil_extrapolations", result.bodies.stencils.extrapolated},
+            {"stencil_worst_weight", result.bodies.stencils.worst_weight},
+            {"stencil_lowered_floor", result.bodies.stencils.lowered_floor},
+            {"boundary_stencil_extrapolations", result.bodies.boundary_stencils.extrapolated},
+            {"boundary_stencil_worst_weight", result.bodies.boundary_stencils.worst_weight}};
 }
 
 /// Nothing without friction.
 template <int Dim>
 Json friction_json(const RunResult<Dim>& result) {
-    const contact::ContactReport& contact = result.contact;
+    const contact::ContactReport& contact = result.contact.report;
     if (contact.sticking_faces_max + contact.sliding_faces_max == 0) return Json::object();
     const auto& last = result.ledger.entries().back();
     return {{"friction",
@@ -214,19 +219,19 @@ Json friction_json(const RunResult<Dim>& result) {
               {"sliding_faces_max", contact.sliding_faces_max},
               {"force_over_limit_max", contact.friction_ratio_max},
               {"sliding_share", contact.sliding_limit > 0.0 ? Json(contact.sliding_force / contact.sliding_limit) : Json()},
-              {"least_sliding_share", contact.sliding_limit > 0.0 ? Json(result.sliding.least_share()) : Json()}}}};
+              {"least_sliding_share", contact.sliding_limit > 0.0 ? Json(result.contact.sliding.least_share()) : Json()}}}};
 }
 
 /// Nothing where no material flows or is damped.
 template <int Dim>
 Json material_json(const RunResult<Dim>& result) {
-    const dynamics::Losses& loss = result.dissipated;
+    const dynamics::Losses& loss = result.energy.dissipated;
     Json json = Json::object();
     if (loss.in_cells + loss.in_jumps != 0.0)
         json["plasticity"] = {{"dissipated", loss.in_cells},
                               {"dissipated_in_jumps", loss.in_jumps},
                               {"dissipated_on_faces", loss.on_faces},
-                              {"strain_max", result.finite.plastic_strain}};
+                              {"strain_max", result.bodies.finite.plastic_strain}};
     if (loss.by_damping != 0.0) json["damping"] = {{"dissipated", loss.by_damping}, {"lagged", loss.lagged}};
     if (loss.by_viscosity != 0.0) json["viscosity"] = {{"dissipated", loss.by_viscosity}};
     return json;
@@ -256,10 +261,10 @@ Json erosion_json(const RunResult<Dim>& result) {
 /// Nothing without bonds.
 template <int Dim>
 Json bond_json(const Scene<Dim>& scene, const RunResult<Dim>& result) {
-    if (result.bonds.empty()) return Json::object();
+    if (result.bonds.coverage.empty()) return Json::object();
     Json made = Json::array();
-    for (std::size_t i = 0; i < result.bonds.size(); ++i) {
-        const solid::BondCoverage& coverage = result.bonds[i];
+    for (std::size_t i = 0; i < result.bonds.coverage.size(); ++i) {
+        const solid::BondCoverage& coverage = result.bonds.coverage[i];
         const auto& sides = scene.solid.bonds[i].sides;
         made.push_back({{"sides", {quoted_side(scene, sides[0]), quoted_side(scene, sides[1])}},
                         {"area", coverage.area},
@@ -269,19 +274,19 @@ Json bond_json(const Scene<Dim>& scene, const RunResult<Dim>& result) {
                         {"largest_gap", coverage.largest_gap}});
     }
     Json bonds = {{"made", std::move(made)}};
-    if (result.dissipated.in_bonds != 0.0) bonds["dissipated"] = result.dissipated.in_bonds;
-    if (result.dissipated.at_splits != 0.0) bonds["dissipated_at_splits"] = result.dissipated.at_splits;
-    if (const double least = cohesive_length(result.bonds); std::isfinite(least)) bonds["cohesive_length"] = least;
-    if (!result.fragments.empty()) bonds["broken_share"] = result.broken_bonds;
+    if (result.energy.dissipated.in_bonds != 0.0) bonds["dissipated"] = result.energy.dissipated.in_bonds;
+    if (result.energy.dissipated.at_splits != 0.0) bonds["dissipated_at_splits"] = result.energy.dissipated.at_splits;
+    if (const double least = cohesive_length(result.bonds.coverage); std::isfinite(least)) bonds["cohesive_length"] = least;
+    if (!result.bonds.fragments.empty()) bonds["broken_share"] = result.bonds.broken_share;
     return {{"bonds", std::move(bonds)}};
 }
 
 /// Nothing where no bond may break.
 template <int Dim>
 Json fragments_json(const Scene<Dim>& scene, const RunResult<Dim>& result) {
-    if (result.fragments.empty()) return Json::object();
+    if (result.bonds.fragments.empty()) return Json::object();
     Json rows = Json::array();
-    for (const solid::Fragment<Dim>& fragment : result.fragments)
+    for (const solid::Fragment<Dim>& fragment : result.bonds.fragments)
         rows.push_back({{"body", scene.mesh.body_names[static_cast<std::size_t>(fragment.bodies.front())]},
                         {"bodies", fragment.bodies.size()},
                         {"cells", fragment.n_cells},
@@ -296,10 +301,10 @@ Json fragments_json(const Scene<Dim>& scene, const RunResult<Dim>& result) {
 template <int Dim>
 Json interference_json(const Scene<Dim>& scene, const RunResult<Dim>& result) {
     Json pairs = Json::array();
-    for (std::size_t i = 0; i < result.overlaps.size(); ++i) {
+    for (std::size_t i = 0; i < result.contact.overlaps.size(); ++i) {
         const solid::BodyInterference& one = scene.solid.interference[i];
         pairs.push_back({{"bodies", {quoted_side(scene, one.bodies[0]), quoted_side(scene, one.bodies[1])}},
-                         {"overlap", result.overlaps[i]},
+                         {"overlap", result.contact.overlaps[i]},
                          {"time", one.time}});
     }
     return pairs.empty() ? Json::object() : Json{{"interference", pairs}};
@@ -323,11 +328,11 @@ Json verdict_json(const Scene<Dim>& scene, const RunResult<Dim>& result) {
     return {{"verdict", {{"good", said.good}, {"text", said.text}}},
             {"warnings", warnings},
             {"surfaces",
-             {{"looks", result.looks.looks},
-              {"deepest", encounter_json(result.looks.deepest)},
-              {"remote_contact", encounter_json(result.looks.remote)},
-              {"sliding_pressure", encounter_json(result.looks.pressed)},
-              {"nearest", encounter_json(result.looks.nearest)}}}};
+             {{"looks", result.watch.looks.looks},
+              {"deepest", encounter_json(result.watch.looks.deepest)},
+              {"remote_contact", encounter_json(result.watch.looks.remote)},
+              {"sliding_pressure", encounter_json(result.watch.looks.pressed)},
+              {"nearest", encounter_json(result.watch.looks.nearest)}}}};
 }
 
 template <int Dim>
@@ -344,23 +349,23 @@ std::string value_text(const Value& value) {
 
 template <int Dim>
 std::string energy_lines(const RunResult<Dim>& result) {
-    const std::string& name = result.scale.name;
+    const std::string& name = result.energy.scale.name;
     const dynamics::Ledger<Dim>& ledger = result.ledger;
-    const auto over_scale = [&](double energy) { return fmt::format("{:.2e}", result.scale.over(energy)); };
+    const auto over_scale = [&](double energy) { return fmt::format("{:.2e}", result.energy.scale.over(energy)); };
     const double momentum = momentum_drift(result);
     return table_line(fmt::format("drift of pseudo-energy, / {}", name), over_scale(ledger.pseudo_energy_drift())) +
            table_line(fmt::format("energy excess H - H~, / {}", name), over_scale(ledger.energy_excess())) +
            table_line("drift of linear momentum",
                       (std::isnan(momentum) ? "" : fmt::format("{:.2e} kg m/s", momentum)) + momentum_note(result)) +
            table_line("drift of angular momentum J~",
-                      result.moments_from_outside.empty()
+                      result.energy.moments_from_outside.empty()
                           ? fmt::format("{:.2e} kg m^2/s", ledger.pseudo_angular_momentum_drift())
                           : moment_note(result));
 }
 
 template <int Dim>
 std::string contact_lines(const RunResult<Dim>& result) {
-    const auto& contact = result.contact;
+    const auto& contact = result.contact.report;
     return table_line("contact events, missed contacts", fmt::format("{}, {}", contact.events, contact.missed_contacts)) +
            table_line("compression of the skin, max |g|/D", fmt::format("{:.3g}", contact.compression_max));
 }
@@ -368,10 +373,10 @@ std::string contact_lines(const RunResult<Dim>& result) {
 /// Nothing where nothing is lost.
 template <int Dim>
 std::string loss_line(const RunResult<Dim>& result) {
-    const dynamics::Losses& loss = result.dissipated;
+    const dynamics::Losses& loss = result.energy.dissipated;
     std::vector<std::string> parts;
     const auto add = [&](const char* by, double energy) {
-        if (energy != 0.0) parts.push_back(fmt::format("{} {:.3g}", by, result.scale.over(energy)));
+        if (energy != 0.0) parts.push_back(fmt::format("{} {:.3g}", by, result.energy.scale.over(energy)));
     };
     add("friction", result.ledger.entries().back().losses.by_friction);
     add("plastic flow", loss.in_cells + loss.in_jumps);
@@ -379,34 +384,34 @@ std::string loss_line(const RunResult<Dim>& result) {
     add("viscosity", loss.by_viscosity);
     add("broken bonds", loss.in_bonds);
     if (parts.empty()) return "";
-    return table_line(fmt::format("dissipated, / {}", result.scale.name), fmt::format("{}", fmt::join(parts, ", ")));
+    return table_line(fmt::format("dissipated, / {}", result.energy.scale.name), fmt::format("{}", fmt::join(parts, ", ")));
 }
 
 /// Nothing where no bond may break.
 template <int Dim>
 std::string fragment_line(const RunResult<Dim>& result) {
-    if (result.fragments.empty()) return "";
+    if (result.bonds.fragments.empty()) return "";
     std::size_t bodies = 0;
     double all = 0.0, largest = 0.0;
-    for (const solid::Fragment<Dim>& fragment : result.fragments) {
+    for (const solid::Fragment<Dim>& fragment : result.bonds.fragments) {
         bodies += fragment.bodies.size();
         all += fragment.mass;
         largest = std::max(largest, fragment.mass);
     }
-    const double cohesive = cohesive_length(result.bonds);
+    const double cohesive = cohesive_length(result.bonds.coverage);
     return table_line("fragments",
                       fmt::format("{} of {} bonded bodies, the largest {:.3g} of their mass; {:.3g} of the bonds broken",
-                                  result.fragments.size(), bodies, largest / all, result.broken_bonds)) +
+                                  result.bonds.fragments.size(), bodies, largest / all, result.bonds.broken_share)) +
            (std::isfinite(cohesive) ? table_line("cohesive length of bonds", fmt::format("{:.3g} cells", cohesive)) : "");
 }
 
 /// Bodies that were never bonded come first: those of fragments are many, and have their table in the summary.
 template <int Dim>
 std::vector<std::size_t> bodies_to_show(const RunResult<Dim>& result) {
-    std::vector<char> is_in_fragment(result.end.size(), 0);
-    for (const solid::Fragment<Dim>& fragment : result.fragments)
+    std::vector<char> is_in_fragment(result.bodies.end.size(), 0);
+    for (const solid::Fragment<Dim>& fragment : result.bonds.fragments)
         for (const std::int32_t body : fragment.bodies) is_in_fragment[static_cast<std::size_t>(body)] = 1;
-    std::vector<std::size_t> order(result.end.size());
+    std::vector<std::size_t> order(result.bodies.end.size());
     std::iota(order.begin(), order.end(), 0);
     std::ranges::stable_partition(order, [&](std::size_t body) { return is_in_fragment[body] == 0; });
     return order;
@@ -419,8 +424,8 @@ std::string body_lines(const Scene<Dim>& scene, const RunResult<Dim>& result) {
     const std::vector<std::size_t> bodies = bodies_to_show(result);
     for (const std::size_t body : std::span(bodies).first(std::min(bodies.size(), most)))
         text += table_line(fmt::format("velocity of '{}'", scene.mesh.body_names[body]),
-                           fmt::format("{} -> {} m/s", velocity_text<Dim>(result.start[body].velocity),
-                                       velocity_text<Dim>(result.end[body].velocity)));
+                           fmt::format("{} -> {} m/s", velocity_text<Dim>(result.bodies.start[body].velocity),
+                                       velocity_text<Dim>(result.bodies.end[body].velocity)));
     if (bodies.size() > most)
         text += table_line("", "and of " + counted(static_cast<std::int64_t>(bodies.size() - most), "more body"));
     return text;
@@ -447,10 +452,10 @@ std::string summary_json(const std::string& program, const Scene<Dim>& scene, co
     json.update(bond_json(scene, result));
     json.update(fragments_json(scene, result));
     json.update(interference_json(scene, result));
-    for (const Finding& finding : result.findings) json[finding.key] = to_json(finding.value);
-    if (result.pilot) json["pilot"] = pilot_json(*result.pilot);
-    if (result.settling) json["settling"] = settling_json(*result.settling);
-    json.update({{"mesh", mesh_json(scene.mesh.report, result.unjoined)},
+    for (const Finding& finding : result.watch.findings) json[finding.key] = to_json(finding.value);
+    if (result.run.pilot) json["pilot"] = pilot_json(*result.run.pilot);
+    if (result.run.settling) json["settling"] = settling_json(*result.run.settling);
+    json.update({{"mesh", mesh_json(scene.mesh.report, result.bodies.unjoined)},
                  {"bodies", bodies_json(scene, result)},
                  {"seconds", seconds_json(result)},
                  {"contact_share", contact_share(result)},
@@ -463,23 +468,23 @@ std::string summary_json(const std::string& program, const Scene<Dim>& scene, co
 template <int Dim>
 std::string closing_table(const std::string& program, const Scene<Dim>& scene, const RunResult<Dim>& result) {
     std::string text = fmt::format("{}: {}\n", program, verdict(scene, result).text);
-    text += table_line("steps", fmt::format("{} of {:.4g} s, {}{:.3g} of the stable step, in {:.1f} s", result.steps,
-                                            result.dt, result.level_cells.empty() ? "" : "the finest ",
-                                            result.finest_dt / result.stable.dt, result.seconds.total));
-    if (!result.level_cells.empty())
-        text += table_line("cells that step with dt, dt/2, ...", fmt::format("{}", fmt::join(result.level_cells, ", ")));
-    if (!result.complete)
+    text += table_line("steps", fmt::format("{} of {:.4g} s, {}{:.3g} of the stable step, in {:.1f} s", result.run.steps,
+                                            result.run.dt, result.run.level_cells.empty() ? "" : "the finest ",
+                                            result.run.finest_dt / result.run.stable.dt, result.seconds.total));
+    if (!result.run.level_cells.empty())
+        text += table_line("cells that step with dt, dt/2, ...", fmt::format("{}", fmt::join(result.run.level_cells, ", ")));
+    if (!result.run.complete)
         text += table_line("asked to stop before the end", fmt::format("t = {:.4g} s", result.ledger.entries().back().time));
-    if (result.settling)
-        text +=
-            table_line("brought to rest before the start",
-                       fmt::format("in {}, to {:.2g} m/s", counted(result.settling->steps, "step"), result.settling->speed));
-    if (result.resumed_after > 0)
-        text += table_line("gone on from a checkpoint", fmt::format("after step {}", result.resumed_after));
+    if (result.run.settling)
+        text += table_line(
+            "brought to rest before the start",
+            fmt::format("in {}, to {:.2g} m/s", counted(result.run.settling->steps, "step"), result.run.settling->speed));
+    if (result.run.resumed_after > 0)
+        text += table_line("gone on from a checkpoint", fmt::format("after step {}", result.run.resumed_after));
     text += energy_lines(result) + loss_line(result);
     if (const std::string eroded = erosion_text(result); !eroded.empty()) text += table_line("left by erosion", eroded);
     text += contact_lines(result);
-    for (const Finding& finding : result.findings) text += table_line(finding.text, value_text(finding.value));
+    for (const Finding& finding : result.watch.findings) text += table_line(finding.text, value_text(finding.value));
     return text + fragment_line(result) + body_lines(scene, result);
 }
 

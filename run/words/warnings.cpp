@@ -29,14 +29,14 @@ constexpr double kinetic_of_rest = 1e-9;  // of the energy in play: bodies with 
 /// Warns of what was seen at records: bodies past the rim of their floor, and bodies that came near themselves.
 template <int Dim>
 void add_sightings(Counts& counts, const RunResult<Dim>& result) {
-    for (const PastRim& past : result.sightings.past_rims)
+    for (const PastRim& past : result.watch.sightings.past_rims)
         counts.warnings.push_back(
             {WarningKind::past_rim, Severity::warning,
              fmt::format("by t = {:.4g} s body '{}' is past the rim of obstacle '{}', and nothing is below it there. A "
                          "plane without half_width has no end",
                          past.time, past.body, past.obstacle),
              past.time, 0.0});
-    for (const NearItself<Dim>& near : result.sightings.near_themselves)
+    for (const NearItself<Dim>& near : result.watch.sightings.near_themselves)
         counts.warnings.push_back(
             {WarningKind::near_itself, Severity::warning,
              fmt::format(
@@ -45,7 +45,7 @@ void add_sightings(Counts& counts, const RunResult<Dim>& result) {
                  "lets it act",
                  near.time, near.body, fmt::join(near.position, ", "), near.gap_at_rest, near.gap),
              near.gap, 0.0});
-    for (const LookEnded& ended : result.sightings.looks_ended)
+    for (const LookEnded& ended : result.watch.sightings.looks_ended)
         counts.warnings.push_back(
             {WarningKind::look_ended, Severity::warning,
              fmt::format("from t = {:.4g} s on nobody looks whether body '{}' comes together with itself: {}", ended.time,
@@ -63,9 +63,10 @@ void add_motion(Counts& counts, const RunResult<Dim>& result) {
     const bool is_memm =
         result.options.integrator == SolidIntegrator::memm || result.options.integrator == SolidIntegrator::memm_async;
     // A scale that the user gives is one to quote figures on, and may be any.
-    const double energy = result.accounts.energy_in_play > result.rest_energy ? result.accounts.energy_in_play : 0.0;
+    const double energy =
+        result.energy.accounts.energy_in_play > result.energy.at_rest ? result.energy.accounts.energy_in_play : 0.0;
     if (is_memm && energy > 0.0) {
-        const double excess = (ledger.energy_excess() - result.rest_energy) / energy;
+        const double excess = (ledger.energy_excess() - result.energy.at_rest) / energy;
         add_above(WarningKind::energy_excess, excess, large_energy_excess,
                   fmt::format("H - H~ came to {:.2g} of the energy in play, {:g} is safe: so much swings from step to step, "
                               "unseen by H~. Where contact excites it take {}; tips and edges that meet are to be blunted",
@@ -74,24 +75,24 @@ void add_motion(Counts& counts, const RunResult<Dim>& result) {
     const auto kinetic = [](const auto& entry) { return entry.kinetic; };
     const auto& entries = ledger.entries();
     const bool rests = std::ranges::all_of(
-        entries, [&](double value) { return value <= std::max(kinetic_of_rest * energy, result.rest_energy); }, kinetic);
-    if (is_memm && result.accounts.speed > 0.0 && (entries.empty() || !rests)) {
-        const double share = ledger.parasitic() / result.accounts.speed;
+        entries, [&](double value) { return value <= std::max(kinetic_of_rest * energy, result.energy.at_rest); }, kinetic);
+    if (is_memm && result.energy.accounts.speed > 0.0 && (entries.empty() || !rests)) {
+        const double share = ledger.parasitic() / result.energy.accounts.speed;
         add_above(WarningKind::parasitic, share, large_parasitic_share,
                   fmt::format("a cell swings from step to step by |e|/m = {:.2g} m/s, {:.2g} of the largest speed, {:g} is "
                               "safe: do not read single cells near contact, or take {}",
                               ledger.parasitic(), share, large_parasitic_share, calming_choices(result.options)));
     }
     if (energy > 0.0) {
-        const double share = result.fine_energy_max / energy;
+        const double share = result.energy.fine_max / energy;
         add_above(WarningKind::fine_motion, share, large_fine_share,
                   fmt::format("motion from cell to cell came to {:.2g} of the energy in play, {:g} is safe, and neither H~ "
                               "nor H - H~ sees it: the upper half of the modes is pumped, or waves are shorter than cells "
                               "resolve. Take a shorter step (cfl), smaller cells, or damp it (stiffness_damping)",
                               share, large_fine_share));
     }
-    if (result.moment_scale > 0.0 && energy > 0.0) {
-        const double drift = ledger.pseudo_angular_momentum_drift() / (result.moment_scale * std::sqrt(energy));
+    if (result.energy.moment_scale > 0.0 && energy > 0.0) {
+        const double drift = ledger.pseudo_angular_momentum_drift() / (result.energy.moment_scale * std::sqrt(energy));
         add_above(
             WarningKind::moment_drift, drift, large_moment_drift,
             fmt::format("J~ changes by {:.2g} kg m^2/s, {:.2g} of what it may be with this energy, {:g} is safe, though "
@@ -103,7 +104,7 @@ void add_motion(Counts& counts, const RunResult<Dim>& result) {
 /// Warns of bodies that glide on less friction than they have.
 template <int Dim>
 void add_weak_friction(Counts& counts, const RunResult<Dim>& result) {
-    const WeakFriction& weak = result.weak_friction;
+    const WeakFriction& weak = result.watch.weak_friction;
     const double time = result.ledger.entries().empty() ? 0.0 : result.ledger.entries().back().time;
     if (!(weak.seconds > weak_friction_time * time)) return;
     const char* const remedy =
@@ -123,7 +124,7 @@ void add_weak_friction(Counts& counts, const RunResult<Dim>& result) {
 /// Warns of what is seen of the surfaces, whatever contact knows.
 template <int Dim>
 void add_looks(Counts& counts, const RunResult<Dim>& result) {
-    const SurfaceLooks& looks = result.looks;
+    const SurfaceLooks& looks = result.watch.looks;
     const auto add_above = [&](WarningKind kind, const Encounter& met, double threshold, const auto& text) {
         if (met.ratio > threshold) counts.warnings.push_back({kind, Severity::warning, text(met), met.ratio, threshold});
     };
@@ -164,7 +165,7 @@ std::vector<Warning> warnings_during(std::int64_t step, const RunResult<Dim>& re
     const contact::ContactOptions& options = result.options.contact;
     Counts counts;
     add_sightings(counts, result);
-    if (const Compressed& pressed = result.compressed; pressed.steps > 0)
+    if (const Compressed& pressed = result.watch.compressed; pressed.steps > 0)
         counts.warnings.push_back(
             {WarningKind::compression, Severity::warning,
              fmt::format("by step {} faces of {} and {} are pressed {:.2g} of D, the depth of their cells, into each other, "
@@ -177,20 +178,20 @@ std::vector<Warning> warnings_during(std::int64_t step, const RunResult<Dim>& re
 
 template <int Dim>
 std::vector<Warning> warnings_after(const RunResult<Dim>& result) {
-    const contact::ContactReport& contact = result.contact;
+    const contact::ContactReport& contact = result.contact.report;
     Counts counts;
     const auto add = [&](WarningKind kind, double value, double threshold, std::string text) {
         counts.warnings.push_back({kind, Severity::warning, std::move(text), value, threshold});
     };
     add_motion(counts, result);
     add_looks(counts, result);
-    if (const Compressed& pressed = result.compressed; pressed.steps > 0)
+    if (const Compressed& pressed = result.watch.compressed; pressed.steps > 0)
         add(WarningKind::compression, pressed.compression, result.options.contact.compression_warning,
             fmt::format("{} and {} are strongly compressed in {} of {:.0f} steps, at most {:.2g} of D, the depth of their "
                         "cells, {:g} is safe. A lower speed or load makes it less, "
                         "a stiffer material too",
                         pressed.body_1, pressed.body_2, pressed.steps,
-                        static_cast<double>(result.steps) * result.dt / result.finest_dt, pressed.compression,
+                        static_cast<double>(result.run.steps) * result.run.dt / result.run.finest_dt, pressed.compression,
                         result.options.contact.compression_warning));
     if (contact.sliding_ratio_max > stiff_sliding_ratio)
         add(WarningKind::stiff_sliding, contact.sliding_ratio_max, stiff_sliding_ratio,
@@ -205,7 +206,7 @@ std::vector<Warning> warnings_after(const RunResult<Dim>& result) {
                         "cells. At a free edge that is as it should be; elsewhere bodies pass through each other. A lower "
                         "speed prevents it, and so does --overlap frozen, under which H~ drifts",
                         counted(contact.slipped_pairs, "pair of faces", "pairs of faces"), contact.slipped_compression_max));
-    if (const double share = result.sliding.least_share(); share < least_sliding_share)
+    if (const double share = result.contact.sliding.least_share(); share < least_sliding_share)
         add(WarningKind::alternating_slip, share, least_sliding_share,
             fmt::format(
                 "faces that slide feel {:.2g} of the friction that they should for a part of the run, {:g} is safe: their "
@@ -213,37 +214,38 @@ std::vector<Warning> warnings_after(const RunResult<Dim>& result) {
                 "step to step, and dissipation is wrong though the balance of energy holds. Leave --restart out (10 and "
                 "the filter act with friction), or take a lower --cfl",
                 share, least_sliding_share));
-    if (const auto& [name, rotation] = result.turned; rotation > far_rotation)
+    if (const auto& [name, rotation] = result.watch.turned; rotation > far_rotation)
         add(WarningKind::rotation, rotation, far_rotation,
             fmt::format("{} has turned by {:.2g} rad, {:g} is safe. A body of kinematics \"small\" grows as it turns, by "
                         "{:.2g} % at this angle, and no energy shows it. kinematics = \"floating\" lets it turn",
                         name, rotation, far_rotation, 100.0 * (1.0 / std::cos(rotation) - 1.0)));
     double local_rotation = 0.0;
-    for (std::size_t body = 0; body < result.local_rotations.size(); ++body)
-        if (result.all_may_turn || (body < result.may_turn.size() && result.may_turn[body]))
-            local_rotation = std::max(local_rotation, result.local_rotations[body]);
+    for (std::size_t body = 0; body < result.bodies.local_rotations.size(); ++body)
+        if (result.bodies.all_may_turn || (body < result.bodies.may_turn.size() && result.bodies.may_turn[body]))
+            local_rotation = std::max(local_rotation, result.bodies.local_rotations[body]);
     if (local_rotation > far_rotation)
         add(WarningKind::local_rotation, local_rotation, far_rotation,
             fmt::format("a cell has turned by {:.2g} rad against the frame of its body, {:g} is safe. Strains are linear in "
                         "that frame. Parts that turn against each other are to be bodies of their own, joined by springs",
                         local_rotation, far_rotation));
     add_weak_friction(counts, result);
-    if (result.finite.strain > large_strain)
-        add(WarningKind::finite_strain, result.finite.strain, large_strain,
+    if (result.bodies.finite.strain > large_strain)
+        add(WarningKind::finite_strain, result.bodies.finite.strain, large_strain,
             fmt::format(
                 "a cell of a finite body was strained by {:.2g}, {:g} is safe, and the least det F was {:.2g}: St. "
                 "Venant and Kirchhoff's material is one of small strains, and weak in compression. Look at H - H~: "
                 "if noise grows, take {}; behind a shock linear_viscosity = 0.25 with quadratic_viscosity = 2 damps it",
-                result.finite.strain, large_strain, result.finite.determinant, calming_choices(result.options)));
-    if (result.finite_kinematic_hardening && result.finite.plastic_strain > large_kinematic_flow)
-        add(WarningKind::kinematic_flow, result.finite.plastic_strain, large_kinematic_flow,
+                result.bodies.finite.strain, large_strain, result.bodies.finite.determinant,
+                calming_choices(result.options)));
+    if (result.bodies.finite_kinematic_hardening && result.bodies.finite.plastic_strain > large_kinematic_flow)
+        add(WarningKind::kinematic_flow, result.bodies.finite.plastic_strain, large_kinematic_flow,
             fmt::format(
                 "a cell has a plastic strain of {:.2g}, {:g} is safe with kinematic_hardening in a finite body: where "
                 "axes of strain turn, as in shear, its stress is too low (3 % at 0.6, 20 % at 1.2), and no energy "
                 "shows it. Metal that has flowed to and fro in small strains is right; metal that flows so far in one "
                 "direction should have hardening in place of kinematic_hardening",
-                result.finite.plastic_strain, large_kinematic_flow));
-    const dynamics::Losses& loss = result.dissipated;
+                result.bodies.finite.plastic_strain, large_kinematic_flow));
+    const dynamics::Losses& loss = result.energy.dissipated;
     if (const double share = std::abs(loss.on_faces) / loss.in_cells; share > large_face_loss)
         add(WarningKind::face_loss, share, large_face_loss,
             fmt::format(
@@ -263,7 +265,7 @@ std::vector<Warning> warnings_after(const RunResult<Dim>& result) {
                         "is left depends on the size of cells there. Take smaller cells where they leave, or a higher limit "
                         "(erosion)",
                         shares.mass, shares.energy, large_eroded_share));
-    if (const double share = std::abs(loss.at_splits) / result.accounts.energy_in_play; share > large_split_share)
+    if (const double share = std::abs(loss.at_splits) / result.energy.accounts.energy_in_play; share > large_split_share)
         add(WarningKind::splits, share, large_split_share,
             fmt::format(
                 "fragments that came apart or turned against each other changed V by {:.2g} of the energy in play as "
@@ -274,9 +276,10 @@ std::vector<Warning> warnings_after(const RunResult<Dim>& result) {
     counts.add(WarningKind::missed_contacts, Severity::warning, contact.missed_contacts,
                fmt::format("{} missed, 0 are allowed: the energy is not exact",
                            counted(contact.missed_contacts, "contact was", "contacts were")));
-    counts.add(WarningKind::inadmissible_overlaps, Severity::note, result.inadmissible_overlaps_max,
-               fmt::format("up to {} without being contacts: far sides of bodies",
-                           counted(result.inadmissible_overlaps_max, "pair of faces overlaps", "pairs of faces overlap")));
+    counts.add(
+        WarningKind::inadmissible_overlaps, Severity::note, result.contact.inadmissible_overlaps_max,
+        fmt::format("up to {} without being contacts: far sides of bodies",
+                    counted(result.contact.inadmissible_overlaps_max, "pair of faces overlaps", "pairs of faces overlap")));
     return in_user_words(std::move(counts.warnings));
 }
 

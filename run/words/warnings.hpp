@@ -37,17 +37,17 @@ enum class WarningKind {
     look_ended,      ///< the time from which on a body is not watched any more for parts that come together [s]
     near_itself,     ///< gap of a body with itself [m]; threshold: that at which it is said
     deep_slip,       ///< ContactReport::slipped_compression_max [-]; threshold: deep_slip_compression
-    rotation,        ///< RunResult::turned [rad]; threshold: far_rotation
-    local_rotation,  ///< the largest of RunResult::local_rotations of bodies that may turn [rad]; threshold: far_rotation
+    rotation,        ///< RunWatch::turned [rad]; threshold: far_rotation
+    local_rotation,  ///< the largest of RunBodies::local_rotations of bodies that may turn [rad]; threshold: far_rotation
     finite_strain,   ///< FiniteExtremes::strain [-] of bodies of Kinematics::finite; threshold: large_strain
     kinematic_flow,  ///< FiniteExtremes::plastic_strain [-] where a finite body hardens kinematically; threshold: large_kinematic_flow
     alternating_slip,  ///< force of sliding faces over its limit [-]; threshold: least_sliding_share
     weak_friction,  ///< time in which bodies slid with too little friction [s]; threshold: weak_friction_time of that of the run
-    face_loss,      ///< size of what RunResult::dissipated has `on_faces` over that in cells [-]; threshold: large_face_loss
+    face_loss,      ///< size of what RunEnergy::dissipated has `on_faces` over that in cells [-]; threshold: large_face_loss
     jump_loss,      ///< part of the plastic dissipation that jumps between cells have [-]; threshold: large_jump_loss
     energy_excess,          ///< Ledger::energy_excess over the energy in play [-]; threshold: large_energy_excess
     parasitic,              ///< Ledger::parasitic over Accounts::speed [-]; threshold: large_parasitic_share
-    fine_motion,            ///< RunResult::fine_energy_max over the energy in play [-]; threshold: large_fine_share
+    fine_motion,            ///< RunEnergy::fine_max over the energy in play [-]; threshold: large_fine_share
     moment_drift,           ///< of J~ where it is conserved [-]; threshold: large_moment_drift
     interpenetration,       ///< SurfaceLooks::deepest [-]; threshold: deep_interpenetration
     remote_contact,         ///< SurfaceLooks::remote [-]; threshold: contact_from_afar

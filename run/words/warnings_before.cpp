@@ -48,7 +48,7 @@ void add_mesh(Counts& counts, const mesh::BuildReport& report, bool with_contact
 
 template <int Dim>
 void add_unjoined(Counts& counts, const RunResult<Dim>& result) {
-    const mesh::UnjoinedFaces& unjoined = result.unjoined;
+    const mesh::UnjoinedFaces& unjoined = result.bodies.unjoined;
     counts.add(
         WarningKind::unjoined_faces, Severity::warning, unjoined.n_faces,
         fmt::format("{} on faces of the same body without being joined to them, the first of body '{}' at ({:.4g}): "
@@ -81,7 +81,7 @@ Seen seen_by(const RunOptions& options) {
 
 template <int Dim>
 void add_corners(Counts& counts, const Scene<Dim>& scene, const RunResult<Dim>& result) {
-    const auto& corners = result.blind_corners;
+    const auto& corners = result.contact.blind_corners;
     if (corners.empty()) return;
     const Seen seen = seen_by(result.options);
     counts.add(
@@ -97,7 +97,7 @@ double degrees(double half_angle_sine) { return 2.0 * std::asin(half_angle_sine)
 
 template <int Dim>
 void add_edges(Counts& counts, const Scene<Dim>& scene, const RunResult<Dim>& result) {
-    const auto& edges = result.unseen_edges;
+    const auto& edges = result.contact.unseen_edges;
     if (!edges) return;
     const Seen seen = seen_by(result.options);
     counts.warnings.push_back(
@@ -129,9 +129,9 @@ void add_behind(Counts& counts, const Scene<Dim>& scene) {
 
 template <int Dim>
 void add_bonds(Counts& counts, const Scene<Dim>& scene, const RunResult<Dim>& result) {
-    for (std::size_t i = 0; i < result.bonds.size(); ++i) {
+    for (std::size_t i = 0; i < result.bonds.coverage.size(); ++i) {
         const solid::Bond& bond = scene.solid.bonds[i];
-        const solid::BondCoverage& coverage = result.bonds[i];
+        const solid::BondCoverage& coverage = result.bonds.coverage[i];
         if (!(coverage.share() < enough_bond)) continue;
         counts.warnings.push_back(
             {WarningKind::missing_bond, Severity::warning,
@@ -148,9 +148,9 @@ void add_bonds(Counts& counts, const Scene<Dim>& scene, const RunResult<Dim>& re
 /// Warns that bonds open within less than a cell: of the one that does most.
 template <int Dim>
 void add_cohesive_length(Counts& counts, const Scene<Dim>& scene, const RunResult<Dim>& result) {
-    if (!(cohesive_length(result.bonds) < enough_cohesive_length)) return;
-    const auto worst = std::ranges::min_element(result.bonds, {}, &solid::BondCoverage::cohesive_length);
-    const solid::Bond& bond = scene.solid.bonds[static_cast<std::size_t>(worst - result.bonds.begin())];
+    if (!(cohesive_length(result.bonds.coverage) < enough_cohesive_length)) return;
+    const auto worst = std::ranges::min_element(result.bonds.coverage, {}, &solid::BondCoverage::cohesive_length);
+    const solid::Bond& bond = scene.solid.bonds[static_cast<std::size_t>(worst - result.bonds.coverage.begin())];
     counts.warnings.push_back(
         {WarningKind::short_cohesive_length, Severity::warning,
          fmt::format(
@@ -187,15 +187,15 @@ void add_scattered_grains(Counts& counts, const Scene<Dim>& scene, const RunResu
 template <int Dim>
 void add_inertia(Counts& counts, const Scene<Dim>& scene, const RunResult<Dim>& result) {
     std::size_t n = 0, worst = 0;
-    for (std::size_t body = 0; body < result.inertia.size(); ++body) {
+    for (std::size_t body = 0; body < result.bodies.inertia.size(); ++body) {
         if (!solid::properties_of(kinematics_of(scene, result, body)).turns ||
-            !(result.inertia[body].least() < enough_inertia))
+            !(result.bodies.inertia[body].least() < enough_inertia))
             continue;
-        if (n++ == 0 || result.inertia[body].least() < result.inertia[worst].least()) worst = body;
+        if (n++ == 0 || result.bodies.inertia[body].least() < result.bodies.inertia[worst].least()) worst = body;
     }
     if (n == 0) return;
     const auto kinematics = kinematics_of(scene, result, worst);
-    const double share = result.inertia[worst].least();
+    const double share = result.bodies.inertia[worst].least();
     counts.warnings.push_back(
         {WarningKind::missing_inertia, Severity::warning,
          fmt::format(
@@ -234,7 +234,7 @@ std::vector<Warning> warnings_before(const Scene<Dim>& scene, const RunResult<Di
     add_scattered_grains(counts, scene, result);
     add_slow_cell(counts, scene, result);
     add_inertia(counts, scene, result);
-    const auto& stencils = result.stencils;
+    const auto& stencils = result.bodies.stencils;
     counts.add(WarningKind::extrapolated_faces, Severity::note, stencils.extrapolated,
                fmt::format("{} of {} faces extrapolate from the cells around them, worst weight {:.2g}: the stable step is "
                            "shorter",

@@ -49,7 +49,7 @@ void Bodies<Dim>::check() const {
 /// A body that is warm must expand.
 template <int Dim>
 void Bodies<Dim>::check_temperature(std::size_t body) const {
-    if (!options_.temperature_rise[body].value || options_.materials[body].expands()) return;
+    if (!options_.temperature_rise[body].value || options_.materials[body].expansion.any()) return;
     throw BadInput(mesh_.name + ": body '" + mesh_.body_names[body] +
                    "' is given a temperature, and its material has a thermal_expansion of 0. Give one, or leave "
                    "SolidOptions::temperature_rise out.");
@@ -58,16 +58,17 @@ void Bodies<Dim>::check_temperature(std::size_t body) const {
 /// Axes of a material are given by an angle in the plane, and by two vectors in space.
 template <int Dim>
 void Bodies<Dim>::check_directions(std::size_t body) const {
-    const Material &material = options_.materials[body], plain;
+    const Material& material = options_.materials[body];
     if (material.is_isotropic()) return;
+    const Orthotropy &given = material.orthotropic, plain;
     const std::string who = mesh_.name + ": body '" + mesh_.body_names[body] + "' ";
-    if (Dim == 2 && (material.axis_1 != plain.axis_1 || material.axis_2 != plain.axis_2))
+    if (Dim == 2 && (given.axis_1 != plain.axis_1 || given.axis_2 != plain.axis_2))
         throw BadInput(
             who + "is in the plane, where axis_angle says how the axes of its material lie. Leave axis_1 and axis_2 out.");
-    if (Dim == 3 && material.axis_angle != 0.0)
+    if (Dim == 3 && given.axis_angle != 0.0)
         throw BadInput(
             who + "is in space, where axis_1 and axis_2 say how the axes of its material lie. Leave axis_angle out.",
-            {.value = material.axis_angle});
+            {.value = given.axis_angle});
 }
 
 /// Friction and contact of pairs that are named by number.

@@ -9,7 +9,7 @@
 namespace abut::solid {
 namespace {
 
-// Material::jump_cap where none is given. Gradients of bricks are central differences, so that jumps have more to hold.
+// MetalFlow::jump_cap where none is given. Gradients of bricks are central differences, so that jumps have more to hold.
 constexpr double cap_of_simplices = 0.1, cap_of_others = 0.3;
 constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 constexpr double never_reached = std::numeric_limits<double>::max();
@@ -70,7 +70,7 @@ CappedJumps<Dim>::CappedJumps(const mesh::Mesh<Dim>& mesh, std::span<const Mater
     // By default not where contact squeezes finite bodies: what flows further needs a shorter step than at rest.
     const auto yields = [&](std::size_t body) {
         const bool may_fold = free_faces != FreeFaces::stay_alone && is_finite(kinematics, body);
-        return materials[body].law == MaterialLaw::j2 && (materials[body].jump_cap > 0.0 || !may_fold);
+        return materials[body].law == MaterialLaw::j2 && (materials[body].flow.jump_cap > 0.0 || !may_fold);
     };
     for (std::size_t body = 0; body < materials.size(); ++body) any_ = any_ || yields(body);
     if (!any_) return;
@@ -90,7 +90,8 @@ CappedJumps<Dim>::CappedJumps(const mesh::Mesh<Dim>& mesh, std::span<const Mater
         only_slides_[i] = by == Held::along_normals ? 1 : 0;
         const Material& material = materials[body_of(a)];
         const double by_default = is_simplex(mesh, a) && is_simplex(mesh, b) ? cap_of_simplices : cap_of_others;
-        const double traction = (material.jump_cap > 0.0 ? material.jump_cap : by_default) * material.yield_stress;
+        const double traction =
+            (material.flow.jump_cap > 0.0 ? material.flow.jump_cap : by_default) * material.flow.yield_stress;
         largest_[i] = mesh.face_measure[f] * traction / stiffness;
     }
     memory_.assign(arrays.half_faces.size(), Vector<Dim>::Zero());

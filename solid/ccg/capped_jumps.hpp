@@ -16,7 +16,7 @@
 namespace abut::solid {
 
 /// Faces between cells of MaterialLaw::j2, whose stabilisation yields: its traction k ([u] - J)/|f| stays below
-/// Material::jump_cap times the yield stress, and J, the part of the jump that lasts, follows where it would not. Where
+/// MetalFlow::jump_cap times the yield stress, and J, the part of the jump that lasts, follows where it would not. Where
 /// nothing else holds a cell it stays elastic: at edges, and under contact, of finite bodies along the normals of faces
 /// alone. docs/method.md, Metal that yields.
 ///

@@ -191,7 +191,7 @@ public:
     void end_step();
     /// All cells are at rest: damping and viscosity begin from rates of 0.
     void bring_to_rest();
-    /// Force of Material::mass_damping on a cell of this mass that moves by `motion` in a step of `dt` [N].
+    /// Force of Damping::mass on a cell of this mass that moves by `motion` in a step of `dt` [N].
     [[nodiscard]] Vector<Dim> drag(std::int32_t cell, double mass, const Vector<Dim>& motion, double dt);
     /// Energy that a cell has dissipated in the last step; none where its material is elastic and not damped.
     [[nodiscard]] dynamics::Losses step_loss(std::int32_t cell) const;

@@ -200,7 +200,7 @@ auto PlasticCells<Dim>::memory_of(const Cell& cell, const Strain& plastic, doubl
 
 template <int Dim>
 auto PlasticCells<Dim>::shift_of(const Cell& cell, const Memory& memory) const -> Strain {
-    const double back = two_thirds * cell.material->kinematic_hardening;
+    const double back = two_thirds * cell.material->flow.kinematic_hardening;
     if (is_inside(cell)) return (2.0 * cell.material->mu() + back) * memory.plastic;
     return deviator_of(Strain(response(cell).stiffness * memory.plastic)) + back * memory.plastic;
 }
@@ -210,7 +210,7 @@ void PlasticCells<Dim>::set_surface(std::size_t number) {
     const Cell& cell = cells_[number];
     Surface& surface = surfaces_[number];
     surface.shift = shift_of(cell, cell.memory);
-    surface.radius = slope_of_alpha * cell.material->flow_stress(cell.memory.equivalent);
+    surface.radius = slope_of_alpha * cell.material->flow.stress(cell.memory.equivalent);
     surface.has_flowed = cell.memory.equivalent > 0.0;
 }
 
@@ -253,7 +253,7 @@ bool PlasticCells<Dim>::stays_elastic(std::ptrdiff_t cell, const Matrix<Dim>& me
 /// How far a cell without free faces flows: its direction is that of the trial state.
 template <int Dim>
 double PlasticCells<Dim>::flow_inside(const Cell& cell, const FlowStress& stress, double trial) const {
-    const double answer = 2.0 * cell.material->mu() + two_thirds * cell.material->kinematic_hardening;
+    const double answer = 2.0 * cell.material->mu() + two_thirds * cell.material->flow.kinematic_hardening;
     const auto excess = [&](double g) {
         const auto [at, slope] = stress.at(slope_of_alpha * g);
         return std::pair{slope_of_alpha * at + g * answer - trial, two_thirds * slope + answer};
@@ -277,7 +277,7 @@ double PlasticCells<Dim>::flow(std::size_t number, const FlowStress& stress, con
         return flow_inside(cell, stress, size);
     }
     const Strain y = of.axes.transpose() * trial;
-    const Strain b = of.values + two_thirds * cell.material->kinematic_hardening * Strain::Ones();
+    const Strain b = of.values + two_thirds * cell.material->flow.kinematic_hardening * Strain::Ones();
     // Of the sum S the root of S^-1/2 = 1, which is nearly a line in g.
     const auto excess = [&](double g) {
         const auto [at, slope] = stress.at(slope_of_alpha * g);
@@ -318,14 +318,14 @@ Matrix<Dim> PlasticCells<Dim>::advance(std::ptrdiff_t cell, const Matrix<Dim>& m
     const Strain push = push_on(n);
     next_driving_[n] = middle + half - surface.shift;
     Strain normal;
-    const FlowStress stress(*of.material, of.memory.equivalent, dt);
+    const FlowStress stress(of.material->flow, of.memory.equivalent, dt);
     const double g = flow(n, stress, next_driving_[n] + push, normal);
     if (!(g > 0.0)) return of.memory.stress;
     const double radius = slope_of_alpha * stress.at(slope_of_alpha * g).stress;
     const double beyond = push.isZero(0.0) ? 0.0 : normal.dot(beyond_surface(of, normal, g));
     const double loss = 0.5 * of.measure * g * (normal.dot(middle - half - surface.shift + push) + radius + beyond);
     // Else it waits: a stress beyond the surface is one of a rate.
-    if (loss < 0.0 && of.material->knows_rates()) return of.memory.stress;
+    if (loss < 0.0 && of.material->flow.knows_rates()) return of.memory.stress;
     flows_[n] = 1;
     any_flowed_.store(true, std::memory_order_relaxed);
     loss_[n] = loss;
@@ -340,7 +340,7 @@ double PlasticCells<Dim>::energy(std::ptrdiff_t cell, const Matrix<Dim>& g) cons
     const Cell& of = at(cell);
     const Strain& plastic = of.memory.plastic;
     return plastic.dot(response(of).stiffness * (0.5 * plastic) - response_inside(of).stiffness * packed(g)) +
-           of.material->kinematic_hardening / 3.0 * plastic.squaredNorm();
+           of.material->flow.kinematic_hardening / 3.0 * plastic.squaredNorm();
 }
 
 template <int Dim>

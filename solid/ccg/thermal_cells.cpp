@@ -33,8 +33,8 @@ ThermalCells<Dim>::ThermalCells(const mesh::Mesh<Dim>& mesh, std::span<const Mat
         of.rise = temperature[body];
         if (!of.rise.value) continue;
         const Material& material = materials[body];
-        of.strain = std::max({std::abs(material.thermal_expansion), std::abs(material.thermal_expansion_2),
-                              std::abs(material.thermal_expansion_3)});
+        of.strain = std::max({std::abs(material.expansion.along_1), std::abs(material.expansion.along_2),
+                              std::abs(material.expansion.along_3)});
         if (of.is_finite) continue;
         const Matrix<3> strain = thermal_strain(materials[body]);
         const Matrix<3> stress = 2.0 * materials[body].mu() * strain +

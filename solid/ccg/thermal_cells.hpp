@@ -16,7 +16,7 @@ namespace abut::solid {
 ///
 ///     1/2 (eps - a T) : C : (eps - a T)
 ///
-/// T being the rise of its temperature, constant in it, and a the tensor of Material::thermal_expansion. Cells of bodies of
+/// T being the rise of its temperature, constant in it, and a the tensor of ThermalExpansion. Cells of bodies of
 /// Kinematics::finite have a ThermalStretch. docs/method.md, Temperature.
 template <int Dim>
 class ThermalCells {

@@ -47,12 +47,12 @@ void add_lagged(dynamics::Losses& loss, double work, double dissipated) {
 template <int Dim>
 ViscousCells<Dim>::ViscousCells(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials)
     : materials_(materials.begin(), materials.end()), directed_(mesh, materials) {
-    any_ = std::ranges::any_of(materials_, &Material::is_damped);
+    any_ = std::ranges::any_of(materials_, &Damping::any, &Material::damping);
     if (!any_) return;
     index_.assign(static_cast<std::size_t>(mesh.n_cells()), -1);
     for (std::int32_t c = 0; c < mesh.n_cells(); ++c) {
         const Material& material = materials_[static_cast<std::size_t>(mesh.cell_body[c])];
-        if (!material.is_damped()) continue;
+        if (!material.damping.any()) continue;
         index_[static_cast<std::size_t>(c)] = static_cast<std::int32_t>(cells_.size());
         const double measure = mesh.cell_measure[c];
         const bool is_simplex = mesh.cell_faces[c].size() == Dim + 1;
@@ -71,11 +71,11 @@ Matrix<Dim> ViscousCells<Dim>::stress(std::ptrdiff_t cell, const Matrix<Dim>& g,
     Matrix<Dim> result = Matrix<Dim>::Zero();
     const Matrix<Dim> product = f.transpose() * change;
     of.now.strain = (0.5 / dt) * (product + product.transpose());
-    if (material.stiffness_damping > 0.0) {
+    if (material.damping.stiffness > 0.0) {
         const Matrix<Dim> before = of.before.deforms_known ? of.before.strain : of.now.strain;
         const Matrix<Dim> mean = 0.5 * (of.now.strain + before);
-        Matrix<Dim> of_mean = material.stiffness_damping * stress_of_rate<Dim>(material, free, mean);
-        if (directed_.contains(cell)) of_mean += material.stiffness_damping * directed_[cell].stress(mean);
+        Matrix<Dim> of_mean = material.damping.stiffness * stress_of_rate<Dim>(material, free, mean);
+        if (directed_.contains(cell)) of_mean += material.damping.stiffness * directed_[cell].stress(mean);
         const double measure = dt * of.measure;
         const double lost = measure * of_mean.cwiseProduct(mean).sum();  // dt/4 c (now + before)^2
         const double work = measure * of_mean.cwiseProduct(of.now.strain).sum();
@@ -83,7 +83,7 @@ Matrix<Dim> ViscousCells<Dim>::stress(std::ptrdiff_t cell, const Matrix<Dim>& g,
         add_lagged(of.of_stress, work, first * lost);
         result += f * of_mean;
     }
-    if (material.linear_viscosity > 0.0 || material.quadratic_viscosity > 0.0) {
+    if (material.damping.linear_viscosity > 0.0 || material.damping.quadratic_viscosity > 0.0) {
         const Matrix<Dim> of_strain = volume_of_strain<Dim>(material, free, f);
         const double volume = f.determinant();
         of.now.volume = of_strain.cwiseProduct(of.now.strain).sum();
@@ -92,8 +92,8 @@ Matrix<Dim> ViscousCells<Dim>::stress(std::ptrdiff_t cell, const Matrix<Dim>& g,
         const double speed = std::sqrt(material.wave_modulus() / material.density);
         const double squeeze = rate < 0.0 ? -rate : 0.0;
         double pressure = material.density * of.size *
-                          (material.linear_viscosity * speed +
-                           material.quadratic_viscosity * material.quadratic_viscosity * of.size * squeeze) *
+                          (material.damping.linear_viscosity * speed +
+                           material.damping.quadratic_viscosity * material.damping.quadratic_viscosity * of.size * squeeze) *
                           rate;
         if (pressure * of.now.volume < 0.0) pressure = 0.0;  // it never does work
         of.of_stress.by_viscosity += dt * of.measure * volume * pressure * of.now.volume;
@@ -107,10 +107,10 @@ template <int Dim>
 Vector<Dim> ViscousCells<Dim>::drag(std::ptrdiff_t cell, double mass, const Vector<Dim>& motion, double dt) {
     Cell& of = at(cell);
     of.of_drag = {};
-    if (!(of.material->mass_damping > 0.0)) return Vector<Dim>::Zero();
+    if (!(of.material->damping.mass > 0.0)) return Vector<Dim>::Zero();
     if (of.drag_step != dt) {
         of.drag_step = dt;
-        of.drag_rate = -std::expm1(-of.material->mass_damping * dt) / dt;
+        of.drag_rate = -std::expm1(-of.material->damping.mass * dt) / dt;
     }
     const double damping = of.drag_rate * mass;
     of.now.velocity = motion / dt;

@@ -33,7 +33,7 @@ public:
     /// they are.
     [[nodiscard]] Matrix<Dim> stress(std::ptrdiff_t cell, const Matrix<Dim>& g, const Matrix<Dim>& change, double dt,
                                      const FreeCell<Dim>* free = nullptr);
-    /// Force of Material::mass_damping on a cell of this mass that moves by `motion` in a step [N]. A cell that flies
+    /// Force of Damping::mass on a cell of this mass that moves by `motion` in a step [N]. A cell that flies
     /// freely is slowed by exp(-alpha dt) in each step, to round-off.
     [[nodiscard]] Vector<Dim> drag(std::ptrdiff_t cell, double mass, const Vector<Dim>& motion, double dt);
     /// Energy that both have dissipated in the step.

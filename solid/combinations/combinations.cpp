@@ -52,11 +52,11 @@ FeatureSet features_of(Kinematics kinematics, const Material& material) {
     features.add(Feature::large_strains,
                  material.law == MaterialLaw::neo_hookean || material.law == MaterialLaw::mooney_rivlin);
     features.add(Feature::flow, material.law == MaterialLaw::j2);
-    features.add(Feature::damping, material.is_damped());
+    features.add(Feature::damping, material.damping.any());
     features.add(Feature::directions, is_directed);
     features.add(Feature::directed_rate,
-                 is_directed && (material.stiffness_damping > 0.0 || material.linear_viscosity > 0.0 ||
-                                 material.quadratic_viscosity > 0.0));
+                 is_directed && (material.damping.stiffness > 0.0 || material.damping.linear_viscosity > 0.0 ||
+                                 material.damping.quadratic_viscosity > 0.0));
     return features;
 }
 

@@ -102,7 +102,7 @@ Advance<Dim> J2Plasticity<Dim>::advance(const Matrix<Dim>& g, double dt, std::sp
     Elastic elastic = elastic_part(g, memory);
     const Vector<3> deviator = elastic.strain - Vector<3>::Constant(elastic.strain.mean());
     const double mu = material_.mu(), size = 2.0 * mu * deviator.norm();
-    const FlowStress stress(material_, memory.back(), dt);
+    const FlowStress stress(material_.flow, memory.back(), dt);
     if (!elastic.is_sound || !(size > alpha_per_flow * stress.at_start())) return {response(g, elastic), false};
 
     const double flowed = flow(size, stress);
@@ -140,7 +140,7 @@ bool J2Plasticity<Dim>::advanced_changes(const Matrix<Dim>& g, double dt, std::s
     const Elastic elastic = elastic_part(g, memory);
     const Vector<3> deviator = elastic.strain - Vector<3>::Constant(elastic.strain.mean());
     const double mu = material_.mu(), size = 2.0 * mu * deviator.norm();
-    const FlowStress stress(material_, memory.back(), dt);
+    const FlowStress stress(material_.flow, memory.back(), dt);
     Vector<3> strain = elastic.strain;
     Matrix<3> moduli = elastic_moduli();
     if (size > alpha_per_flow * stress.at_start()) {

@@ -8,15 +8,18 @@ namespace {
 
 KnownMaterial named(std::string name, double young, double poisson, double density, double yield_stress,
                     std::string source) {
-    return {std::move(name), {.young = young, .poisson = poisson, .density = density}, yield_stress, std::move(source)};
+    return {std::move(name),
+            {.young = young, .poisson = poisson, .density = density},
+            {.yield_stress = yield_stress},
+            std::move(source)};
 }
 
 /// With B, n and C of Johnson and Cook, C at a rate of 1/s.
 KnownMaterial hardened(KnownMaterial material, double b, double n, double c) {
-    material.power_hardening = b;
-    material.power_exponent = n;
-    material.johnson_cook_rate = 1.0;
-    material.johnson_cook_factor = c;
+    material.flow.power_hardening = b;
+    material.flow.power_exponent = n;
+    material.flow.johnson_cook_rate = 1.0;
+    material.flow.johnson_cook_factor = c;
     return material;
 }
 
@@ -68,14 +71,15 @@ const KnownMaterial* known_material(const std::string& name) {
 }
 
 void take_flow(Material& material, const KnownMaterial& known) {
-    material.yield_stress = known.yield_stress;
-    if (material.hardening == 0.0 && material.saturation == 0.0 && material.power_hardening == 0.0) {
-        material.power_hardening = known.power_hardening;
-        material.power_exponent = known.power_exponent;
+    MetalFlow& flow = material.flow;
+    flow.yield_stress = known.flow.yield_stress;
+    if (flow.hardening == 0.0 && flow.saturation == 0.0 && flow.power_hardening == 0.0) {
+        flow.power_hardening = known.flow.power_hardening;
+        flow.power_exponent = known.flow.power_exponent;
     }
-    if (material.knows_rates()) return;
-    material.johnson_cook_rate = known.johnson_cook_rate;
-    material.johnson_cook_factor = known.johnson_cook_factor;
+    if (flow.knows_rates()) return;
+    flow.johnson_cook_rate = known.flow.johnson_cook_rate;
+    flow.johnson_cook_factor = known.flow.johnson_cook_factor;
 }
 
 }  // namespace abut::solid

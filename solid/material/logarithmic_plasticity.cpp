@@ -111,7 +111,7 @@ auto LogarithmicPlasticity<Dim>::strain_of(const Matrix<Dim>& g) -> Strain {
 template <int Dim>
 auto LogarithmicPlasticity<Dim>::flow(const Strain& strain, const Matrix<3>& plastic, const FlowStress& stress) const
     -> Flow {
-    const double answer = 2.0 * material_.mu() + two_thirds * material_.kinematic_hardening;
+    const double answer = 2.0 * material_.mu() + two_thirds * material_.flow.kinematic_hardening;
     const Matrix<3> driving = 2.0 * material_.mu() * deviator(strain.of) - answer * plastic;
     Flow flow{.trial = driving.norm()};
     if (!strain.is_sound || !(flow.trial > alpha_of_flow * stress.at_start())) return flow;
@@ -139,7 +139,7 @@ Response<Dim> LogarithmicPlasticity<Dim>::response(const Matrix<Dim>& g, const S
     if (!strain.is_sound) return {infinity, Matrix<Dim>::Constant(infinity)};
     const double trace = strain.of.trace();
     const double energy = 0.5 * material_.lambda() * trace * trace + material_.mu() * (strain.of - plastic).squaredNorm() +
-                          material_.kinematic_hardening / 3.0 * plastic.squaredNorm();
+                          material_.flow.kinematic_hardening / 3.0 * plastic.squaredNorm();
     const Matrix<Dim> stress = stress_of(strain, plastic).template topLeftCorner<Dim, Dim>();
     return {energy, 2.0 * (Matrix<Dim>::Identity() + g) * strain.mapped(stress)};
 }
@@ -152,7 +152,7 @@ Response<Dim> LogarithmicPlasticity<Dim>::at(const Matrix<Dim>& g, std::span<con
 template <int Dim>
 Advance<Dim> LogarithmicPlasticity<Dim>::advance(const Matrix<Dim>& g, double dt, std::span<double> memory) const {
     const Strain strain = strain_of(g);
-    const FlowStress stress(material_, memory.back(), dt);
+    const FlowStress stress(material_.flow, memory.back(), dt);
     const Matrix<3> before = plastic_strain_of<Dim>(memory);
     const Flow flow = this->flow(strain, before, stress);
     if (!(flow.size > 0.0)) return {response(g, strain, before), false};
@@ -176,7 +176,7 @@ bool LogarithmicPlasticity<Dim>::advanced_changes(const Matrix<Dim>& g, double d
                                                   std::span<const Matrix<Dim>> changes,
                                                   std::span<Matrix<Dim>> results) const {
     const Strain strain = strain_of(g);
-    const FlowStress stress(material_, memory.back(), dt);
+    const FlowStress stress(material_.flow, memory.back(), dt);
     const Matrix<3> before = plastic_strain_of<Dim>(memory);
     const Flow flow = this->flow(strain, before, stress);
     change_stress(g, strain, before + flow.size * flow.along, flow, changes, results);
@@ -189,7 +189,7 @@ void LogarithmicPlasticity<Dim>::change_stress(const Matrix<Dim>& g, const Strai
                                                std::span<Matrix<Dim>> results) const {
     const Matrix<Dim> f = Matrix<Dim>::Identity() + g;
     const double mu = material_.mu();
-    const double answer = 2.0 * mu + two_thirds * material_.kinematic_hardening + flow.slope;
+    const double answer = 2.0 * mu + two_thirds * material_.flow.kinematic_hardening + flow.slope;
     const Matrix<Dim> stress = stress_of(strain, plastic).template topLeftCorner<Dim, Dim>(), mapped = strain.mapped(stress);
     for (std::size_t n = 0; n < changes.size(); ++n) {
         const Matrix<Dim> half = f.transpose() * changes[n], change = half + half.transpose();

@@ -24,7 +24,7 @@ namespace {
 }
 
 void check_number(const MaterialNumber& of, const Material& material, int body) {
-    const double value = material.*of.member;
+    const double value = of.at.of(material);
     if (of.law && *of.law != material.law && value != 0.0)
         refuse_material(body, of.name, value,
                         "it must be 0, as its law is not " + word_of(material_law_words, *of.law) + ".");
@@ -37,22 +37,26 @@ void check_number(const MaterialNumber& of, const Material& material, int body) 
 
 struct NamedNumber {
     const char* name;
-    double Material::*member;
+    MaterialAccess at;
 };
 /// Pairs of which one means nothing without the other.
 constexpr std::array<std::pair<NamedNumber, NamedNumber>, 4> numbers_in_pairs{
-    {{{"saturation_rate", &Material::saturation_rate}, {"saturation", &Material::saturation}},
-     {{"power_exponent", &Material::power_exponent}, {"power_hardening", &Material::power_hardening}},
-     {{"cowper_symonds_exponent", &Material::cowper_symonds_exponent},
-      {"cowper_symonds_rate", &Material::cowper_symonds_rate}},
-     {{"johnson_cook_factor", &Material::johnson_cook_factor}, {"johnson_cook_rate", &Material::johnson_cook_rate}}}};
+    {{{"saturation_rate", number_at<&Material::flow, &MetalFlow::saturation_rate>},
+      {"saturation", number_at<&Material::flow, &MetalFlow::saturation>}},
+     {{"power_exponent", number_at<&Material::flow, &MetalFlow::power_exponent>},
+      {"power_hardening", number_at<&Material::flow, &MetalFlow::power_hardening>}},
+     {{"cowper_symonds_exponent", number_at<&Material::flow, &MetalFlow::cowper_symonds_exponent>},
+      {"cowper_symonds_rate", number_at<&Material::flow, &MetalFlow::cowper_symonds_rate>}},
+     {{"johnson_cook_factor", number_at<&Material::flow, &MetalFlow::johnson_cook_factor>},
+      {"johnson_cook_rate", number_at<&Material::flow, &MetalFlow::johnson_cook_rate>}}}};
 /// Hardening that a table replaces.
-constexpr std::array<NamedNumber, 3> other_hardening{{{"hardening", &Material::hardening},
-                                                      {"saturation", &Material::saturation},
-                                                      {"power_hardening", &Material::power_hardening}}};
+constexpr std::array<NamedNumber, 3> other_hardening{
+    {{"hardening", number_at<&Material::flow, &MetalFlow::hardening>},
+     {"saturation", number_at<&Material::flow, &MetalFlow::saturation>},
+     {"power_hardening", number_at<&Material::flow, &MetalFlow::power_hardening>}}};
 
 void check_table(const Material& material, int body) {
-    const auto& table = material.hardening_table;
+    const auto& table = material.flow.table;
     if (table.empty()) return;
     const auto refuse_row = [&](std::size_t row, const std::string& limit) {
         throw BadInput("material of body " + std::to_string(body) + ": row " + std::to_string(row + 1) +
@@ -65,8 +69,8 @@ void check_table(const Material& material, int body) {
         if (!std::isfinite(table[i].plastic_strain) || !std::isfinite(table[i].stress))
             refuse_row(i, "it takes a plastic strain and a stress in Pa.");
         if (i == 0 && table[i].plastic_strain != 0.0) refuse_row(i, "it must begin at the plastic strain 0.");
-        if (i == 0 && table[i].stress != material.yield_stress)
-            refuse_row(i, "its stress is where flow begins, but yield_stress is " + number(material.yield_stress) +
+        if (i == 0 && table[i].stress != material.flow.yield_stress)
+            refuse_row(i, "its stress is where flow begins, but yield_stress is " + number(material.flow.yield_stress) +
                               " Pa. Give one of them, or both alike.");
         if (i > 0 && !(table[i].plastic_strain > table[i - 1].plastic_strain))
             refuse_row(i, "plastic strains must grow from row to row.");
@@ -74,16 +78,16 @@ void check_table(const Material& material, int body) {
             refuse_row(i, "stresses must not fall from row to row: metal that softens is not made.");
     }
     for (const NamedNumber& other : other_hardening)
-        if (material.*other.member > 0.0)
-            refuse_material(body, other.name, material.*other.member,
+        if (other.at.of(material) > 0.0)
+            refuse_material(body, other.name, other.at.of(material),
                             "it must be 0 beside hardening_table, which says all of it.");
 }
 
 /// Of materials that have none.
 void check_axes(const Material& material, int body) {
-    const Material plain;
+    const Orthotropy plain, &given = material.orthotropic;
     for (const auto& [name, axis, other] :
-         {std::tuple{"axis_1", material.axis_1, plain.axis_1}, std::tuple{"axis_2", material.axis_2, plain.axis_2}})
+         {std::tuple{"axis_1", given.axis_1, plain.axis_1}, std::tuple{"axis_2", given.axis_2, plain.axis_2}})
         if (axis != other)
             throw BadInput("material of body " + std::to_string(body) + ": it has " + name + ", but its law " +
                            word_of(material_law_words, material.law) +
@@ -95,14 +99,14 @@ void check_axes(const Material& material, int body) {
 void check(const Material& material, int body) {
     for (const MaterialNumber& of : material_numbers) check_number(of, material, body);
     check_table(material, body);
-    if (material.law == MaterialLaw::j2 && material.yield_stress == 0.0)
+    if (material.law == MaterialLaw::j2 && material.flow.yield_stress == 0.0)
         refuse_material(body, "yield_stress", 0.0, "j2 needs it to be above 0 Pa. Mild steel has 2.35e8 Pa.");
     for (const auto& [value, with] : numbers_in_pairs)
-        if ((material.*value.member > 0.0) != (material.*with.member > 0.0))
-            refuse_material(body, value.name, material.*value.member,
+        if ((value.at.of(material) > 0.0) != (with.at.of(material) > 0.0))
+            refuse_material(body, value.name, value.at.of(material),
                             std::string("it must be above 0 where ") + with.name + " is, and 0 elsewhere.");
-    if (material.cowper_symonds_rate > 0.0 && material.johnson_cook_rate > 0.0)
-        refuse_material(body, "johnson_cook_rate", material.johnson_cook_rate,
+    if (material.flow.cowper_symonds_rate > 0.0 && material.flow.johnson_cook_rate > 0.0)
+        refuse_material(body, "johnson_cook_rate", material.flow.johnson_cook_rate,
                         "it must be 0, as the rate counts by cowper_symonds_rate already. Take one law of rates.");
     if (material.law == MaterialLaw::orthotropic) return check_orthotropic(material, body);
     check_axes(material, body);
@@ -118,8 +122,8 @@ void check(const Material& material, int body) {
 }
 
 double Material::damping_ratio(double omega, double size) const {
-    const double of_viscosity = linear_viscosity * size / std::sqrt(wave_modulus() / density);
-    return 0.5 * (mass_damping / omega + (stiffness_damping + of_viscosity) * omega);
+    const double of_viscosity = damping.linear_viscosity * size / std::sqrt(wave_modulus() / density);
+    return 0.5 * (damping.mass / omega + (damping.stiffness + of_viscosity) * omega);
 }
 
 double Material::mean_lambda() const { return mean_moduli(*this).lambda; }
@@ -138,7 +142,7 @@ std::shared_ptr<const StoredEnergy<Dim>> stored_energy(const Material& material)
 template <int Dim>
 std::shared_ptr<const InelasticLaw<Dim>> inelastic_law(const Material& material) {
     if (material.law != MaterialLaw::j2) return nullptr;
-    if (material.kinematic_hardening > 0.0) return std::make_shared<LogarithmicPlasticity<Dim>>(material);
+    if (material.flow.kinematic_hardening > 0.0) return std::make_shared<LogarithmicPlasticity<Dim>>(material);
     return std::make_shared<J2Plasticity<Dim>>(material);
 }
 

@@ -1,9 +1,9 @@
 #pragma once
 #include <array>
 #include <memory>
-#include <vector>
 
 #include "abut/solid/material/inelastic.hpp"
+#include "abut/solid/material/metal_flow.hpp"
 #include "abut/solid/material/stored_energy.hpp"
 
 namespace abut::solid {
@@ -18,24 +18,9 @@ enum class MaterialLaw {
     orthotropic,  ///< other moduli along each of three axes of its own; at large strains linear in Green's strain
 };
 
-/// A row of Material::hardening_table.
-struct HardeningPoint {
-    double plastic_strain;  ///< alpha [-]
-    double stress;          ///< at which metal flows there [Pa]
-};
-
-/// Elasticity, and plasticity where the law has it; plane strain in 2D. One for each body.
-struct Material {
-    double young = 1.0;    ///< E [Pa], > 0; of MaterialLaw::orthotropic E_1
-    double poisson = 0.3;  ///< nu [-], in (-1, 1/2); of MaterialLaw::orthotropic nu_12
-    double density = 1.0;  ///< rho [kg/m^3], > 0
-    double eta = 0.0;      ///< stabilisation of the jumps between cells [Pa]; 0 means E, or its mean
-    MaterialLaw law = MaterialLaw::st_venant_kirchhoff;  ///< of a body of Kinematics::finite; others have the first
-    /// Ratio for MaterialLaw::mooney_rivlin: mu of the second invariant over mu [-], 0 to min(1, lambda/(2 mu)).
-    double second_share = 0.0;
-
-    // Of MaterialLaw::orthotropic, along axes 1, 2 and 3 of the material. Under tension along i a stretch along i comes
-    // with a contraction nu_ij times as large along j; nu_ji = nu_ij E_j/E_i.
+/// Constants of MaterialLaw::orthotropic beside E_1 and nu_12, along axes 1, 2 and 3 of the material. Under tension along
+/// i a stretch along i comes with a contraction nu_ij times as large along j; nu_ji = nu_ij E_j/E_i.
+struct Orthotropy {
     double young_2 = 0.0;                         ///< E_2 [Pa], > 0
     double young_3 = 0.0;                         ///< E_3 [Pa], > 0
     double poisson_13 = 0.0;                      ///< nu_13 [-]
@@ -46,47 +31,45 @@ struct Material {
     double axis_angle = 0.0;                      ///< in 2D: from x to axis 1 [rad]; axis 3 is out of the plane
     std::array<double, 3> axis_1{1.0, 0.0, 0.0};  ///< in 3D: along axis 1, of any length, at rest
     std::array<double, 3> axis_2{0.0, 1.0, 0.0};  ///< the same for axis 2, at a right angle; axis 3 completes both
+};
 
-    // Of MaterialLaw::j2: it yields at sigma(alpha) = yield_stress + hardening alpha
-    // + saturation (1 - exp(-saturation_rate alpha)) + power_hardening alpha^power_exponent, or as hardening_table says,
-    // alpha being the equivalent plastic strain; and where the rate r of alpha counts at
-    // sigma(alpha) (1 + (r/cowper_symonds_rate)^(1/cowper_symonds_exponent)), or at
-    // sigma(alpha) (1 + johnson_cook_factor ln(r/johnson_cook_rate)), sigma(alpha) for smaller r.
-    double yield_stress = 0.0;     ///< [Pa], > 0
-    double hardening = 0.0;        ///< [Pa], >= 0: per plastic strain
-    double saturation = 0.0;       ///< Voce's rise of the yield stress in the end [Pa], >= 0
-    double saturation_rate = 0.0;  ///< per plastic strain [-]; > 0 with `saturation`
-    double power_hardening = 0.0;  ///< Ludwik's, and Johnson and Cook's B [Pa], >= 0
-    double power_exponent = 0.0;   ///< their n [-], in (0, 1] with `power_hardening`
-    /// In the place of all of these: from alpha = 0, where it is `yield_stress`, with growing alpha and stresses that
-    /// do not fall. Straight between two rows, constant behind the last.
-    std::vector<HardeningPoint> hardening_table;
-    double cowper_symonds_rate = 0.0;      ///< D [1/s], >= 0; 0: the rate does not count
-    double cowper_symonds_exponent = 0.0;  ///< q [-], >= 1 with `cowper_symonds_rate`
-    double johnson_cook_rate = 0.0;        ///< r at which the stress is sigma(alpha) [1/s], >= 0; 0: the rate does not count
-    double johnson_cook_factor = 0.0;      ///< C [-], > 0 with `johnson_cook_rate`
-    /// Prager's: by how much yielding shifts the stresses at which it does, per plastic strain [Pa], >= 0.
-    double kinematic_hardening = 0.0;
-    /// Largest traction of the stabilisation of jumps between cells over `yield_stress` [-], >= 0; 0: 0.1 where both
-    /// cells are simplices and 0.3 elsewhere, none in finite bodies that contact may push.
-    double jump_cap = 0.0;
+/// Thermal expansion of a body that deforms and whose temperature is given (SolidOptions::temperature_rise).
+struct ThermalExpansion {
+    double along_1 = 0.0;  ///< alpha [1/K]; of MaterialLaw::orthotropic along axis 1
+    double along_2 = 0.0;  ///< of MaterialLaw::orthotropic along axis 2 [1/K]
+    double along_3 = 0.0;  ///< the same along axis 3, in 2D out of the plane
 
-    // Of bodies that deform whose temperature is given (SolidOptions::temperature_rise).
-    double thermal_expansion = 0.0;    ///< alpha [1/K]; of MaterialLaw::orthotropic along axis 1
-    double thermal_expansion_2 = 0.0;  ///< of MaterialLaw::orthotropic along axis 2 [1/K]
-    double thermal_expansion_3 = 0.0;  ///< the same along axis 3, in 2D out of the plane
+    [[nodiscard]] bool any() const { return along_1 != 0.0 || along_2 != 0.0 || along_3 != 0.0; }
+};
 
-    // Of bodies that deform, with schemes that take mean forces.
-    double mass_damping = 0.0;         ///< Rayleigh's alpha: a force alpha M v against the motion [1/s], >= 0
-    double stiffness_damping = 0.0;    ///< Rayleigh's beta: a stress beta C : (rate of strain) [s], >= 0
+/// Damping of a body that deforms, with schemes that take mean forces.
+struct Damping {
+    double mass = 0.0;                 ///< Rayleigh's alpha: a force alpha M v against the motion [1/s], >= 0
+    double stiffness = 0.0;            ///< Rayleigh's beta: a stress beta C : (rate of strain) [s], >= 0
     double linear_viscosity = 0.0;     ///< of shocks: a pressure b rho c h (rate of compression) [-], >= 0
     double quadratic_viscosity = 0.0;  ///< the same, b^2 rho h^2 (rate of compression)^2 [-], >= 0
 
-    [[nodiscard]] bool is_damped() const {
-        return mass_damping > 0.0 || stiffness_damping > 0.0 || linear_viscosity > 0.0 || quadratic_viscosity > 0.0;
+    [[nodiscard]] bool any() const {
+        return mass > 0.0 || stiffness > 0.0 || linear_viscosity > 0.0 || quadratic_viscosity > 0.0;
     }
+};
+
+/// Elasticity, and what a law has beside it; plane strain in 2D. One for each body.
+struct Material {
+    double young = 1.0;    ///< E [Pa], > 0; of MaterialLaw::orthotropic E_1
+    double poisson = 0.3;  ///< nu [-], in (-1, 1/2); of MaterialLaw::orthotropic nu_12
+    double density = 1.0;  ///< rho [kg/m^3], > 0
+    double eta = 0.0;      ///< stabilisation of the jumps between cells [Pa]; 0 means E, or its mean
+    MaterialLaw law = MaterialLaw::st_venant_kirchhoff;  ///< of a body of Kinematics::finite; others have the first
+    /// Ratio for MaterialLaw::mooney_rivlin: mu of the second invariant over mu [-], 0 to min(1, lambda/(2 mu)).
+    double second_share = 0.0;
+    Orthotropy orthotropic{};  ///< of MaterialLaw::orthotropic
+    MetalFlow flow{};          ///< of MaterialLaw::j2
+    ThermalExpansion expansion{};
+    Damping damping{};
+
     /// Whether its cells remember what happened to them: only schemes that take mean forces run it.
-    [[nodiscard]] bool remembers() const { return law == MaterialLaw::j2 || is_damped(); }
+    [[nodiscard]] bool remembers() const { return law == MaterialLaw::j2 || damping.any(); }
     /// Damping over what is critical of a mode with this frequency [rad/s] in cells of this size [m], at most [-]: by
     /// it the stable step is shorter.
     [[nodiscard]] double damping_ratio(double omega, double size) const;
@@ -103,23 +86,11 @@ struct Material {
     [[nodiscard]] double mean_young() const {
         return is_isotropic() ? young : mu() * (3.0 * lambda() + 2.0 * mu()) / (lambda() + mu());
     }
-    [[nodiscard]] bool expands() const {
-        return thermal_expansion != 0.0 || thermal_expansion_2 != 0.0 || thermal_expansion_3 != 0.0;
-    }
     [[nodiscard]] bool is_isotropic() const { return law != MaterialLaw::orthotropic; }
     /// Shear over normal stiffness of half a cell, mu / (lambda + 2 mu) [-].
     [[nodiscard]] double shear_ratio() const { return mu() / wave_modulus(); }
     /// `eta`, or `mean_young` where none is given [Pa].
     [[nodiscard]] double stabilisation() const { return eta > 0.0 ? eta : mean_young(); }
-    /// sigma(alpha) of MaterialLaw::j2 [Pa], for slow flow.
-    [[nodiscard]] double flow_stress(double plastic_strain) const;
-    /// Its slope [Pa].
-    [[nodiscard]] double hardening_modulus(double plastic_strain) const;
-    /// Its integral from 0: the work of slow flow per volume [J/m^3].
-    [[nodiscard]] double flow_work(double plastic_strain) const;
-    /// Factor by which a rate of the plastic strain [1/s] multiplies it [-], 1 or more.
-    [[nodiscard]] double rate_factor(double rate) const;
-    [[nodiscard]] bool knows_rates() const { return cowper_symonds_rate > 0.0 || johnson_cook_rate > 0.0; }
 
 private:
     [[nodiscard]] double mean_lambda() const;

@@ -21,10 +21,11 @@ constexpr double least_determinant = 1e-9;  // of the compliances of tension, ov
 constexpr double right_angle = 1e-6;        // of the cosine between axes
 
 Matrix<3> compliance_of_tension(const Material& material) {
-    const double e_1 = material.young, e_2 = material.young_2, e_3 = material.young_3;
-    return {{1.0 / e_1, -material.poisson / e_1, -material.poisson_13 / e_1},
-            {-material.poisson / e_1, 1.0 / e_2, -material.poisson_23 / e_2},
-            {-material.poisson_13 / e_1, -material.poisson_23 / e_2, 1.0 / e_3}};
+    const Orthotropy& of = material.orthotropic;
+    const double e_1 = material.young, e_2 = of.young_2, e_3 = of.young_3;
+    return {{1.0 / e_1, -material.poisson / e_1, -of.poisson_13 / e_1},
+            {-material.poisson / e_1, 1.0 / e_2, -of.poisson_23 / e_2},
+            {-of.poisson_13 / e_1, -of.poisson_23 / e_2, 1.0 / e_3}};
 }
 
 /// In the axes of the material.
@@ -33,21 +34,21 @@ Stiffness stiffness_of(const Material& material) {
     const Matrix<3> tension = compliance_of_tension(material).inverse();
     for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 3; ++j) stiffness(i, j) = 0.5 * (tension(i, j) + tension(j, i));
-    stiffness(3, 3) = 2.0 * material.shear_23;
-    stiffness(4, 4) = 2.0 * material.shear_13;
-    stiffness(5, 5) = 2.0 * material.shear_12;
+    stiffness(3, 3) = 2.0 * material.orthotropic.shear_23;
+    stiffness(4, 4) = 2.0 * material.orthotropic.shear_13;
+    stiffness(5, 5) = 2.0 * material.orthotropic.shear_12;
     return stiffness;
 }
 
 /// In columns, of unit length and at right angles; those of the plane are turned about z.
-Matrix<3> axes_of(const Material& material) {
+Matrix<3> axes_of(const Orthotropy& of) {
     const auto given = [](const std::array<double, 3>& axis) { return Vector<3>(axis[0], axis[1], axis[2]); };
     Matrix<3> axes;
-    axes.col(0) = given(material.axis_1).normalized();
-    const Vector<3> second = given(material.axis_2);
+    axes.col(0) = given(of.axis_1).normalized();
+    const Vector<3> second = given(of.axis_2);
     axes.col(1) = (second - axes.col(0).dot(second) * axes.col(0)).normalized();
     axes.col(2) = axes.col(0).cross(axes.col(1));
-    return rotation_about(Vector<3>::UnitZ(), material.axis_angle) * axes;
+    return rotation_about(Vector<3>::UnitZ(), of.axis_angle) * axes;
 }
 
 /// How the components of symmetric tensors turn with their axes; its inverse is its transpose.
@@ -113,27 +114,27 @@ double largest_wave_modulus(const Material& material) {
 }
 
 Matrix<3> thermal_strain(const Material& material) {
-    if (material.is_isotropic()) return material.thermal_expansion * Matrix<3>::Identity();
-    const Vector<3> along(material.thermal_expansion, material.thermal_expansion_2, material.thermal_expansion_3);
-    const Matrix<3> axes = axes_of(material);
+    if (material.is_isotropic()) return material.expansion.along_1 * Matrix<3>::Identity();
+    const Vector<3> along(material.expansion.along_1, material.expansion.along_2, material.expansion.along_3);
+    const Matrix<3> axes = axes_of(material.orthotropic);
     return axes * along.asDiagonal() * axes.transpose();
 }
 
 void check_orthotropic(const Material& material, int body) {
-    for (const auto& [name, value] : {std::pair{"young_2", material.young_2}, std::pair{"young_3", material.young_3},
-                                      std::pair{"shear_12", material.shear_12}, std::pair{"shear_13", material.shear_13},
-                                      std::pair{"shear_23", material.shear_23}})
+    const Orthotropy& of = material.orthotropic;
+    for (const auto& [name, value] :
+         {std::pair{"young_2", of.young_2}, std::pair{"young_3", of.young_3}, std::pair{"shear_12", of.shear_12},
+          std::pair{"shear_13", of.shear_13}, std::pair{"shear_23", of.shear_23}})
         if (!(value > 0.0)) refuse_constant(body, name, value, "it must be above 0 Pa: orthotropic needs it.");
-    check_ratio(body, "poisson", material.poisson, "young", material.young, "young_2", material.young_2);
-    check_ratio(body, "poisson_13", material.poisson_13, "young", material.young, "young_3", material.young_3);
-    check_ratio(body, "poisson_23", material.poisson_23, "young_2", material.young_2, "young_3", material.young_3);
-    const double determinant =
-        compliance_of_tension(material).determinant() * material.young * material.young_2 * material.young_3;
+    check_ratio(body, "poisson", material.poisson, "young", material.young, "young_2", of.young_2);
+    check_ratio(body, "poisson_13", of.poisson_13, "young", material.young, "young_3", of.young_3);
+    check_ratio(body, "poisson_23", of.poisson_23, "young_2", of.young_2, "young_3", of.young_3);
+    const double determinant = compliance_of_tension(material).determinant() * material.young * of.young_2 * of.young_3;
     if (!(determinant > least_determinant))
         refuse_constant(body, "1 - nu_12 nu_21 - nu_13 nu_31 - nu_23 nu_32 - 2 nu_21 nu_32 nu_13", determinant,
                         "it must be above " + number(least_determinant) +
                             ", or some stretch would cost no energy. Make poisson, poisson_13 or poisson_23 smaller.");
-    const Vector<3> first = Vector<3>(material.axis_1.data()), second = Vector<3>(material.axis_2.data());
+    const Vector<3> first = Vector<3>(of.axis_1.data()), second = Vector<3>(of.axis_2.data());
     for (const auto& [name, axis] : {std::pair{"axis_1", first}, std::pair{"axis_2", second}})
         if (!(axis.norm() > 0.0) || !axis.allFinite())
             refuse_constant(body, std::string("the length of ") + name, axis.norm(), "it must be finite and above 0.");
@@ -148,7 +149,7 @@ DirectedStiffness<Dim>::DirectedStiffness(const Material& material) : any_(mater
     stiffness_.setZero();
     out_of_plane_.setZero();
     if (!any_) return;
-    const Stiffness turn = turn_of(axes_of(material));
+    const Stiffness turn = turn_of(axes_of(material.orthotropic));
     const Stiffness beyond = stiffness_of(material) - isotropic(mean_moduli(material));  // which no turn changes
     const Stiffness in_space = turn * beyond * turn.transpose();
     for (int i = 0; i < n_components; ++i) {

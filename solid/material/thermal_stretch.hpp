@@ -6,7 +6,7 @@
 namespace abut::solid {
 
 /// Effect of heat at one position of a body of large strains: F = F_e A with the thermal stretch A = I + a T, T the
-/// rise of the temperature and a the tensor of Material::thermal_expansion. The law of the material answers to F_e = F
+/// rise of the temperature and a the tensor of ThermalExpansion. The law of the material answers to F_e = F
 /// A^-1, per volume of the warm body that nothing holds:
 ///
 ///     W(F, T) = det A W(F_e),    P = det A P(F_e) A^-T

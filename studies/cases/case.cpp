@@ -64,8 +64,8 @@ public:
     }
 
     void begin(const run::Scene<Dim>&, const run::RunResult<Dim>& result) override {
-        dt_ = result.dt;
-        n_steps_ = result.steps;
+        dt_ = result.run.dt;
+        n_steps_ = result.run.steps;
     }
     void record(const dynamics::LedgerEntry<Dim>& entry, const run::RunResult<Dim>&) override { ledger_.record(entry); }
 

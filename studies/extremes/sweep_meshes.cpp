@@ -21,7 +21,7 @@ constexpr int steps_of_thin_cells = 2000;
 /// A corner that comes down on a flat side is not pushed along it.
 std::string ask_of_corner(const run::RunResult<2>& result, double speed) {
     double aside = 0.0;
-    for (const auto& body : result.end) aside = std::fmax(aside, std::abs(body.velocity.x()) / speed);
+    for (const auto& body : result.bodies.end) aside = std::fmax(aside, std::abs(body.velocity.x()) / speed);
     if (aside <= largest_speed_aside) return "";
     return fmt::format("speed aside {:.2g} v, {:g} is allowed", aside, largest_speed_aside);
 }

@@ -20,7 +20,7 @@ run::RunOptions long_run(const SweepOptions& options) {
 
 /// The ledger must see how far the bar has turned, and that its spin about the positions at rest is conserved.
 std::string ask_of_spin(const run::RunResult<2>& result, double rate, const Growth& growth, Row& row) {
-    const double time = static_cast<double>(result.steps) * result.dt, angle = std::atan(rate * time);
+    const double time = static_cast<double>(result.run.steps) * result.run.dt, angle = std::atan(rate * time);
     const double expected = std::hypot(1.0, rate * growth.time) - 1.0;  // 1/cos
     row.numbers.push_back({"growth", growth.of_cell});
     const double spin = result.ledger.entries().front().rest_angular_momentum.norm();
@@ -39,7 +39,7 @@ template <int Dim>
 std::string ask_of_rollers(const run::RunResult<Dim>& result, Row& row) {
     const auto along = [](const dynamics::LedgerEntry<Dim>& entry) { return entry.linear_momentum[Dim - 1]; };
     double scale = 0.0, drift = 0.0;
-    for (const auto& body : result.start) scale += body.mass * body.velocity.norm();
+    for (const auto& body : result.bodies.start) scale += body.mass * body.velocity.norm();
     for (const auto& entry : result.ledger.entries())
         drift = std::max(drift, std::abs(along(entry) - along(result.ledger.entries().front())));
     row.momentum = drift / scale;

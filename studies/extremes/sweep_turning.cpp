@@ -128,7 +128,7 @@ run::Scene<2> landing(const Landing& of) {
 
 /// They part, and no faster than they met.
 std::string ask_of_rebound(const run::RunResult<2>& result, double speed, Row& row) {
-    const double parting = (result.end[1].velocity.y() - result.end[0].velocity.y()) / speed;
+    const double parting = (result.bodies.end[1].velocity.y() - result.bodies.end[0].velocity.y()) / speed;
     row.numbers.push_back({"speed of parting", parting});
     if (parting > 0.0 && parting <= 1.0 + largest_faster) return "";
     return fmt::format("they part with {:.4g} of the speed with which they met", parting);

@@ -13,7 +13,7 @@ namespace {
 template <int Dim>
 double impulse_scale(const run::RunResult<Dim>& result) {
     double sum = 0.0;
-    for (const auto& body : result.start) sum += body.mass * body.velocity.norm();
+    for (const auto& body : result.bodies.start) sum += body.mass * body.velocity.norm();
     return sum;
 }
 
@@ -24,23 +24,23 @@ bool all_finite(const run::RunResult<Dim>& result) {
                entry.linear_momentum.allFinite();
     };
     return std::ranges::all_of(result.ledger.entries(), is_finite) &&
-           std::ranges::all_of(result.end, [](const auto& body) { return body.velocity.allFinite(); });
+           std::ranges::all_of(result.bodies.end, [](const auto& body) { return body.velocity.allFinite(); });
 }
 
 template <int Dim>
 std::vector<Number> speeds_at_end(const run::RunResult<Dim>& result, double speed) {
     std::vector<Number> numbers;
-    for (std::size_t body = 0; body < result.end.size(); ++body)
+    for (std::size_t body = 0; body < result.bodies.end.size(); ++body)
         for (int i = 0; i < Dim; ++i)
             numbers.push_back(
-                {fmt::format("speed of body {} along {}", body, "xyz"[i]), result.end[body].velocity[i] / speed});
+                {fmt::format("speed of body {} along {}", body, "xyz"[i]), result.bodies.end[body].velocity[i] / speed});
     return numbers;
 }
 
 template <int Dim>
 void append_dimensionless(Row& row, const run::RunResult<Dim>& result) {
     const auto& last = result.ledger.entries().back();
-    const double scale = result.scale.value;
+    const double scale = result.energy.scale.value;
     const auto count = [](std::int64_t n) { return static_cast<double>(n); };
     const std::initializer_list<Number> numbers = {{"potential energy", last.potential / scale},
                                                    {"kinetic energy", last.kinetic / scale},
@@ -52,10 +52,10 @@ void append_dimensionless(Row& row, const run::RunResult<Dim>& result) {
                                                    {"steps", count(row.steps)},
                                                    {"events", count(row.events)},
                                                    {"active pairs", count(row.active_pairs_max)},
-                                                   {"lists of candidates", count(result.contact.rebuilds)},
-                                                   {"candidates", count(result.contact.candidates_max)},
-                                                   {"tilted pairs", count(result.contact.tilted_pairs_max)},
-                                                   {"pairs not admitted", count(result.inadmissible_overlaps_max)}};
+                                                   {"lists of candidates", count(result.contact.report.rebuilds)},
+                                                   {"candidates", count(result.contact.report.candidates_max)},
+                                                   {"tilted pairs", count(result.contact.report.tilted_pairs_max)},
+                                                   {"pairs not admitted", count(result.contact.inadmissible_overlaps_max)}};
     row.numbers.insert(row.numbers.end(), numbers);
 }
 
@@ -85,9 +85,9 @@ void measure(Row& row, const Trial<Dim>& trial, const run::RunResult<Dim>& resul
     row.parasitic /= trial.speed;
     if (trial.keeps_momentum) row.momentum = result.ledger.momentum_drift() / impulse_scale(result);
     row.sliding = result.contact.sliding_ratio_max;
-    row.slipped = result.contact.slipped_compression_max;
-    row.active_pairs_max = result.contact.active_pairs_max;
-    row.blind_corners = static_cast<std::int64_t>(result.blind_corners.size());
+    row.slipped = result.contact.report.slipped_compression_max;
+    row.active_pairs_max = result.contact.report.active_pairs_max;
+    row.blind_corners = static_cast<std::int64_t>(result.contact.blind_corners.size());
     row.numbers = speeds_at_end(result, trial.speed);
     append_dimensionless(row, result);
     row.message = defect(row, trial);

@@ -140,7 +140,7 @@ run::Scene<3> two_spheres(const TwoSpheres& options) {
 
 template <int Dim>
 void ImpactObserver<Dim>::begin(const run::Scene<Dim>& scene, const run::RunResult<Dim>& result) {
-    spdlog::info("{} cells; {} steps of {:.4g} s", scene.mesh.n_cells(), result.steps, result.dt);
+    spdlog::info("{} cells; {} steps of {:.4g} s", scene.mesh.n_cells(), result.run.steps, result.run.dt);
     apps::log_warnings(apps::only(run::warnings_before(scene, result), {run::WarningKind::blind_corners}));
 }
 

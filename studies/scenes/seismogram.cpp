@@ -78,7 +78,7 @@ void Seismograph<Dim>::begin(const run::Scene<Dim>& scene, const run::RunResult<
         const auto nearest = std::min_element(centres.begin(), centres.end(), nearer);
         cells_.push_back(static_cast<std::size_t>(nearest - centres.begin()));
         positions_.push_back(*nearest);
-        traces_.push_back({.dt = result.dt, .values = {}});
+        traces_.push_back({.dt = result.run.dt, .values = {}});
     }
 }
 

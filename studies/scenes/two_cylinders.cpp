@@ -58,7 +58,7 @@ double restitution(const TwoCylinders& options, const run::RunResult<Dim>& resul
     const auto separation = [&](const std::vector<solid::BodyMotion<Dim>>& bodies) {
         return (bodies[1].velocity - bodies[0].velocity).template head<2>().dot(normal(options));
     };
-    return -separation(result.end) / separation(result.start);
+    return -separation(result.bodies.end) / separation(result.bodies.start);
 }
 
 }  // namespace

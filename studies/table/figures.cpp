@@ -4,17 +4,17 @@ namespace abut::studies {
 
 template <int Dim>
 Figures figures_of(const run::RunResult<Dim>& result) {
-    const double scale = result.scale.value;
-    return {.steps = result.steps,
-            .dt = result.dt,
-            .scale = result.scale,
+    const double scale = result.energy.scale.value;
+    return {.steps = result.run.steps,
+            .dt = result.run.dt,
+            .scale = result.energy.scale,
             .drift = result.ledger.pseudo_energy_drift() / scale,
             .energy_drift = result.ledger.energy_drift() / scale,
             .excess = result.ledger.energy_excess() / scale,
             .parasitic = result.ledger.parasitic(),
-            .events = result.contact.events,
-            .missed_contacts = result.contact.missed_contacts,
-            .compression = result.contact.compression_max,
+            .events = result.contact.report.events,
+            .missed_contacts = result.contact.report.missed_contacts,
+            .compression = result.contact.report.compression_max,
             .is_complete = true};
 }
 

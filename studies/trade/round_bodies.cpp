@@ -60,7 +60,7 @@ void add_errors(const run::Scene<Dim>& scene, const run::RunResult<Dim>& result,
     if (!std::isnan(reference.restitution))
         outcome.restitution = std::abs(restitution_of(scene, result) - reference.restitution);
     const Vector<Dim> velocity(reference.velocity.data());
-    outcome.velocity = (result.end.front().velocity - velocity).norm() / speed;
+    outcome.velocity = (result.bodies.end.front().velocity - velocity).norm() / speed;
 }
 
 template <int Dim>

@@ -57,10 +57,10 @@ Collision collide(const TwoDiscs& discs, const run::RunOptions& options) {
     const auto& last = observer.samples().back();
     const Vector<2> expected = prototype(discs.offset);
     Level level{.name = fmt::format("offset {:g}, h = {:g}, {} cells, {} steps", discs.offset, discs.size,
-                                    scene.mesh.n_cells(), result.steps),
+                                    scene.mesh.n_cells(), result.run.steps),
                 .quantities = {{"momentum, largest change", "", result.ledger.momentum_drift() / momentum, 0.0, 1.0, 1e-12},
                                {"pseudo-energy, largest drift over K0", "",
-                                result.ledger.pseudo_energy_drift() / result.scale.value, 0.0, 1.0, 1e-12},
+                                result.ledger.pseudo_energy_drift() / result.energy.scale.value, 0.0, 1.0, 1e-12},
                                {"final speed along x", "m/s", last.velocity[0].x(), expected.x(), discs.speed},
                                {"final speed along y", "m/s", last.velocity[0].y(), expected.y(), discs.speed},
                                {"spin times R, over the speed", "", last.spin * discs.radius, 0.0, discs.speed},

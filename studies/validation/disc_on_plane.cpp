@@ -39,7 +39,7 @@ Fall fall(const DroppedDisc& disc, const run::RunOptions& options) {
     const run::Scene<2> scene = dropped_disc(disc);
     const auto [result, observer, seconds] = run_impact(scene, options);
     const double time = std::sqrt(2.0 * disc.height / disc.gravity), speed = disc.gravity * time;
-    const double late = disc.size * disc.size / (8.0 * disc.radius) / speed + result.dt;
+    const double late = disc.size * disc.size / (8.0 * disc.radius) / speed + result.run.dt;
     Fall fall;
     double speed_at_contact = 0.0;
     for (const auto& sample : observer.samples()) {
@@ -47,14 +47,15 @@ Fall fall(const DroppedDisc& disc, const run::RunOptions& options) {
         fall.curve.rows.push_back({sample.time, sample.displacement[0].y(), sample.velocity[0].y(), sample.force.y()});
     }
     fall.curve.columns = {"time", "displacement", "velocity", "force"};
-    fall.level = {
-        .name = fmt::format("R/h = {:g}, {} cells, {} steps", disc.radius / disc.size, scene.mesh.n_cells(), result.steps),
-        .size = disc.size,
-        .quantities = {{"first contact", "s", observer.first_contact(), time, 0.0, late / time},
-                       {"speed at first contact", "m/s", speed_at_contact, speed, 0.0, late / time},
-                       {"energy at the end, true error", "", result.ledger.energy_drift() / result.scale.value, 0.0, 1.0}},
-        .energies = figures_of(result),
-        .seconds = seconds};
+    fall.level = {.name = fmt::format("R/h = {:g}, {} cells, {} steps", disc.radius / disc.size, scene.mesh.n_cells(),
+                                      result.run.steps),
+                  .size = disc.size,
+                  .quantities = {{"first contact", "s", observer.first_contact(), time, 0.0, late / time},
+                                 {"speed at first contact", "m/s", speed_at_contact, speed, 0.0, late / time},
+                                 {"energy at the end, true error", "",
+                                  result.ledger.energy_drift() / result.energy.scale.value, 0.0, 1.0}},
+                  .energies = figures_of(result),
+                  .seconds = seconds};
     return fall;
 }
 

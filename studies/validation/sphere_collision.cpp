@@ -60,7 +60,7 @@ Impact collide(const TwoSpheres& spheres, const run::RunOptions& options) {
     const double rebound = (observer.samples().back().velocity[1] - observer.samples().back().velocity[0]).x();
     const double asked = spheres.faces >= 6.0 ? target : no_target;
     impact.level = {
-        .name = fmt::format("a/h = {:g}, {} cells, {} steps", spheres.faces, scene.mesh.n_cells(), result.steps),
+        .name = fmt::format("a/h = {:g}, {} cells, {} steps", spheres.faces, scene.mesh.n_cells(), result.run.steps),
         .size = hertz.contact_radius / spheres.faces,
         .quantities = {{"largest approach", "m", approach, hertz.approach, 0.0, asked},
                        {"largest force", "N", force, hertz.force, 0.0, asked},
@@ -68,7 +68,8 @@ Impact collide(const TwoSpheres& spheres, const run::RunOptions& options) {
                        {"duration", "s", observer.last_contact() - observer.first_contact(), hertz.duration, 0.0, asked},
                        {"speed of separation", "m/s", rebound, spheres.speed},
                        {"momentum, largest change", "",
-                        result.ledger.momentum_drift() / (0.5 * spheres.speed * result.start[0].mass), 0.0, 1.0, 1e-12}},
+                        result.ledger.momentum_drift() / (0.5 * spheres.speed * result.bodies.start[0].mass), 0.0, 1.0,
+                        1e-12}},
         .energies = figures_of(result),
         .seconds = seconds};
     return impact;

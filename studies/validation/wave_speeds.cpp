@@ -140,7 +140,7 @@ void add_plane_wave(Study& study, const run::RunOptions& run, const PlaneWaveOpt
         const Stopwatch watch(level.seconds);
         Seismograph<Dim> seismograph(plane_wave_receivers<Dim>(options));
         const run::RunResult<Dim> result = run::simulate<Dim>(plane_wave<Dim>(options), run, seismograph);
-        const double end = result.dt * static_cast<double>(result.steps),
+        const double end = result.run.dt * static_cast<double>(result.run.steps),
                      distance = seismograph.position(1)[0] - seismograph.position(0)[0];
         const Trace a = windowed(seismograph.trace(0), 0.0, end - taper, taper);
         const Trace b = windowed(seismograph.trace(1), 0.0, end - taper, taper);
@@ -153,7 +153,7 @@ void add_plane_wave(Study& study, const run::RunOptions& run, const PlaneWaveOpt
         add_speeds(level, passage, a, b);
         study.orders.push_back({level.quantities.front().name, least_order});
         if (options.cells == BoxCells::quadrangles || options.cells == BoxCells::hexahedra)
-            compare_with_scheme<Dim>(study, level, options, result.dt, a, b, distance);
+            compare_with_scheme<Dim>(study, level, options, result.run.dt, a, b, distance);
         level.energies = energies(result);
     }
     study.levels.push_back(level);

@@ -35,8 +35,7 @@ struct Given {
 
 Material with(Material material, const std::vector<std::pair<const char*, double>>& numbers) {
     for (const auto& [name, value] : numbers)
-        material.*std::ranges::find(solid::material_numbers, std::string(name), &solid::MaterialNumber::name)->member =
-            value;
+        std::ranges::find(solid::material_numbers, std::string(name), &solid::MaterialNumber::name)->at.in(material) = value;
     return material;
 }
 
@@ -65,17 +64,17 @@ std::vector<Given> all_given() {
         damped{{"mass_damping", 0.1}, {"stiffness_damping", 0.02}, {"linear_viscosity", 0.1}, {"quadratic_viscosity", 1.0}},
         rubber{{"young", 1.0}, {"poisson", 0.45}, {"second_share", 0.3}};
     Material turned = with(of(MaterialLaw::orthotropic), wood);
-    turned.axis_1 = {1.0, 2.0, 0.0};
-    turned.axis_2 = {-2.0, 1.0, 0.0};
+    turned.orthotropic.axis_1 = {1.0, 2.0, 0.0};
+    turned.orthotropic.axis_2 = {-2.0, 1.0, 0.0};
     Material table = of(MaterialLaw::j2);
-    table.yield_stress = 1e-3;
-    table.hardening_table = {{0.0, 1e-3}, {0.01, 2e-3}};
+    table.flow.yield_stress = 1e-3;
+    table.flow.table = {{0.0, 1e-3}, {0.01, 2e-3}};
     Material copper = solid::known_material("copper OFHC")->material;
     copper.law = MaterialLaw::j2;
     solid::take_flow(copper, *solid::known_material("copper OFHC"));
     Material steel = solid::known_material("steel S235")->material;
     steel.law = MaterialLaw::j2;
-    steel.yield_stress = 250e6;
+    steel.flow.yield_stress = 250e6;
     return {
         {"moving", with(of(MaterialLaw::j2), moving), Kinematics::small, {{"law", "j2"}}, moving},
         {"Johnson and Cook",

@@ -49,8 +49,8 @@ TEST_CASE("of a block turned by 0.05 the faces up to 0.02 above the other one ar
     // 0.25, 0.4, 0.5, ...: in the middles of the first three the gap is 0.1, 0.225 and 0.325 times tan 0.05, in that of the next
     // 0.45 tan 0.05 > 0.02.
     const Glued turned = glued(two_squares("place = [0, 1.000001]\nturn = 0.05"));
-    REQUIRE(turned.result.bonds.size() == 1);
-    const solid::BondCoverage& bond = turned.result.bonds.front();
+    REQUIRE(turned.result.bonds.coverage.size() == 1);
+    const solid::BondCoverage& bond = turned.result.bonds.coverage.front();
     CHECK(bond.share() == Approx(0.4).epsilon(2e-3));
     CHECK(bond.area == Approx(0.4).epsilon(2e-3));
     CHECK(bond.opposite == Approx(1.0).epsilon(2e-3));
@@ -63,7 +63,7 @@ TEST_CASE("of a block turned by 0.05 the faces up to 0.02 above the other one ar
     const WrittenScene file(two_squares("place = [0, 1.000001]\nturn = 0.05"));
     const input::CheckedScene checked = input::check_scene(file.path());
     REQUIRE(checked.estimate);
-    CHECK(checked.estimate->bonds == run::bonded_text<2>(turned.result.bonds));
+    CHECK(checked.estimate->bonds == run::bonded_text<2>(turned.result.bonds.coverage));
     CHECK(std::ranges::any_of(checked.warnings,
                               [](const std::string& text) { return text.find("the bond of") != std::string::npos; }));
 }
@@ -72,7 +72,7 @@ TEST_CASE("a block that stands out by 0.4 is glued by all that lies opposite, 0.
           "[input][bonds]") {
     const std::string sides = GENERATE(as<std::string>(), "bodies = [\"a\", \"b\"]", "groups = [\"a.ymax\", \"b.ymin\"]");
     const Glued partly = glued(two_squares("place = [0.4, 1]", sides));
-    const solid::BondCoverage& bond = partly.result.bonds.front();
+    const solid::BondCoverage& bond = partly.result.bonds.coverage.front();
     CHECK(bond.area == Approx(0.6).epsilon(1e-12));
     CHECK(bond.share() == Approx(1.0).epsilon(1e-12));
     CHECK(bond.share_of_side() == Approx(0.6).epsilon(1e-12));
@@ -82,11 +82,11 @@ TEST_CASE("a block that stands out by 0.4 is glued by all that lies opposite, 0.
 
 TEST_CASE("a gap of 0.01 m that is glued over is told", "[input][bonds]") {
     const Glued apart = glued(two_squares("place = [0, 1.01]"));
-    const solid::BondCoverage& bond = apart.result.bonds.front();
+    const solid::BondCoverage& bond = apart.result.bonds.coverage.front();
     CHECK(bond.share() == Approx(1.0).epsilon(1e-12));
     CHECK(bond.share_of_side() == Approx(1.0).epsilon(1e-12));
     CHECK(bond.largest_gap == Approx(0.01).epsilon(1e-9));
-    CHECK_THAT(run::bonded_text<2>(apart.result.bonds), Catch::Contains("largest gap 0.01 m"));
+    CHECK_THAT(run::bonded_text<2>(apart.result.bonds.coverage), Catch::Contains("largest gap 0.01 m"));
     CHECK(apart.warnings.empty());
 }
 
@@ -96,9 +96,9 @@ TEST_CASE("parts of one piece are bonded by all that they have in common", "[inp
                             "= 1000\n[bodies.wheel.left]\n"
                             "region = \"x < 0\"\n[run]\nsteps = 1\n")
                             .result;
-    REQUIRE(result.bonds.size() == 1);
-    CHECK(result.bonds.front().share() == 1.0);
-    CHECK(result.bonds.front().share_of_side() == 1.0);
+    REQUIRE(result.bonds.coverage.size() == 1);
+    CHECK(result.bonds.coverage.front().share() == 1.0);
+    CHECK(result.bonds.coverage.front().share_of_side() == 1.0);
 }
 
 TEST_CASE("a thin layer that is glued on has no more opposite than the side that is glued", "[input][bonds]") {
@@ -106,7 +106,7 @@ TEST_CASE("a thin layer that is glued on has no more opposite than the side that
     std::string text = two_squares("place = [0, 1]");
     text.replace(text.find("upper = [1, 1]\ncounts = [5, 5]"), std::string("upper = [1, 1]\ncounts = [5, 5]").size(),
                  "upper = [1, 0.05]\ncounts = [5, 2]");
-    const solid::BondCoverage bond = glued(text).result.bonds.front();
+    const solid::BondCoverage bond = glued(text).result.bonds.coverage.front();
     CHECK(bond.opposite == Approx(1.0).epsilon(1e-12));
     CHECK(bond.share() == Approx(1.0).epsilon(1e-12));
 }

@@ -82,10 +82,10 @@ TEST_CASE("an overlap on purpose leaves friction as it is unless the pair has it
     run::RunOptions options;
     options.steps = 200;
     const auto result = run::simulate<2>(by_groups, options);
-    REQUIRE(result.overlaps.size() == 1);
-    CHECK(result.overlaps[0] == Approx(0.1).epsilon(1e-12));
-    CHECK(result.contact.missed_contacts == 0);
-    CHECK(result.ledger.pseudo_energy_drift() < 1e-12 * result.scale.value);
+    REQUIRE(result.contact.overlaps.size() == 1);
+    CHECK(result.contact.overlaps[0] == Approx(0.1).epsilon(1e-12));
+    CHECK(result.contact.report.missed_contacts == 0);
+    CHECK(result.ledger.pseudo_energy_drift() < 1e-12 * result.energy.scale.value);
     CHECK(run::summary_json("abut", by_groups, result).find("'left.xmax'") != std::string::npos);
 }
 

@@ -91,8 +91,8 @@ TEST_CASE("12 teeth turn 18 two thirds as far, the other way round", "[input][sc
     CHECK(turns.turned[0] == Approx(3.0).epsilon(0.05));  // 60 s with 0.05 rad/s
     // As far as 2/3, up to the play of 2 * 0.01 m at 1.5 m and as much again for teeth that bend
     CHECK(turns.turned[1] == Approx(-turns.turned[0] / 1.5).margin(2.0 * 2.0 * 0.01 / 1.5));
-    CHECK(result.ledger.pseudo_energy_drift() < 1e-11 * result.scale.value);
-    CHECK(result.contact.missed_contacts == 0);
+    CHECK(result.ledger.pseudo_energy_drift() < 1e-11 * result.energy.scale.value);
+    CHECK(result.contact.report.missed_contacts == 0);
 }
 
 TEST_CASE("a pile that a paddle stirs gains the work of it exactly, and loses no contact", "[input][scenes]") {
@@ -102,18 +102,18 @@ TEST_CASE("a pile that a paddle stirs gains the work of it exactly, and loses no
     const auto result = run::simulate<2>(scene, file.options(), seen);
     const std::int32_t paddle = scene.mesh.n_bodies() + 1;
     CHECK(std::ranges::any_of(seen.pairs, [&](const auto& pair) { return pair[1] == paddle; }));
-    CHECK(std::abs(result.ledger.entries().back().work) > 1e-3 * result.scale.value);
-    CHECK(result.ledger.pseudo_energy_drift() < 1e-11 * result.scale.value);
-    CHECK(result.contact.missed_contacts == 0);
+    CHECK(std::abs(result.ledger.entries().back().work) > 1e-3 * result.energy.scale.value);
+    CHECK(result.ledger.pseudo_energy_drift() < 1e-11 * result.energy.scale.value);
+    CHECK(result.contact.report.missed_contacts == 0);
 }
 
 TEST_CASE("equal bars that collide exchange their velocities, as the theory of one dimension has it", "[input][scenes]") {
     const input::SceneFile file(ABUT_SOURCE "/scenes/colliding_bars.toml");
     const auto result = run::simulate<2>(file.scene<2>(), file.options());
-    CHECK(result.end[0].velocity.x() == Approx(-0.1).epsilon(0.03));
-    CHECK(result.end[1].velocity.x() == Approx(0.1).epsilon(0.03));
-    CHECK(result.ledger.pseudo_energy_drift() < 1e-11 * result.scale.value);
-    CHECK(result.contact.missed_contacts == 0);
+    CHECK(result.bodies.end[0].velocity.x() == Approx(-0.1).epsilon(0.03));
+    CHECK(result.bodies.end[1].velocity.x() == Approx(0.1).epsilon(0.03));
+    CHECK(result.ledger.pseudo_energy_drift() < 1e-11 * result.energy.scale.value);
+    CHECK(result.contact.report.missed_contacts == 0);
 }
 
 TEST_CASE("bodies that are ignored pass through each other and through obstacles, and all others do not",
@@ -162,12 +162,12 @@ time = 2.5
     ContactSeen seen;
     const auto result = run::simulate<2>(file.scene<2>(), file.options(), seen);
     CHECK(seen.pairs == std::set<std::array<std::int32_t, 2>>{{1, 2}, {2, 3}});
-    CHECK(result.end[0].velocity.x() == Approx(0.0).margin(1e-14));
+    CHECK(result.bodies.end[0].velocity.x() == Approx(0.0).margin(1e-14));
     const double time = result.ledger.entries().back().time;
-    CHECK(result.end[0].velocity.y() == Approx(-0.01 * time).epsilon(1e-10));  // it falls freely
-    CHECK(result.end[1].velocity.x() < 0.5);                                   // has met c
-    CHECK(result.end[2].velocity.x() > 0.1);
-    CHECK(result.ledger.pseudo_energy_drift() < 1e-11 * result.scale.value);
+    CHECK(result.bodies.end[0].velocity.y() == Approx(-0.01 * time).epsilon(1e-10));  // it falls freely
+    CHECK(result.bodies.end[1].velocity.x() < 0.5);                                   // has met c
+    CHECK(result.bodies.end[2].velocity.x() > 0.1);
+    CHECK(result.ledger.pseudo_energy_drift() < 1e-11 * result.energy.scale.value);
     const WrittenScene overlapping(two_blocks("[contact]\nignored_pairs = [[\"right\", \"left\"]]"));
     CHECK(input::check_scene(overlapping.path(), {.set = {"bodies.right.place=[-1, 0]"}}).faults.empty());
     const input::SceneFile crossed(overlapping.path(), {.set = {"bodies.right.place=[-1, 0]"}});
@@ -197,10 +197,10 @@ groups = ["right.xmin"]
     longer.insert(longer.end(), {"run.steps=200", "run.dt=0.02"});
     const input::SceneFile run_file(glued.path(), {.set = longer});
     const auto result = run::simulate<2>(run_file.scene<2>(), run_file.options());
-    CHECK(result.ledger.pseudo_energy_drift() < 1e-11 * result.scale.value);
-    CHECK(result.contact.active_pairs_max == 0);
-    CHECK((result.end[0].velocity + result.end[1].velocity).x() == Approx(1.0).epsilon(1e-10));
-    CHECK(std::abs(result.end[1].velocity.x()) > 1e-3);  // nothing else moves it
+    CHECK(result.ledger.pseudo_energy_drift() < 1e-11 * result.energy.scale.value);
+    CHECK(result.contact.report.active_pairs_max == 0);
+    CHECK((result.bodies.end[0].velocity + result.bodies.end[1].velocity).x() == Approx(1.0).epsilon(1e-10));
+    CHECK(std::abs(result.bodies.end[1].velocity.x()) > 1e-3);  // nothing else moves it
 
     const WrittenScene untouched(
         two_blocks("[obstacles.floor]\nshape = \"plane\"\npoint = [0, -1]\nnormal = [0, 1]\n"
@@ -208,7 +208,7 @@ groups = ["right.xmin"]
     longer.push_back("contact.enabled=false");  // as a scene is tried: its obstacles may be idle
     const input::SceneFile without_contact(untouched.path(), {.set = longer});
     const auto same = run::simulate<2>(without_contact.scene<2>(), without_contact.options());
-    CHECK(same.end[1].velocity == result.end[1].velocity);
+    CHECK(same.end[1].velocity == result.bodies.end[1].velocity);
 
     const auto faults = [&](const std::string& bonds) {
         const WrittenScene wrong(two_blocks(bonds));
@@ -225,12 +225,12 @@ groups = ["right.xmin"]
 TEST_CASE("a piece that is glued on and as long as the bar that strikes flies off with its velocity", "[input][scenes]") {
     const input::SceneFile file(ABUT_SOURCE "/scenes/bonded_bars.toml");
     const auto result = run::simulate<2>(file.scene<2>(), file.options());
-    CHECK(result.end[2].velocity.x() == Approx(0.1).epsilon(0.05));  // less what the bond bears
-    CHECK(std::abs(result.end[0].velocity.x()) < 0.005);
-    CHECK(std::abs(result.end[1].velocity.x()) < 0.005);
-    CHECK(result.dissipated.in_bonds > 0.0);
-    CHECK(result.ledger.pseudo_energy_drift() < 1e-12 * result.scale.value);
-    CHECK(result.contact.missed_contacts == 0);
+    CHECK(result.bodies.end[2].velocity.x() == Approx(0.1).epsilon(0.05));  // less what the bond bears
+    CHECK(std::abs(result.bodies.end[0].velocity.x()) < 0.005);
+    CHECK(std::abs(result.bodies.end[1].velocity.x()) < 0.005);
+    CHECK(result.energy.dissipated.in_bonds > 0.0);
+    CHECK(result.ledger.pseudo_energy_drift() < 1e-12 * result.energy.scale.value);
+    CHECK(result.contact.report.missed_contacts == 0);
 }
 
 TEST_CASE("a pressure acts against the normals of all faces of its group", "[input][scenes]") {
@@ -316,5 +316,5 @@ TEST_CASE("a plate that a growing traction pulls moves as plane strain has it", 
     // the end. The traction grows as (1 - cos(pi t/2))/2 for 2 s, 1/2 on the mean, and stays for 2 s: 3/4 over all.
     const double end = 0.91 / 100.0;
     CHECK(pull.mean() == Approx(0.75 * 0.5 * end * 0.5).epsilon(0.02));
-    CHECK(result.ledger.pseudo_energy_drift() < 1e-11 * result.scale.value);
+    CHECK(result.ledger.pseudo_energy_drift() < 1e-11 * result.energy.scale.value);
 }

@@ -37,7 +37,7 @@ TEST_CASE("a body takes the values of a material that is known by its name", "[i
     CHECK(steel.poisson == 0.3);
     CHECK(steel.density == 7850.0);
     CHECK(steel.law == solid::MaterialLaw::st_venant_kirchhoff);
-    CHECK(steel.yield_stress == 0.0);  // of j2 alone
+    CHECK(steel.flow.yield_stress == 0.0);  // of j2 alone
     const solid::Material heavy = of_block("material = \"steel S235\"\ndensity = \"8 g/cm^3\"");
     CHECK(heavy.density == 8000.0);
     CHECK(heavy.young == 210e9);
@@ -46,17 +46,17 @@ TEST_CASE("a body takes the values of a material that is known by its name", "[i
 TEST_CASE("a known material gives its yield stress to the law that needs one, unless the body has another",
           "[input][materials]") {
     const std::string yields = "material = \"steel S355\"\nlaw = \"j2\"\nkinematics = \"finite\"\n";
-    CHECK(of_block(yields).yield_stress == 355e6);
-    CHECK(of_block(yields + "yield_stress = \"400 MPa\"").yield_stress == 400e6);
+    CHECK(of_block(yields).flow.yield_stress == 355e6);
+    CHECK(of_block(yields + "yield_stress = \"400 MPa\"").flow.yield_stress == 400e6);
     // Johnson and Cook 1983, table 1: OFHC copper has A = 90 MPa, B = 292 MPa, n = 0.31, C = 0.025.
     const solid::Material copper = of_block("material = \"copper OFHC\"\nlaw = \"j2\"");
-    CHECK(copper.yield_stress == 90e6);
-    CHECK(copper.flow_stress(0.2) == Approx(90e6 + 292e6 * std::pow(0.2, 0.31)));
-    CHECK(copper.rate_factor(1e4) == Approx(1.0 + 0.025 * std::log(1e4)));
+    CHECK(copper.flow.yield_stress == 90e6);
+    CHECK(copper.flow.stress(0.2) == Approx(90e6 + 292e6 * std::pow(0.2, 0.31)));
+    CHECK(copper.flow.rate_factor(1e4) == Approx(1.0 + 0.025 * std::log(1e4)));
     const solid::Material own = of_block("material = \"copper OFHC\"\nlaw = \"j2\"\nhardening = 1e8");
-    CHECK(own.power_hardening == 0.0);
-    CHECK(own.knows_rates());
-    CHECK(of_block("material = \"copper OFHC\"").power_hardening == 0.0);
+    CHECK(own.flow.power_hardening == 0.0);
+    CHECK(own.flow.knows_rates());
+    CHECK(of_block("material = \"copper OFHC\"").flow.power_hardening == 0.0);
     const WrittenScene written(two_blocks());
     const auto glass = input::check_scene(written.path(), {.set = {"bodies.left.material='glass soda-lime'",
                                                                    "bodies.left.law=j2", "bodies.left.kinematics=finite"}});
@@ -68,11 +68,11 @@ TEST_CASE("a body takes a table of hardening, with units, and its yield stress f
     const solid::Material steel = of_block(
         "material = \"steel S235\"\nlaw = \"j2\"\nhardening_table = [[0, \"300 MPa\"], [\"2*0.05\", 4e8]]\n"
         "cowper_symonds_rate = 40.4\ncowper_symonds_exponent = 5");
-    CHECK(steel.yield_stress == 300e6);
-    REQUIRE(steel.hardening_table.size() == 2);
-    CHECK(steel.hardening_table[1].plastic_strain == 0.1);
-    CHECK(steel.hardening_table[1].stress == 4e8);
-    CHECK(steel.cowper_symonds_rate == 40.4);
+    CHECK(steel.flow.yield_stress == 300e6);
+    REQUIRE(steel.flow.table.size() == 2);
+    CHECK(steel.flow.table[1].plastic_strain == 0.1);
+    CHECK(steel.flow.table[1].stress == 4e8);
+    CHECK(steel.flow.cowper_symonds_rate == 40.4);
     const WrittenScene written(two_blocks());
     const auto fault_of = [&](const std::string& table) {
         const auto checked =
@@ -95,17 +95,17 @@ TEST_CASE("a body takes the constants and axes of an orthotropic material, and a
         "= 26e-6\n";
     const solid::Material plane = of_block(ply + "axis_angle = \"30 deg\"\ntemperature_rise = 1");
     CHECK(plane.law == solid::MaterialLaw::orthotropic);
-    CHECK(plane.young_2 == 10e9);
-    CHECK(plane.poisson_23 == 0.45);
-    CHECK(plane.axis_angle == Approx(std::acos(-1.0) / 6.0));
-    CHECK(plane.thermal_expansion_2 == 26e-6);
+    CHECK(plane.orthotropic.young_2 == 10e9);
+    CHECK(plane.orthotropic.poisson_23 == 0.45);
+    CHECK(plane.orthotropic.axis_angle == Approx(std::acos(-1.0) / 6.0));
+    CHECK(plane.expansion.along_2 == 26e-6);
     const std::string block = "[bodies.block]\nshape = \"structured_box\"\n";
     const WrittenScene space(
         "dim = 3\n" + block + "lower = [0, 0, 0]\nupper = [1, 1, 1]\ncounts = [3, 3, 3]\n" + ply +
         "axis_1 = [0, 1, 1]\naxis_2 = [0, -1, 1]\ntemperature_rise = \"100*t + 20*x\"\n[run]\nsteps = 1\n");
     const auto scene = input::SceneFile(space.path()).scene<3>();
-    CHECK(scene.solid.materials.front().axis_1 == std::array{0.0, 1.0, 1.0});
-    CHECK(scene.solid.materials.front().axis_2 == std::array{0.0, -1.0, 1.0});
+    CHECK(scene.solid.materials.front().orthotropic.axis_1 == std::array{0.0, 1.0, 1.0});
+    CHECK(scene.solid.materials.front().orthotropic.axis_2 == std::array{0.0, -1.0, 1.0});
     REQUIRE(scene.solid.temperature_rise.size() == 1);
     CHECK(scene.solid.temperature_rise.front().varies);
     CHECK(scene.solid.temperature_rise.front().value(2.0, {0.5, 0.0, 0.0}) == 210.0);
@@ -133,11 +133,11 @@ TEST_CASE("every known material has a source and values that a body may have", "
         CHECK(material.young == known.material.young);
         CHECK(material.density == known.material.density);
         CHECK(material.poisson == known.material.poisson);
-        CHECK(known.yield_stress < 0.03 * known.material.young);  // metals and plastics flow at some percent of strain
+        CHECK(known.flow.yield_stress < 0.03 * known.material.young);  // metals and plastics flow at some percent of strain
         CHECK(solid::known_material(known.name) == &known);
-        if (known.yield_stress > 0.0)
-            CHECK(of_block("law = \"j2\"\nkinematics = \"finite\"\nmaterial = \"" + known.name + "\"").yield_stress ==
-                  known.yield_stress);
+        if (known.flow.yield_stress > 0.0)
+            CHECK(of_block("law = \"j2\"\nkinematics = \"finite\"\nmaterial = \"" + known.name + "\"").flow.yield_stress ==
+                  known.flow.yield_stress);
     }
 }
 

@@ -114,11 +114,12 @@ TEST_CASE("the parts of a piece fly and turn as one", "[input][pieces]") {
     run::RunOptions options;
     options.steps = 400;
     const auto result = run::simulate<2>(scene, options);
-    CHECK(result.ledger.pseudo_energy_drift() < 1e-11 * result.scale.value);
+    CHECK(result.ledger.pseudo_energy_drift() < 1e-11 * result.energy.scale.value);
     // All that the bond and the strain of the spin have of the energy, which is 1e-4 of it.
     const auto& ledger = result.ledger.entries();
     CHECK(ledger.back().potential < 1e-3 * ledger.front().kinetic);
-    for (const auto& part : result.end) CHECK(part.spin[0] == Approx(7.0).epsilon(0.01));  // released unstrained, it swings
+    for (const auto& part : result.bodies.end)
+        CHECK(part.spin[0] == Approx(7.0).epsilon(0.01));  // released unstrained, it swings
 }
 
 TEST_CASE("groups of a file that share vertices are parts of one piece", "[input][pieces]") {

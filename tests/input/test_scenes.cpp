@@ -22,9 +22,9 @@ namespace fs = std::filesystem;
 template <int Dim>
 void run_some_steps(const input::SceneFile& file) {
     const run::RunResult<Dim> result = run::simulate<Dim>(file.scene<Dim>(), file.options());
-    CHECK(result.steps == 12);
-    CHECK(result.ledger.pseudo_energy_drift() < 1e-11 * result.scale.value);
-    CHECK(result.contact.missed_contacts == 0);
+    CHECK(result.run.steps == 12);
+    CHECK(result.ledger.pseudo_energy_drift() < 1e-11 * result.energy.scale.value);
+    CHECK(result.contact.report.missed_contacts == 0);
 }
 
 }  // namespace
@@ -55,17 +55,17 @@ TEST_CASE("a bar of grains breaks half a pulse from its free end, and the piece 
     // In one dimension: a pulse twice as long as the striker, 0.5 m, meets its own reflection there; its momentum is trapped.
     const input::SceneFile file(fs::path(ABUT_SOURCE "/scenes/spalling_bar.toml"), {});
     const auto result = run::simulate<2>(file.scene<2>(), file.options());
-    REQUIRE(result.fragments.size() == 2);
+    REQUIRE(result.bonds.fragments.size() == 2);
     const double height = 0.1, half_a_grain = 0.05, momentum = 0.02 * 0.5 * height;
-    const solid::Fragment<2>& piece = result.fragments.back();
+    const solid::Fragment<2>& piece = result.bonds.fragments.back();
     CHECK(piece.mass == Approx(0.5 * height).margin(half_a_grain * height));
     CHECK(piece.mass * piece.velocity[0] > 0.9 * momentum);
     CHECK(piece.mass * piece.velocity[0] < momentum);
-    CHECK(result.contact.missed_contacts == 0);
-    CHECK(result.ledger.pseudo_energy_drift() < 1e-12 * result.scale.value);
+    CHECK(result.contact.report.missed_contacts == 0);
+    CHECK(result.ledger.pseudo_energy_drift() < 1e-12 * result.energy.scale.value);
     // One crack across the bar takes its fracture energy; other places have opened a little.
-    CHECK(result.dissipated.in_bonds > 2e-6 * height);
-    CHECK(result.dissipated.in_bonds < 2.0 * 2e-6 * height);
+    CHECK(result.energy.dissipated.in_bonds > 2e-6 * height);
+    CHECK(result.energy.dissipated.in_bonds < 2.0 * 2e-6 * height);
 }
 
 TEST_CASE(
@@ -75,11 +75,11 @@ TEST_CASE(
     CAPTURE(name);
     const input::SceneFile file(fs::path(ABUT_SOURCE "/scenes") / name, {});
     const auto result = run::simulate<2>(file.scene<2>(), file.options());
-    CHECK(result.contact.active_pairs_max > 2);
-    CHECK(result.contact.missed_contacts == 0);
-    CHECK(result.contact.compression_max <= 0.3);
-    CHECK(result.ledger.pseudo_energy_drift() < 1e-12 * result.scale.value);
-    CHECK(result.ledger.energy_excess() < 0.01 * result.scale.value);
+    CHECK(result.contact.report.active_pairs_max > 2);
+    CHECK(result.contact.report.missed_contacts == 0);
+    CHECK(result.contact.report.compression_max <= 0.3);
+    CHECK(result.ledger.pseudo_energy_drift() < 1e-12 * result.energy.scale.value);
+    CHECK(result.ledger.energy_excess() < 0.01 * result.energy.scale.value);
 }
 
 TEST_CASE("the estimate of a check is what the run takes", "[input][check]") {
@@ -92,8 +92,8 @@ TEST_CASE("the estimate of a check is what the run takes", "[input][check]") {
     CHECK(checked.estimate->bodies == 2);
     CHECK(checked.estimate->cells == 4 + 9);
     CHECK(checked.estimate->boundary_faces == 8 + 12);
-    CHECK(checked.estimate->dt == result.dt);
-    CHECK(checked.estimate->steps == result.steps);
+    CHECK(checked.estimate->dt == result.run.dt);
+    CHECK(checked.estimate->steps == result.run.steps);
     CHECK(checked.estimate->seconds > 0.0);
     CHECK(checked.estimate->seconds < 60.0);  // 13 cells and some dozen steps
     CHECK(checked.estimate->bytes > 1e6);     // no process with Gmsh is smaller

@@ -31,8 +31,8 @@ run::RunResult<2> result_of(const std::string& text) {
     REQUIRE(checked.faults.empty());
     const input::SceneFile file(written.path());
     auto result = run::simulate<2>(file.scene<2>(), file.options());
-    CHECK(result.ledger.pseudo_energy_drift() < 1e-12 * result.scale.value);
-    CHECK(result.contact.missed_contacts == 0);
+    CHECK(result.ledger.pseudo_energy_drift() < 1e-12 * result.energy.scale.value);
+    CHECK(result.contact.report.missed_contacts == 0);
     return result;
 }
 
@@ -99,7 +99,7 @@ TEST_CASE("faces on a plane of symmetry carry no contact, and others meet it wit
     REQUIRE(scene.solid.body_friction.size() == 2);
     for (const auto& pair : scene.solid.body_friction) CHECK_FALSE(pair.law.acts());
     const auto result = run::simulate<2>(scene, input::SceneFile(written.path()).options());
-    CHECK(result.contact.active_pairs == 0);
+    CHECK(result.contact.report.active_pairs == 0);
 }
 
 TEST_CASE("what is not symmetric about a plane of symmetry is refused", "[input][symmetry]") {

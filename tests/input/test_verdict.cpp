@@ -31,7 +31,7 @@ struct Ran {
     }
     [[nodiscard]] std::string verdict() const { return run::verdict(scene, result).text; }
     [[nodiscard]] bool is_good() const { return run::verdict(scene, result).good; }
-    [[nodiscard]] Vector<2> velocity(std::size_t body = 0) const { return result.end[body].velocity; }
+    [[nodiscard]] Vector<2> velocity(std::size_t body = 0) const { return result.bodies.end[body].velocity; }
 };
 
 Ran ran(const std::string& text, const std::vector<std::string>& set = {}) {
@@ -173,11 +173,11 @@ interval = 100
 )toml"));
     const double exact = 0.01 + 1000.0 * 10.0 / (1000.0 * 1.0);  // v0 + p t / (rho L)
     CHECK(push.velocity().x() == Approx(exact).epsilon(1e-3));
-    CHECK(push.result.complete);
+    CHECK(push.result.run.complete);
     const double kinetic = 0.5 * 1000.0 * exact * exact;
-    CHECK(push.result.scale.value == Approx(kinetic).epsilon(0.01));  // not K0 = 0.05 J
-    CHECK(push.result.scale.name == "E");
-    CHECK(push.result.forces_from_outside == std::vector<std::string>{"tractions"});
+    CHECK(push.result.energy.scale.value == Approx(kinetic).epsilon(0.01));  // not K0 = 0.05 J
+    CHECK(push.result.energy.scale.name == "E");
+    CHECK(push.result.energy.forces_from_outside == std::vector<std::string>{"tractions"});
     CHECK(run::momentum_note(push.result) == "not conserved: tractions");
     CHECK(std::isnan(run::momentum_drift(push.result)));
 }
@@ -207,24 +207,24 @@ compression_limit = 5
     // An elastic bar; 1.5 % of the speed stay in vibrations that the cells disperse.
     CHECK(thrown.velocity().x() == Approx(2.0 * 0.5 - 0.001).epsilon(0.02));
     const double mass = 0.1;
-    CHECK(thrown.result.scale.value >= 0.5 * mass * 0.98);
-    CHECK(thrown.result.forces_from_outside == std::vector<std::string>{"obstacles"});
+    CHECK(thrown.result.energy.scale.value >= 0.5 * mass * 0.98);
+    CHECK(thrown.result.energy.forces_from_outside == std::vector<std::string>{"obstacles"});
 }
 
 TEST_CASE("a block at rest that gravity lets fall needs no energy_scale", "[input][verdict]") {
     const Ran fall = ran("gravity = [0, -10]\n" + square("", floor_below + "[run]\ntime = 0.2\n"));
     const double time = fall.result.ledger.entries().back().time;
     CHECK(fall.velocity().y() == Approx(-10.0 * time).epsilon(1e-9));  // g t
-    CHECK(fall.result.scale.value == Approx(0.5 * 1000.0 * 4.0).epsilon(0.02));
+    CHECK(fall.result.energy.scale.value == Approx(0.5 * 1000.0 * 4.0).epsilon(0.02));
     CHECK(run::momentum_drift(fall.result) < 1e-9 * 1000.0 * 2.0);  // less what gravity gave
     CHECK_THAT(fall.verdict(), Catch::Contains("Nothing touched: nearest at the end were 'block' and obstacle 'floor', "));
-    CHECK(fall.result.looks.nearest.distance == Approx(1.0 - 5.0 * time * time).epsilon(1e-6));
+    CHECK(fall.result.watch.looks.nearest.distance == Approx(1.0 - 5.0 * time * time).epsilon(1e-6));
     CHECK_FALSE(fall.is_good());
 }
 
 TEST_CASE("of a scene in which nothing moves figures are 0, and none is no number", "[input][verdict]") {
     const Ran still = ran(square("", floor_below + "[run]\nsteps = 5\n"));
-    CHECK(still.result.scale.value == 0.0);
+    CHECK(still.result.energy.scale.value == 0.0);
     CHECK_THAT(still.verdict(), Catch::Contains("Nothing has moved."));
     for (const std::string& text : {run::summary_json<2>("still", still.scene, still.result),
                                     run::closing_table<2>("still", still.scene, still.result)})
@@ -250,16 +250,16 @@ TEST_CASE("a tip of 25 degrees that strikes a flat side keeps its energy, which 
     std::filesystem::copy_file(ABUT_SOURCE "/tests/input/tip_25.msh", written.path().parent_path() / "tip.msh");
     const input::SceneFile file(written.path());
     const auto result = run::simulate<2>(file.scene<2>(), file.options());
-    CHECK(result.contact.active_pairs_max > 0);
-    CHECK(result.contact.missed_contacts == 0);
-    CHECK(result.ledger.energy_excess() <= 1e-3 * result.accounts.energy_in_play);
+    CHECK(result.contact.report.active_pairs_max > 0);
+    CHECK(result.contact.report.missed_contacts == 0);
+    CHECK(result.ledger.energy_excess() <= 1e-3 * result.energy.accounts.energy_in_play);
     CHECK(result.ledger.entries().back().linear_momentum[1] > 0.0);  // it is on its way back
 }
 
 TEST_CASE("corners that meet and shake their cells are told of, and H~ is no praise then", "[input][verdict]") {
     for (const char* law : {"contact.law=\"reconstruction\"", "contact.law=\"pair_potential\""}) {
         const Ran corners = ran(three_corners, {law});
-        const double excess = corners.result.ledger.energy_excess() / corners.result.accounts.energy_in_play;
+        const double excess = corners.result.ledger.energy_excess() / corners.result.energy.accounts.energy_in_play;
         CAPTURE(law, excess);
         CHECK(corners.warns_of(WarningKind::energy_excess) == (excess > 0.02));
         if (excess <= 0.02) continue;
@@ -270,10 +270,10 @@ TEST_CASE("corners that meet and shake their cells are told of, and H~ is no pra
 
 TEST_CASE("blocks that bounce are kept to round-off, apart, and nothing warns", "[input][verdict]") {
     const Ran bounce = ran(test::two_blocks(), {"run.steps=300", "bodies.left.velocity=[0.2, 0]"});
-    REQUIRE(bounce.result.contact.active_pairs_max > 0);
+    REQUIRE(bounce.result.contact.report.active_pairs_max > 0);
     CAPTURE(bounce.verdict());
-    CHECK(bounce.result.looks.looks > 0);
-    CHECK(bounce.result.looks.deepest.ratio < run::deep_interpenetration);
+    CHECK(bounce.result.watch.looks.looks > 0);
+    CHECK(bounce.result.watch.looks.deepest.ratio < run::deep_interpenetration);
     CHECK(run::momentum_note(bounce.result).empty());
     CHECK(run::momentum_drift(bounce.result) < 1e-13);
 }
@@ -281,9 +281,9 @@ TEST_CASE("blocks that bounce are kept to round-off, apart, and nothing warns", 
 TEST_CASE("what an obstacle gives is accounted for: a block that bounces off a floor keeps the rest of its momentum",
           "[input][verdict]") {
     const Ran bounce = ran("gravity = [0, -10]\n" + square("velocity = [0, -1]\n", floor_below + "[run]\ntime = 0.8\n"));
-    REQUIRE(bounce.result.contact.active_pairs_max > 0);
+    REQUIRE(bounce.result.contact.report.active_pairs_max > 0);
     CHECK(run::momentum_note(bounce.result) == ", less what came from gravity and obstacles");
-    CHECK(run::momentum_drift(bounce.result) < 1e-12 * 1000.0 * bounce.result.accounts.speed * 10.0);
+    CHECK(run::momentum_drift(bounce.result) < 1e-12 * 1000.0 * bounce.result.energy.accounts.speed * 10.0);
 }
 
 TEST_CASE("bodies at rest stay at rest, in any units, wherever they stand, and of any kinematics", "[input][verdict]") {
@@ -302,9 +302,9 @@ TEST_CASE("bodies at rest stay at rest, in any units, wherever they stand, and o
             "\"triangle\"\nyoung = {}\ndensity = {}\nkinematics = \"{}\"\n",
             name, left, left + length, length, young, density, kinematics);
     const Ran still = ran(scene + "[run]\nsteps = 500\n[output]\ninterval = 1\n");
-    const double rounding = 2.0 * std::numeric_limits<double>::epsilon() * (place + 2.0 * length) / still.result.dt;
+    const double rounding = 2.0 * std::numeric_limits<double>::epsilon() * (place + 2.0 * length) / still.result.run.dt;
     for (std::size_t body : {0, 1}) CHECK(still.velocity(body).norm() <= rounding);
-    CHECK(still.result.scale.value == 0.0);
+    CHECK(still.result.energy.scale.value == 0.0);
     CHECK_THAT(still.verdict(), Catch::Contains("Nothing has moved.") && Catch::Contains("Nothing warns."));
     CHECK(still.is_good());
 }
@@ -314,13 +314,13 @@ TEST_CASE("a block at rest that is pulled later is as fast as its impulse says, 
                                      "[tractions.pull]\ngroup = \"block.xmax\"\nvalue = [\"t < 0.2 ? 0 : 100\", "
                                      "0]\nfollows = true\n[run]\ntime = 1\n[output]\ninterval = 1\n");
     const Ran pulled = ran(scene);
-    const double end = pulled.result.ledger.entries().back().time, dt = pulled.result.dt;
+    const double end = pulled.result.ledger.entries().back().time, dt = pulled.result.run.dt;
     CHECK(pulled.velocity().x() ==
           Approx(100.0 * (end - 0.2) / 1000.0).margin(0.1 * 2.0 * dt));  // p t / (rho L), to two steps
     const auto onset = static_cast<int>(0.2 / dt);
     for (int steps = onset - 1; steps < onset + 4; ++steps) {
         const Ran short_run = ran(scene, {fmt::format("run.time={}", (steps + 0.5) * dt)});
-        CHECK(short_run.result.complete);
+        CHECK(short_run.result.run.complete);
         const bool moves = short_run.velocity().x() > 1e-6;
         CHECK(moves == (short_run.verdict().find("Nothing has moved") == std::string::npos));
     }
@@ -372,7 +372,7 @@ normal = [0, 1]
 [run]
 time = 5
 )toml");
-    CHECK(bonded.result.contact.active_pairs_max > 0);
+    CHECK(bonded.result.contact.report.active_pairs_max > 0);
     CHECK(bonded.warns_of(WarningKind::coincident_vertices));  // a note
     CHECK_THAT(bonded.verdict(), Catch::Contains("Nothing warns."));
     CHECK(bonded.is_good());
@@ -389,8 +389,8 @@ TEST_CASE("of two bodies that turn by 0.2 rad only the one that grows is told of
     CHECK_FALSE(ran("dim = 2\n" + turning("floating", 0.0) + end).warns_of(WarningKind::rotation));
     const Ran both = ran("dim = 2\n" + turning("floating", 0.0) + turning("small", 3.0) + end);
     CHECK(both.warns_of(WarningKind::rotation));
-    CHECK(both.result.turned.name == "'small'");
-    CHECK(both.result.turned.angle == Approx(std::atan(0.2)).epsilon(0.02));  // velocities stay: x grows along a line
+    CHECK(both.result.watch.turned.name == "'small'");
+    CHECK(both.result.watch.turned.angle == Approx(std::atan(0.2)).epsilon(0.02));  // velocities stay: x grows along a line
     const std::string resting = turning("small", 3.0);
     CHECK_FALSE(ran("dim = 2\n" + turning("floating", 0.0) + resting + end, {"bodies.small.spin=0"})
                     .warns_of(WarningKind::rotation));
@@ -428,8 +428,8 @@ time = 0.5
     CHECK(gliding.velocity().norm() > 0.05);  // it should stick
     CHECK(gliding.warns_of(WarningKind::weak_friction));
     CHECK_FALSE(gliding.is_good());
-    CHECK(gliding.result.weak_friction.share < 0.9);
-    CHECK(gliding.result.weak_friction.body_2 == "obstacle 'p'");
+    CHECK(gliding.result.watch.weak_friction.share < 0.9);
+    CHECK(gliding.result.watch.weak_friction.body_2 == "obstacle 'p'");
     const Ran remedied = block(mu, "stiffness_damping = 1e-4", "settle = true");
     CHECK(remedied.velocity().norm() < 1e-3);
     CHECK_FALSE(remedied.warns_of(WarningKind::weak_friction));
@@ -445,20 +445,20 @@ TEST_CASE("a drift of H~ is seen whatever scale figures are quoted on, and nothi
     const run::Scene<2> scene;
     for (const double scale : {0.5, 1.0, 1e9}) {
         run::RunResult<2> result;
-        result.scale = {"H0", scale};
+        result.energy.scale = {"H0", scale};
         dynamics::LedgerEntry<2> entry{};
         entry.energy = entry.pseudo_energy = entry.kinetic = 1.0;
         for (const double drift : {0.0, 2e-10}) {
             entry.energy = entry.pseudo_energy = 1.0 + drift;
             result.ledger.record(entry);
-            result.accounts.record(entry, 1.0, Vector<2>::Zero());
+            result.energy.accounts.record(entry, 1.0, Vector<2>::Zero());
             const run::Verdict said = run::verdict(scene, result);
             CHECK(said.good == (drift == 0.0));
             CHECK((said.text.find("Nothing warns") == std::string::npos) == (drift > 0.0));
         }
         result.ledger = {};
         result.ledger.record(entry);
-        result.looks.nearest = {.body_1 = "'a'", .body_2 = "'b'", .distance = 1.0};
+        result.watch.looks.nearest = {.body_1 = "'a'", .body_2 = "'b'", .distance = 1.0};
         CHECK_FALSE(run::verdict(scene, result).good);
         CHECK_THAT(run::verdict(scene, result).text, !Catch::Contains("Nothing warns"));
     }

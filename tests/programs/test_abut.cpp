@@ -30,9 +30,10 @@ TEST_CASE("a scene gives the bits of the same scene made in C++", "[programs][ab
         const auto summary = read_summary(outcome);
         const auto made = abut::studies::two_cylinders<2>({.offset = offset});
         const auto result = abut::run::simulate<2>(made, {});
-        CHECK(summary["steps"] == result.steps);
+        CHECK(summary["steps"] == result.run.steps);
         for (std::size_t body = 0; body < 2; ++body)
-            for (int i = 0; i < 2; ++i) CHECK(summary["bodies"][body]["velocity_final"][i] == result.end[body].velocity[i]);
+            for (int i = 0; i < 2; ++i)
+                CHECK(summary["bodies"][body]["velocity_final"][i] == result.bodies.end[body].velocity[i]);
         CHECK(summary["complete"] == true);
         CHECK(summary["program"] == name);
         CHECK(summary["missed_contacts"] == 0);

@@ -119,9 +119,9 @@ void require_same(const ranks::Communicator& all, const run::RunResult<Dim>& exp
         same = same_bits(dynamics::ledger_values(expected.ledger.entries()[i]),
                          dynamics::ledger_values(found.ledger.entries()[i]));
     REQUIRE(everywhere(all, same));
-    CHECK(expected.contact.events == found.contact.events);
-    CHECK(expected.evaluations == found.evaluations);
-    CHECK(expected.local_rotations == found.local_rotations);
+    CHECK(expected.contact.report.events == found.contact.report.events);
+    CHECK(expected.run.evaluations == found.run.evaluations);
+    CHECK(expected.bodies.local_rotations == found.bodies.local_rotations);
     if (all.rank() == 0) {
         same = of_expected.seen.size() == of_found.seen.size() && !of_found.seen.empty();
         for (std::size_t i = 0; same && i < of_found.seen.size(); ++i)

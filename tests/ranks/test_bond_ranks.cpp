@@ -200,8 +200,8 @@ TEST_CASE("bonded metal that yields has the bits of one rank, and bonds of the m
     auto options = bonded<2>(solid::Kinematics::floating, solid::Kinematics::finite);
     for (solid::Material& material : options.materials) {
         material.law = solid::MaterialLaw::j2;
-        material.yield_stress = 2e-3;
-        material.hardening = 0.05;
+        material.flow.yield_stress = 2e-3;
+        material.flow.hardening = 0.05;
     }
     const std::vector<Vector<2>> velocity{-0.02 * Vector<2>::Unit(0), 0.02 * Vector<2>::Unit(0)};
     check_same_bits<2>(all, mesh, options, velocity, 40, parts(all, mesh));

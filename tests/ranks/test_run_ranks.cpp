@@ -155,7 +155,7 @@ TEST_CASE("a run goes on from checkpoints of another number of ranks, with loads
     const ranks::Communicator all = test::world();
     auto scene = test::loaded_strip();
     if (GENERATE(false, true)) {  // and warm
-        scene.solid.materials[0].thermal_expansion = 1e-4;
+        scene.solid.materials[0].expansion.along_1 = 1e-4;
         scene.solid.temperature_rise = {
             {.value = [](double t, const Vector<2>& x) { return 50.0 * (std::sin(4.0 * t) + 0.2 * x[0]); }, .varies = true}};
     }
@@ -176,7 +176,7 @@ TEST_CASE("a run goes on from checkpoints of another number of ranks, with loads
     Watch<2> later;  // of `alone`
     later.seen.assign(alone.seen.end() - static_cast<std::ptrdiff_t>(all.rank() == 0 ? n_later : 0), alone.seen.end());
     test::require_same(all, expected, later, on_ranks, rest);
-    CHECK(on_ranks.resumed_after == 20);
+    CHECK(on_ranks.run.resumed_after == 20);
 
     bool same = true;
     if (all.rank() == 0) {  // began on all ranks, goes on alone

@@ -112,16 +112,15 @@ TEMPLATE_TEST_CASE_SIG("damped metal bodies that flow as they strike each other 
                                 .poisson = 0.3,
                                 .density = 1.0,
                                 .law = solid::MaterialLaw::j2,
-                                .yield_stress = 5e-3,
-                                .hardening = 0.05};
+                                .flow = {.yield_stress = 5e-3, .hardening = 0.05}};
     options.materials = {metal, metal};
-    options.materials[0].kinematic_hardening = 0.02;
-    options.materials[1].jump_cap = 0.2;
-    options.materials[0].stiffness_damping = 0.01;
-    options.materials[1].mass_damping = 0.1;
-    options.materials[1].linear_viscosity = 0.1;
+    options.materials[0].flow.kinematic_hardening = 0.02;
+    options.materials[1].flow.jump_cap = 0.2;
+    options.materials[0].damping.stiffness = 0.01;
+    options.materials[1].damping.mass = 0.1;
+    options.materials[1].damping.linear_viscosity = 0.1;
     options.kinematics = {GENERATE(solid::Kinematics::small, solid::Kinematics::floating), solid::Kinematics::finite};
-    if (options.kinematics[0] == solid::Kinematics::floating) options.materials[1].kinematic_hardening = 0.02;
+    if (options.kinematics[0] == solid::Kinematics::floating) options.materials[1].flow.kinematic_hardening = 0.02;
     options.contact = contact::ContactOptions{};
     const auto report = check_same_bits<Dim>(all, mesh, options, towards_each_other<Dim>(0.1), Dim == 2 ? 120 : 50,
                                              parts(all, mesh), {.waves = 0.01, .spin = 0.05});
@@ -134,16 +133,16 @@ TEMPLATE_TEST_CASE_SIG("orthotropic bodies that strike each other have the bits 
     const auto mesh = two_round_bodies<Dim>();
     solid::SolidOptions<Dim> options;
     solid::Material ply{.young = 4.0, .poisson = 0.3, .density = 1.0, .law = solid::MaterialLaw::orthotropic};
-    ply.young_2 = ply.young_3 = 1.0;
-    ply.poisson_13 = ply.poisson_23 = 0.3;
-    ply.shear_12 = ply.shear_13 = 0.5;
-    ply.shear_23 = 0.4;
+    ply.orthotropic.young_2 = ply.orthotropic.young_3 = 1.0;
+    ply.orthotropic.poisson_13 = ply.orthotropic.poisson_23 = 0.3;
+    ply.orthotropic.shear_12 = ply.orthotropic.shear_13 = 0.5;
+    ply.orthotropic.shear_23 = 0.4;
     if constexpr (Dim == 2)
-        ply.axis_angle = 0.5;
+        ply.orthotropic.axis_angle = 0.5;
     else
-        ply.axis_1 = {1.0, 1.0, 0.0}, ply.axis_2 = {1.0, -1.0, 0.0};
+        ply.orthotropic.axis_1 = {1.0, 1.0, 0.0}, ply.orthotropic.axis_2 = {1.0, -1.0, 0.0};
     options.materials = {ply, steel};
-    options.materials[0].stiffness_damping = 0.01;
+    options.materials[0].damping.stiffness = 0.01;
     options.kinematics = {GENERATE(solid::Kinematics::small, solid::Kinematics::floating), solid::Kinematics::finite};
     options.contact = contact::ContactOptions{};
     const auto report = check_same_bits<Dim>(all, mesh, options, towards_each_other<Dim>(0.1), Dim == 2 ? 120 : 50,
@@ -220,8 +219,8 @@ TEST_CASE("a rank without cells, and parts without any order, change no bit", "[
     solid::SolidOptions<2> options;
     options.materials = {steel, steel};
     options.materials[1].law = solid::MaterialLaw::j2;
-    options.materials[1].yield_stress = 5e-3;
-    options.materials[1].stiffness_damping = 0.01;
+    options.materials[1].flow.yield_stress = 5e-3;
+    options.materials[1].damping.stiffness = 0.01;
     options.contact = contact::ContactOptions{};
     std::vector<int> owner(static_cast<std::size_t>(mesh.n_cells()), 0);  // all on rank 0
     SECTION("all but one rank have none") {}
@@ -282,11 +281,11 @@ TEMPLATE_TEST_CASE_SIG("warm bodies that collide, turn and yield have the bits o
     solid::SolidOptions<Dim> options;
     options.materials.assign(2, steel);
     for (solid::Material& material : options.materials) {
-        material.thermal_expansion = kinematics == solid::Kinematics::finite ? 1e-3 : 1e-4;
+        material.expansion.along_1 = kinematics == solid::Kinematics::finite ? 1e-3 : 1e-4;
         if (!yields) continue;
         material.law = solid::MaterialLaw::j2;
-        material.yield_stress = 1e-3;
-        material.hardening = 0.1;
+        material.flow.yield_stress = 1e-3;
+        material.flow.hardening = 0.1;
     }
     options.kinematics.assign(2, kinematics);
     options.contact = contact::ContactOptions{};
@@ -308,7 +307,7 @@ TEST_CASE("a temperature that strains too much in a cell of one rank is refused 
     const auto mesh = bar<2>(mesh::CellShape::triangle);
     solid::SolidOptions<2> options;
     options.materials = {steel};
-    options.materials[0].thermal_expansion = 1e-3;
+    options.materials[0].expansion.along_1 = 1e-3;
     options.temperature_rise = {{.value = [](double, const Vector<2>& x) { return x[0] > 3.95 ? 200.0 : 1.0; }}};
     CHECK_THROWS_WITH(test::SharedSolid<2>(all, mesh, options, parts(all, mesh)),
                       Catch::Contains("K warmer") && Catch::Contains("a thermal strain of 0.2"));

@@ -108,7 +108,7 @@ TEST_CASE("a run that was stopped and goes on leaves the files of the run that w
     options.threads = 1;
     const run::RunResult<2> rest = run_block(options);
     CHECK(rest.complete);
-    CHECK(rest.resumed_after == 29);
+    CHECK(rest.run.resumed_after == 29);
     const auto found = contents(options.out);
     CHECK(found.size() == expected.size());
     for (const auto& [name, text] : expected) {

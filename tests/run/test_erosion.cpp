@@ -104,11 +104,11 @@ run::Scene<Dim> block_and_plate(Kinematics of_plate) {
 
 template <int Dim>
 void check_balance(const run::RunResult<Dim>& result) {
-    const double scale = result.accounts.energy_in_play;
-    const double momentum = result.accounts.speed * result.start[0].mass;
+    const double scale = result.energy.accounts.energy_in_play;
+    const double momentum = result.energy.accounts.speed * result.bodies.start[0].mass;
     CHECK(result.ledger.pseudo_energy_drift() <= 1e-12 * scale);
-    CHECK(result.accounts.momentum_drift <= 1e-13 * momentum);
-    CHECK(result.contact.missed_contacts == 0);
+    CHECK(result.energy.accounts.momentum_drift <= 1e-13 * momentum);
+    CHECK(result.contact.report.missed_contacts == 0);
 }
 
 /// Asks to stop after some step.
@@ -191,8 +191,8 @@ TEMPLATE_TEST_CASE_SIG("a bar that is torn apart flies on in halves that keep th
     CHECK(pulled_back < v * area * *halves.parted);
     CHECK((halves.right_when_parted + halves.left_when_parted).norm() <= 1e-15);
     CHECK(halves.change <= 1e-14 * half_mass * v);
-    CHECK(result.ledger.pseudo_energy_drift() <= 1e-12 * result.accounts.energy_in_play);
-    CHECK(result.accounts.momentum_drift <= 1e-14 * half_mass * v);
+    CHECK(result.ledger.pseudo_energy_drift() <= 1e-12 * result.energy.accounts.energy_in_play);
+    CHECK(result.energy.accounts.momentum_drift <= 1e-14 * half_mass * v);
 }
 
 TEST_CASE("a wave of compression that comes back from a free end tears it off where and when theory says",
@@ -238,10 +238,10 @@ TEMPLATE_TEST_CASE_SIG("a block goes through a plate, and energy and momentum ar
     check_balance(result);
     if (kinematics == Kinematics::finite)  // nothing has directions of its own in space
         CHECK(result.ledger.pseudo_angular_momentum_drift() <=
-              1e-13 * result.moment_scale * std::sqrt(result.accounts.energy_in_play));
+              1e-13 * result.energy.moment_scale * std::sqrt(result.energy.accounts.energy_in_play));
     CHECK(result.erosion.cells.size() > 4);
-    CHECK(result.end[0].velocity[0] > 0.0);
-    CHECK(result.end[0].velocity[0] < 0.3);
+    CHECK(result.bodies.end[0].velocity[0] > 0.0);
+    CHECK(result.bodies.end[0].velocity[0] < 0.3);
     CHECK(result.ledger.entries().back().active_pairs == 0);  // it is through
     for (const run::ErodedCell& one : result.erosion.cells)
         CHECK(scene.mesh.cell_body[static_cast<std::size_t>(one.cell)] == 1);
@@ -259,7 +259,7 @@ TEMPLATE_TEST_CASE_SIG("a run that goes on after cells have left is bitwise that
     static_cast<void>(run::simulate<Dim>(scene, options, keep));
     REQUIRE(keep.kept);
     const run::RunResult<Dim> rest = run::simulate<Dim>(scene, options, nobody, &*keep.kept);
-    CHECK(rest.resumed_after > cells.front().step);
+    CHECK(rest.run.resumed_after > cells.front().step);
     REQUIRE(rest.erosion.cells.size() == cells.size());
     for (std::size_t i = 0; i < cells.size(); ++i) {
         CHECK(rest.erosion.cells[i].cell == cells[i].cell);
@@ -352,7 +352,7 @@ TEST_CASE("cells leave that a function names, and with them those that are too t
         const bool is_named = is_at(scene.mesh.cell_centroid[static_cast<std::size_t>(one.cell)], 1.0);
         CHECK(one.reason == (is_named ? solid::LeavingReason::function : solid::LeavingReason::remnant));
     }
-    CHECK(result.end[0].velocity[0] == Approx(0.1).epsilon(1e-13));
+    CHECK(result.bodies.end[0].velocity[0] == Approx(0.1).epsilon(1e-13));
 
     scene.leaving = [](const dynamics::RunView<2>&, solid::Solid<2>&) { return std::vector<std::int32_t>{36}; };
     CHECK_THAT(message_of(scene, {}), Catch::Contains("lets cell 36 leave, counted from 0, of 36 cells"));

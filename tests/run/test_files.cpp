@@ -59,14 +59,14 @@ TEST_CASE("a program of a few lines leaves the files of a run, and a summary of 
     std::istringstream energies(read_text(options.out / "energy.csv"));
     std::int64_t lines = 0;
     for (std::string line; std::getline(energies, line);) ++lines;
-    CHECK(lines == result.steps + 2);  // names of the columns, and the start
+    CHECK(lines == result.run.steps + 2);  // names of the columns, and the start
 
     const std::string text = read_text(options.out / "summary.json");
     CHECK(text == run::summary_json("mine", scene, result));
     const auto json = nlohmann::ordered_json::parse(text);
     CHECK(json["program"] == "mine");
-    CHECK(json["steps"] == result.steps);
-    CHECK(json["dt"] == result.dt);
+    CHECK(json["steps"] == result.run.steps);
+    CHECK(json["dt"] == result.run.dt);
     CHECK(json["pseudo_energy_drift"] == result.ledger.pseudo_energy_drift());
     CHECK(json["known"] == 0.5);
     CHECK(json["unknown"].is_null());
@@ -105,7 +105,7 @@ TEST_CASE(
     CHECK_THAT(text, Catch::Contains("Name=\"obstacle: floor\" NumberOfTuples=\"1\" format=\"ascii\">0<") &&
                          Catch::Contains("Name=\"obstacle: wall\" NumberOfTuples=\"1\" format=\"ascii\">1<"));
     for (const auto& [frame, depth] :
-         {std::pair{"000000", 0.0}, {"000002", 0.5 * result.dt * static_cast<double>(result.steps)}}) {
+         {std::pair{"000000", 0.0}, {"000002", 0.5 * result.run.dt * static_cast<double>(result.run.steps)}}) {
         const auto shown = mesh::read_surface(options.out / (std::string("frames/block_obstacles_") + frame + ".vtp"));
         REQUIRE(shown.faces.size() == 2);
         for (const std::int32_t v : shown.faces[0]) {  // around the block, and not 5 km away
@@ -163,7 +163,7 @@ TEST_CASE("a run that is asked to stop leaves all its files, and its summary say
     const auto summary = nlohmann::json::parse(read_text(folder.path() / "summary.json"));
     CHECK(summary["complete"] == false);
     CHECK(summary["steps"] == 3);
-    CHECK(summary["time"].get<double>() == Approx(3 * result.dt));
+    CHECK(summary["time"].get<double>() == Approx(3 * result.run.dt));
     CHECK(run::closing_table("mine", scene, result).find("asked to stop") != std::string::npos);
     for (const char* name : {"energy.csv", "energy.svg", "block.pvd"}) CHECK(fs::exists(folder.path() / name));
     CHECK_FALSE(fs::exists(folder.path() / "energy.csv.partial"));

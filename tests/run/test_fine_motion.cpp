@@ -234,10 +234,10 @@ TEST_CASE("steps that jump pump the upper half of the modes, which H~ does not s
 
 TEST_CASE("fine motion above its share of the energy in play is a warning with its remedy", "[run][warnings]") {
     run::RunResult<2> result;
-    result.accounts.energy_in_play = 2.0;
-    result.fine_energy_max = 2.0 * run::large_fine_share;
+    result.energy.accounts.energy_in_play = 2.0;
+    result.energy.fine_max = 2.0 * run::large_fine_share;
     CHECK(run::warnings_after(result).empty());
-    result.fine_energy_max = 1.0;
+    result.energy.fine_max = 1.0;
     const auto warnings = run::warnings_after(result);
     REQUIRE(warnings.size() == 1);
     CHECK(warnings[0].kind == run::WarningKind::fine_motion);

@@ -30,7 +30,7 @@ run::Scene<2> two_blocks(solid::Kinematics kinematics, bool flows) {
     scene.solid.materials.assign(2, {.young = 1.0, .poisson = 0.3, .density = 1.0});
     if (flows) {
         scene.solid.materials[0].law = solid::MaterialLaw::j2;
-        scene.solid.materials[0].yield_stress = 0.02;
+        scene.solid.materials[0].flow.yield_stress = 0.02;
     }
     scene.solid.kinematics.assign(2, kinematics);
     scene.velocity = {Vector<2>(0.1, 0.02), Vector<2>::Zero()};

@@ -99,11 +99,11 @@ TEST_CASE("forces times their intervals are the change of momentum, whatever sch
         CHECK(forces.text(row, "body_1") == "left");
         CHECK(forces.text(row, "body_2") == "right");
         const auto steps = static_cast<int>(forces.number(row, "step")) % 3;
-        const double seconds = (steps == 0 ? 3 : steps) * result.dt;
+        const double seconds = (steps == 0 ? 3 : steps) * result.run.dt;
         impulse += seconds * Vector<2>(forces.number(row, "force_on_2_x"), forces.number(row, "force_on_2_y"));
         normal_impulse += seconds * forces.number(row, "normal_force");
     }
-    const Vector<2> gained = result.end[1].mass * (result.end[1].velocity - result.start[1].velocity);
+    const Vector<2> gained = result.bodies.end[1].mass * (result.bodies.end[1].velocity - result.bodies.start[1].velocity);
     CHECK(gained.x() > 0.05);  // they did meet
     CHECK((impulse - gained).norm() < 1e-12 * gained.norm());
     if (law == ContactLaw::reconstruction)  // normals are those at rest, along x
@@ -188,9 +188,10 @@ TEST_CASE("forces on an obstacle carry its name, and bodies that turn change num
     for (std::size_t row = 0; row < forces.rows.size(); ++row) {
         CHECK(forces.text(row, "body_1") == "block");
         CHECK(forces.text(row, "body_2") == "floor");
-        impulse += result.dt * forces.number(row, "force_on_2_y");
+        impulse += result.run.dt * forces.number(row, "force_on_2_y");
     }
-    const double gained = result.end[1].mass * (result.end[1].velocity.y() - result.start[1].velocity.y());
+    const double gained =
+        result.bodies.end[1].mass * (result.bodies.end[1].velocity.y() - result.bodies.start[1].velocity.y());
     CHECK(gained > 0.05);
     CHECK(-impulse == Approx(gained).epsilon(1e-12));
 }

@@ -85,11 +85,11 @@ TEST_CASE("an automatic run is the run with the kinematics that it picked", "[ru
     std::int64_t seen = 0;
     scene.after_step = [&](const solid::Solid<2>&, double) { ++seen; };
     const run::RunResult<2> chosen = run::simulate<2>(scene, automatic);
-    REQUIRE(chosen.pilot);
+    REQUIRE(chosen.run.pilot);
     CHECK(seen == chosen.steps);
     scene.solid.kinematics = {Kinematics::rigid, Kinematics::small};
     const run::RunResult<2> given = run::simulate<2>(scene);
-    CHECK_FALSE(given.pilot);
+    CHECK_FALSE(given.run.pilot);
     REQUIRE(chosen.steps == given.steps);
     CHECK(chosen.ledger.entries().back().energy == given.ledger.entries().back().energy);
     CHECK(chosen.contact.active_pairs_max > 0);

@@ -82,7 +82,7 @@ std::string report_of(const Finished& run, const std::string& program = "mine") 
 
 TEST_CASE("a report holds the figures of its summary, each at its place", "[run][report]") {
     Finished run = finished();
-    run.result.findings = {{"bounce", "how it bounces [-]", 0.7531}, {"unknown", "not known [m]", {}}};
+    run.result.watch.findings = {{"bounce", "how it bounces [-]", 0.7531}, {"unknown", "not known [m]", {}}};
     const json summary = json::parse(run::summary_json("mine", run.scene, run.result));
     const auto root = parsed(report_of(run));
     const auto held = figures(root);
@@ -158,10 +158,10 @@ TEST_CASE("title and comment of a scene head its report and are in the summary, 
 TEST_CASE("a report says whether the run came to its end, and all that warns", "[run][report]") {
     Finished run = finished({.cfl = 0.2});  // with 0.9 the H - H~ of so few cells warns
     CHECK_THAT(report_of(run), Contains("came to its end") && Contains("class=\"good\"") && !Contains("<h2>Warnings"));
-    run.result.complete = false;
+    run.result.run.complete = false;
     CHECK_THAT(report_of(run), Contains("asked to stop at t = ") && Contains("class=\"attention\""));
-    run.result.complete = true;
-    run.result.contact.missed_contacts = 3;
+    run.result.run.complete = true;
+    run.result.contact.report.missed_contacts = 3;
     run.result.contact.sliding_ratio_max = 7.0;
     const auto root = parsed(report_of(run));
     const auto items = all(root, "li");

@@ -22,7 +22,7 @@ struct Asked {
 
 std::vector<Asked> all_asked() {
     return {{Feature::erosion, [](run::Scene<2>& scene) { scene.solid.erosion = {{.strain = 0.5}}; }},
-            {Feature::damping, [](run::Scene<2>& scene) { scene.solid.materials[0].mass_damping = 0.1; }},
+            {Feature::damping, [](run::Scene<2>& scene) { scene.solid.materials[0].damping.mass = 0.1; }},
             {Feature::friction,
              [](run::Scene<2>& scene) {
                  scene.solid.body_friction = {{{0, 1}, {.coefficient = 0.3}}};
@@ -64,7 +64,7 @@ TEST_CASE("a run says which features do not go together, in the words of its opt
     CHECK_THROWS_WITH(run::check(run::RunOptions{.format = run::FrameFormat::xdmf, .pieces = true}),
                       Catch::Contains("--pieces") && Catch::Contains("--format xdmf"));
     run::Scene<2> scene = test::block_on_plane(1e-3);
-    scene.solid.materials[0].mass_damping = 0.1;
+    scene.solid.materials[0].damping.mass = 0.1;
     CHECK_THAT(said(scene, {.steps = 1, .integrator = run::SolidIntegrator::leapfrog}),
                Catch::Contains("body '" + scene.mesh.body_names[0] + "' has a damped or viscous material") &&
                    Catch::Contains("leapfrog") && Catch::Contains("Take the scheme memm"));

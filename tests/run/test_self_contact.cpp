@@ -120,14 +120,14 @@ TEMPLATE_TEST_CASE_SIG("a C that claps its ends keeps pseudo-energy and momenta,
         }
         const auto result = run::simulate<Dim>(scene, options, depth);
         CAPTURE(depth.deepest);
-        CHECK(result.contact.active_pairs_max > 0);
+        CHECK(result.contact.report.active_pairs_max > 0);
         CHECK(depth.deepest <= 0.3 * cell);
-        CHECK(result.contact.missed_contacts == 0);
+        CHECK(result.contact.report.missed_contacts == 0);
         CHECK(result.ledger.pseudo_energy_drift() < 1e-11 * result.ledger.largest_energy());
         const double momentum = scene.solid.materials[0].density * 0.16;  // of the whole at 1 m/s, at most
         CHECK(result.ledger.momentum_drift() < 1e-13 * momentum);
         CHECK(result.ledger.pseudo_angular_momentum_drift() < 1e-13 * momentum);
-        CHECK(result.sightings.near_themselves.empty());
+        CHECK(result.watch.sightings.near_themselves.empty());
     }
 }
 
@@ -142,7 +142,7 @@ TEST_CASE("a cube that flies and turns has no pair of itself in the list: to tou
     run::RunOptions options{.interval = 10};
     options.contact.search.self_contact = true;
     const auto result = run::simulate<3>(scene, options);
-    CHECK(result.contact.rebuilds > 1);
-    CHECK(result.contact.candidates == 0);
-    CHECK(result.contact.missed_contacts == 0);
+    CHECK(result.contact.report.rebuilds > 1);
+    CHECK(result.contact.report.candidates == 0);
+    CHECK(result.contact.report.missed_contacts == 0);
 }

@@ -86,8 +86,8 @@ TEST_CASE("a block that was brought to rest stands still, with its whole weight 
     const run::Scene<2> scene = block(kinematics, 0.0);
     Look look;
     const run::RunResult<2> result = run::simulate<2>(scene, settling(0.0), look);
-    REQUIRE(result.settling);
-    CHECK(result.settling->rests > 1);
+    REQUIRE(result.run.settling);
+    CHECK(result.run.settling->rests > 1);
     const double weight = 1000.0 * width * height * g;
     CHECK(look.push[1] == Approx(-weight).epsilon(1e-9));
     CHECK(std::abs(look.push[0]) < 1e-9 * weight);
@@ -156,8 +156,8 @@ TEST_CASE("a body that nothing holds is refused before it moves where loads push
     scene.solid.acceleration.clear();
     scene.solid.boundary.traction = {{.group = "xmin", .value = {1e3, 0.0}}, {.group = "xmax", .value = {-1e3, 0.0}}};
     const run::RunResult<2> result = run::simulate<2>(scene, settling(0.0), watch);
-    REQUIRE(result.settling);
-    CHECK(result.settling->speed < 1e-7);  // a strain of 1e-4 at the speed of sound is 1e-2 m/s
+    REQUIRE(result.run.settling);
+    CHECK(result.run.settling->speed < 1e-7);  // a strain of 1e-4 at the speed of sound is 1e-2 m/s
 }
 
 TEST_CASE("a body that nothing holds is refused before it moves where a couple turns it for ever, with the couple",
@@ -183,7 +183,7 @@ TEST_CASE("a body that a couple turns to where its dead loads balance comes to r
     scene.solid.boundary.traction = {{.group = "xmin", .value = {-1e3, 1e2}}, {.group = "xmax", .value = {1e3, -1e2}}};
     Look look;
     const run::RunResult<2> result = run::simulate<2>(scene, settling(0.0), look);
-    REQUIRE(result.settling);
+    REQUIRE(result.run.settling);
     // The line from the first to the last cell of the lowest row has turned against x; strains are 1e-4.
     const double length = look.rest[28][0] - look.rest[0][0], rise = look.first[2 * 28 + 1] - look.first[1];
     CHECK(rise / length == Approx(-std::sin(std::atan(0.1))).epsilon(1e-3));
@@ -197,16 +197,16 @@ TEST_CASE("a free body comes to rest whatever its vibrations do from step to ste
     scene.velocity = {Vector<2>::Zero()};
     scene.solid.boundary.traction = {{.group = "xmin", .value = {-1e-4, 0.0}}, {.group = "xmax", .value = {1e-4, 0.0}}};
     const run::RunResult<2> result = run::simulate<2>(scene, settling(0.0));
-    REQUIRE(result.settling);
-    CHECK(result.settling->speed < 1e-9);  // the load at once makes it move at 1e-4 m/s
+    REQUIRE(result.run.settling);
+    CHECK(result.run.settling->speed < 1e-9);  // the load at once makes it move at 1e-4 m/s
 }
 
 TEST_CASE("whoever watches is told how bodies come to rest, and can end it", "[run][settling]") {
     const run::Scene<2> scene = block(Kinematics::small, 0.0);
     Watch all;
     const run::RunResult<2> result = run::simulate<2>(scene, settling(0.0), all);
-    REQUIRE(result.settling);
-    CHECK(std::ssize(all.steps) == result.settling->steps / 50);
+    REQUIRE(result.run.settling);
+    CHECK(std::ssize(all.steps) == result.run.settling->steps / 50);
     CHECK(std::ranges::is_sorted(all.steps));
     CHECK(*std::ranges::max_element(all.speeds) > 0.0);
     Watch impatient;
@@ -219,7 +219,7 @@ TEST_CASE("velocities at the start act after the bodies have come to rest", "[ru
     run::Scene<2> scene = block(Kinematics::floating, 0.0);
     scene.velocity = {Vector<2>(2.0, 0.0)};
     const run::RunResult<2> result = run::simulate<2>(scene, settling(0.3));
-    CHECK(result.start[0].velocity[0] == Approx(2.0));
+    CHECK(result.bodies.start[0].velocity[0] == Approx(2.0));
     CHECK(result.ledger.entries().front().kinetic == Approx(0.5 * 1000.0 * width * height * 4.0));
     CHECK(result.ledger.entries().front().time == 0.0);
 }

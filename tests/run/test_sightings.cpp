@@ -146,12 +146,12 @@ TEST_CASE("a body that comes together with itself is said with its name and the 
     const auto said = of_kind(run::warnings_after(result), WarningKind::near_itself);
     REQUIRE(said.size() == 1);
     CHECK(said[0].text.find("'clip'") != std::string::npos);
-    REQUIRE(result.sightings.near_themselves.size() == 1);
-    CHECK(result.sightings.near_themselves[0].gap_at_rest == Approx(0.06).epsilon(0.05));
-    CHECK(result.sightings.near_themselves[0].position.y() == Approx(0.13).margin(0.01));
-    CHECK(result.sightings.near_themselves[0].position.x() > 0.3);
+    REQUIRE(result.watch.sightings.near_themselves.size() == 1);
+    CHECK(result.watch.sightings.near_themselves[0].gap_at_rest == Approx(0.06).epsilon(0.05));
+    CHECK(result.watch.sightings.near_themselves[0].position.y() == Approx(0.13).margin(0.01));
+    CHECK(result.watch.sightings.near_themselves[0].position.x() > 0.3);
     scene.time *= 0.4;  // before they meet
-    CHECK(run::simulate<2>(scene, {.interval = 10}).sightings.near_themselves.empty());
+    CHECK(run::simulate<2>(scene, {.interval = 10}).watch.sightings.near_themselves.empty());
 }
 
 TEST_CASE("a body that goes through itself, where no contact acts within it, is an error with its name and the place",
@@ -169,7 +169,7 @@ TEST_CASE("contact within a body keeps its parts apart where it is asked for, un
     options.law = GENERATE(solid::ContactLaw::reconstruction, solid::ContactLaw::pair_potential);
     options.contact.search.self_contact = true;
     const auto result = run::simulate<2>(scene, options);
-    CHECK(result.sightings.near_themselves.empty());
-    CHECK(result.contact.active_pairs_max > 0);
+    CHECK(result.watch.watch.sightings.near_themselves.empty());
+    CHECK(result.contact.report.active_pairs_max > 0);
     CHECK(result.ledger.pseudo_energy_drift() < 1e-11 * result.ledger.largest_energy());
 }

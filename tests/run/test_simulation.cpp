@@ -20,7 +20,7 @@ class Caller : public run::Observer<2> {
 public:
     Caller(std::string name, std::vector<std::string>& calls) : name_(std::move(name)), calls_(calls) {}
     void begin(const run::Scene<2>&, const run::RunResult<2>& result) override {
-        CHECK(result.steps == 2);
+        CHECK(result.run.steps == 2);
         CHECK(result.ledger.entries().empty());
         calls_.push_back("begin " + name_);
     }
@@ -79,11 +79,11 @@ TEST_CASE("an observer that asks to stop ends the run after the present step, wh
     Stop stop(step);
     run::Observers<2> both{stop, nobody};
     const run::RunResult<2> result = run::simulate<2>(test::block_on_plane(0.01), {.steps = 20, .interval = 4}, both);
-    CHECK_FALSE(result.complete);
-    CHECK(result.steps == step);
+    CHECK_FALSE(result.run.complete);
+    CHECK(result.run.steps == step);
     CHECK(result.ledger.entries().back().step == step);
     CHECK(result.ledger.entries().size() == (step == 0 ? 1 : 2));
-    CHECK(result.end.size() == 1);
+    CHECK(result.bodies.end.size() == 1);
 
     Stop at_the_end(20);  // no step is left out
     CHECK(run::simulate<2>(test::block_on_plane(0.01), {.steps = 20}, at_the_end).complete);
@@ -96,12 +96,12 @@ TEST_CASE("a block bounces off a plane with the speed it came with on the mean, 
         return {{"n", "records", static_cast<std::int64_t>(result.ledger.entries().size())}};
     };
     const run::RunResult<2> result = run::simulate<2>(scene);
-    CHECK(result.ledger.pseudo_energy_drift() < 1e-12 * result.scale.value);
-    CHECK(result.end.front().velocity.y() > 0.005);
-    CHECK(std::get<std::int64_t>(result.findings.front().value) == result.steps + 1);
+    CHECK(result.ledger.pseudo_energy_drift() < 1e-12 * result.energy.scale.value);
+    CHECK(result.bodies.end.front().velocity.y() > 0.005);
+    CHECK(std::get<std::int64_t>(result.watch.findings.front().value) == result.run.steps + 1);
     CHECK(result.options.interval == 1);  // filled in
     CHECK(result.options.contact.quadrature == 2);
-    CHECK(result.threads > 0);
+    CHECK(result.run.threads > 0);
 }
 
 TEST_CASE("an error in a step keeps its type, kind and facts, and says at which step it happened", "[run]") {
@@ -250,7 +250,7 @@ TEST_CASE("options that do not go together are refused before anything is run", 
 
 TEST_CASE("a material that remembers is refused under any scheme but memm as the scene is checked, with the body", "[run]") {
     run::Scene<2> scene = test::block_on_plane(0.01);
-    scene.solid.materials.front().stiffness_damping = 1e-3;
+    scene.solid.materials.front().damping.stiffness = 1e-3;
     using Scheme = run::SolidIntegrator;
     for (const Scheme scheme : {Scheme::leapfrog, Scheme::bilbao, Scheme::memm_async}) {
         run::RunOptions options{.integrator = scheme};
@@ -260,7 +260,7 @@ TEST_CASE("a material that remembers is refused under any scheme but memm as the
         CHECK_THROWS_WITH(static_cast<void>(run::simulate<2>(scene, options)), Catch::Contains("remembers"));
     }
     CHECK_NOTHROW(run::check_features<2>(scene, {}, dynamics::one_rank()));
-    scene.solid.materials.front().stiffness_damping = 0.0;
+    scene.solid.materials.front().damping.stiffness = 0.0;
     CHECK_NOTHROW(run::check_features<2>(scene, {.integrator = Scheme::leapfrog}, dynamics::one_rank()));
 }
 
@@ -290,8 +290,8 @@ TEST_CASE("a scene without contact has none, whatever the options of its solid s
     scene.contact = false;
     scene.solid.obstacles.clear();
     const auto result = run::simulate<2>(scene);
-    CHECK(result.skin == 0.0);
-    CHECK(result.end.front().velocity.y() == Approx(-0.01).epsilon(1e-12));  // it goes on through where the plane was
+    CHECK(result.contact.skin == 0.0);
+    CHECK(result.bodies.end.front().velocity.y() == Approx(-0.01).epsilon(1e-12));  // it goes on through where the plane was
 }
 
 TEST_CASE("a step above the stable one is refused, whether dt or cfl asks for it", "[run]") {

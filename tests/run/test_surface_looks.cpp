@@ -48,8 +48,8 @@ TEMPLATE_TEST_CASE_SIG("a run in which nothing touched names the two bodies that
     scene.solid.obstacles = {contact::plane_obstacle<Dim>(-3.0 * Vector<Dim>::UnitX(), Vector<Dim>::UnitX(), 9.0)};
     const run::RunResult<Dim> result = run::simulate<Dim>(scene, {.steps = 3});
     Vector<Dim> gap = offset - Vector<Dim>::Ones();
-    gap[0] -= 0.1 * 3.0 * result.dt;
-    const run::Encounter& nearest = result.looks.nearest;
+    gap[0] -= 0.1 * 3.0 * result.run.dt;
+    const run::Encounter& nearest = result.watch.looks.nearest;
     CHECK(nearest.body_1 == "'a'");
     CHECK(nearest.body_2 == "'b'");
     CHECK(nearest.distance == Approx(gap.norm()).epsilon(1e-5));  // corner to corner
@@ -67,13 +67,13 @@ TEMPLATE_TEST_CASE_SIG("bodies that are inside each other are told of with their
     // Contact parts them from there on, and under the reconstruction their faces are where it has moved them.
     const run::RunOptions one_short_step{.steps = 1, .dt = 1e-6, .law = solid::ContactLaw::pair_potential};
     const run::RunResult<Dim> result = run::simulate<Dim>(scene, one_short_step);
-    const run::Encounter& deepest = result.looks.deepest;
-    CHECK(result.looks.looks >= 1);
+    const run::Encounter& deepest = result.watch.looks.deepest;
+    CHECK(result.watch.looks.looks >= 1);
     CHECK(deepest.distance == Approx(depth).epsilon(1e-6));
     CHECK(deepest.ratio == Approx(depth / 0.5).epsilon(1e-6));
     CHECK(warns_of(WarningKind::interpenetration, result) == (depth / 0.5 > run::deep_interpenetration));
     scene.solid.ignored_pairs = {{1, 0}};
-    CHECK(run::simulate<Dim>(scene, one_short_step).looks.deepest.distance == 0.0);
+    CHECK(run::simulate<Dim>(scene, one_short_step).watch.looks.deepest.distance == 0.0);
 }
 
 TEST_CASE("records are about 2,000, and do not all come right after a restart", "[run]") {
@@ -104,15 +104,15 @@ TEST_CASE("H - H~ above 2 % of the energy in play warns, and what is not conserv
     const auto record = [&](double excess) {
         entry.energy = 1.0 + excess;
         result.ledger.record(entry);
-        result.accounts.record(entry, 1.0, Vector<2>::Zero());
+        result.energy.accounts.record(entry, 1.0, Vector<2>::Zero());
     };
     record(0.0);
     record(0.0199);
     CHECK_FALSE(warns_of(WarningKind::energy_excess, result));
     record(0.03);
     CHECK(warns_of(WarningKind::energy_excess, result));
-    CHECK(result.accounts.energy_in_play == 1.0);  // H - H~ is no part of it
-    result.forces_from_outside = {"supports", "gravity"};
+    CHECK(result.energy.accounts.energy_in_play == 1.0);  // H - H~ is no part of it
+    result.energy.forces_from_outside = {"supports", "gravity"};
     CHECK(run::momentum_note(result) == "not conserved: supports, gravity");
     CHECK(std::isnan(run::momentum_drift(result)));
 }

@@ -32,25 +32,25 @@ TEST_CASE("a run in which nothing went wrong has no warning", "[run][warnings]")
     const run::Scene<2> scene = test::block_on_plane(1e-3);
     // Of two cells across, H - H~ is 0.2 K0 at a CFL number of 0.9: it goes with the square of the step.
     const run::RunResult<2> result = run::simulate<2>(scene, {.cfl = 0.2});
-    REQUIRE(result.contact.active_pairs_max > 0);
+    REQUIRE(result.contact.report.active_pairs_max > 0);
     CHECK(run::warnings_before(scene, result).empty());
-    CHECK(run::warnings_during(result.steps, result).empty());
+    CHECK(run::warnings_during(result.run.steps, result).empty());
     CHECK(run::without_notes(run::warnings_after(result)).empty());
 }
 
 TEST_CASE("each figure above its threshold is a warning of its kind with value and threshold, and none at it",
           "[run][warnings]") {
     run::RunResult<2> result;
-    result.dt = result.finest_dt = 1.0;
-    result.steps = 10;
+    result.run.dt = result.run.finest_dt = 1.0;
+    result.run.steps = 10;
     result.contact.sliding_ratio_max = run::stiff_sliding_ratio;
-    result.contact.slipped_compression_max = run::deep_slip_compression;
+    result.contact.report.slipped_compression_max = run::deep_slip_compression;
     CHECK(run::warnings_after(result).empty());
     result.contact.sliding_ratio_max *= 2.0;
-    result.contact.slipped_compression_max *= 2.0;
-    result.contact.missed_contacts = 3;
-    result.compressed = {"'a'", "obstacle 'floor'", 0.5, 4};
-    result.inadmissible_overlaps_max = 7;
+    result.contact.report.slipped_compression_max *= 2.0;
+    result.contact.report.missed_contacts = 3;
+    result.watch.compressed = {"'a'", "obstacle 'floor'", 0.5, 4};
+    result.contact.inadmissible_overlaps_max = 7;
     const auto warnings = run::warnings_after(result);
     CHECK(kinds(warnings) == std::vector{WarningKind::compression, WarningKind::stiff_sliding, WarningKind::deep_slip,
                                          WarningKind::missed_contacts, WarningKind::inadmissible_overlaps});
@@ -107,10 +107,10 @@ TEST_CASE("a run does not begin with a cell a hundred times as fast as most of i
 
 TEST_CASE("a finite body that is strained too far is told of, with how near a cell came to a collapse", "[run][warnings]") {
     run::RunResult<2> result;
-    result.dt = result.finest_dt = 1.0;
-    result.finite = {.determinant = 0.43, .strain = run::large_strain, .cell = 3};
+    result.run.dt = result.run.finest_dt = 1.0;
+    result.bodies.finite = {.determinant = 0.43, .strain = run::large_strain, .cell = 3};
     CHECK(run::warnings_after(result).empty());
-    result.finite.strain = 0.31;
+    result.bodies.finite.strain = 0.31;
     const auto warnings = run::warnings_after(result);
     CHECK(kinds(warnings) == std::vector{WarningKind::finite_strain});
     CHECK(warnings.front().value == 0.31);
@@ -121,15 +121,15 @@ TEST_CASE("a finite body that is strained too far is told of, with how near a ce
 
 TEST_CASE("finite metal with kinematic hardening that flows far is told of, and no other", "[run][warnings]") {
     run::RunResult<2> result;
-    result.dt = result.finest_dt = 1.0;
-    result.finite.plastic_strain = 0.7;
+    result.run.dt = result.run.finest_dt = 1.0;
+    result.bodies.finite.plastic_strain = 0.7;
     CHECK(run::warnings_after(result).empty());
-    result.finite_kinematic_hardening = true;
+    result.bodies.finite_kinematic_hardening = true;
     const auto warnings = run::warnings_after(result);
     REQUIRE(kinds(warnings) == std::vector{WarningKind::kinematic_flow});
     CHECK(warnings.front().value == 0.7);
     CHECK(warnings.front().threshold == run::large_kinematic_flow);
-    result.finite.plastic_strain = run::large_kinematic_flow;
+    result.bodies.finite.plastic_strain = run::large_kinematic_flow;
     CHECK(run::warnings_after(result).empty());
 
     for (const auto kinematics : {abut::solid::Kinematics::small, abut::solid::Kinematics::finite}) {
@@ -137,10 +137,10 @@ TEST_CASE("finite metal with kinematic hardening that flows far is told of, and 
         scene.mesh =
             abut::mesh::structured_box<2>({0.0, 1e-3}, {1.0, 1.0}, {3, 3}, abut::mesh::CellShape::quadrangle, "block");
         scene.solid.materials[0].law = abut::solid::MaterialLaw::j2;
-        scene.solid.materials[0].yield_stress = 1.0;
-        scene.solid.materials[0].kinematic_hardening = 0.1;
+        scene.solid.materials[0].flow.yield_stress = 1.0;
+        scene.solid.materials[0].flow.kinematic_hardening = 0.1;
         scene.solid.kinematics = {kinematics};
-        CHECK(run::simulate<2>(scene, {.steps = 1}).finite_kinematic_hardening ==
+        CHECK(run::simulate<2>(scene, {.steps = 1}).bodies.finite_kinematic_hardening ==
               (kinematics == abut::solid::Kinematics::finite));
     }
 }
@@ -148,8 +148,8 @@ TEST_CASE("finite metal with kinematic hardening that flows far is told of, and 
 TEST_CASE("free faces that take much of what plastic flow dissipates are told of, whatever the sign", "[run][warnings]") {
     const auto result_with = [](double share) {
         run::RunResult<2> result;
-        result.dt = result.finest_dt = 1.0;
-        result.dissipated = {.in_cells = 2.0, .on_faces = 2.0 * share};
+        result.run.dt = result.run.finest_dt = 1.0;
+        result.energy.dissipated = {.in_cells = 2.0, .on_faces = 2.0 * share};
         return run::warnings_after(result);
     };
     CHECK(result_with(run::large_face_loss).empty());
@@ -164,10 +164,10 @@ TEST_CASE("free faces that take much of what plastic flow dissipates are told of
 TEST_CASE("jumps that yield where cells hardly flow are told of, and stand in the summary where no cell does",
           "[run][warnings]") {
     run::RunResult<2> result;
-    result.dt = result.finest_dt = 1.0;
-    result.dissipated = {.in_cells = 0.9, .in_jumps = 0.1};
+    result.run.dt = result.run.finest_dt = 1.0;
+    result.energy.dissipated = {.in_cells = 0.9, .in_jumps = 0.1};
     CHECK(run::warnings_after(result).empty());
-    result.dissipated = {.in_jumps = 0.5};
+    result.energy.dissipated = {.in_jumps = 0.5};
     const auto warnings = run::warnings_after(result);
     REQUIRE(kinds(warnings) == std::vector{WarningKind::jump_loss});
     CHECK(warnings.front().value == 1.0);
@@ -185,7 +185,7 @@ TEST_CASE("a slip that alternates in a fortieth of the records is told of wherev
             const double limit = i < 900 ? 1.0 : i < 950 ? 0.0 : 1e-3;  // it slides, sticks, and slips a little now and then
             result.contact.sliding_limit += limit;
             result.contact.sliding_force += limit * (begin <= i && i < end ? 0.05 : 0.95);
-            result.sliding.record(result.contact);
+            result.contact.sliding.record(result.contact.report);
         }
         return result;
     };
@@ -208,7 +208,7 @@ TEST_CASE("a body that turns and should not is told of from 0.1 rad on by name, 
         dynamics::LedgerEntry<2> entry{};
         entry.rotation = 3.0;  // of another body, which may
         result.ledger.record(entry);
-        result.turned = {"'block'", angle};
+        result.watch.turned = {"'block'", angle};
         const auto warnings = run::warnings_after(result);
         REQUIRE(warnings.size() == (angle > 0.1 ? 1 : 0));
         if (warnings.empty()) continue;
@@ -221,25 +221,25 @@ TEST_CASE("a body that turns and should not is told of from 0.1 rad on by name, 
 TEST_CASE("a cell that turns within its body is told of where that body may turn, beside others that may not",
           "[run][warnings]") {
     run::RunResult<2> result;
-    result.local_rotations = {0.5, 0.2};
-    result.may_turn = {false, true};
+    result.bodies.local_rotations = {0.5, 0.2};
+    result.bodies.may_turn = {false, true};
     const auto warnings = run::warnings_after(result);
     REQUIRE(kinds(warnings) == std::vector{WarningKind::local_rotation});
     CHECK(warnings[0].value == 0.2);
-    result.may_turn = {false, false};
+    result.bodies.may_turn = {false, false};
     CHECK(run::warnings_after(result).empty());
 }
 
 TEST_CASE("H - H~ is measured by the energy in play, whatever scale figures are quoted on", "[run][warnings]") {
     run::RunResult<2> result;
-    result.scale = {"H0", 1.0};
+    result.energy.scale = {"H0", 1.0};
     for (const double excess : {0.0, 0.0019, 0.0021}) {  // of 0.1 J, of which 2 % are safe
         dynamics::LedgerEntry<2> entry{};
         entry.energy = 0.1 + excess;
         entry.pseudo_energy = 0.1;
         entry.kinetic = 0.1;
         result.ledger.record(entry);
-        result.accounts.record(entry, 1.0, Vector<2>::Zero());
+        result.energy.accounts.record(entry, 1.0, Vector<2>::Zero());
         const auto warnings = run::warnings_after(result);
         CHECK(kinds(warnings) == (excess > 0.002 ? std::vector{WarningKind::energy_excess} : std::vector<WarningKind>{}));
     }
@@ -249,7 +249,7 @@ TEST_CASE("edges that would cross unseen are told of, with their angles and the 
     run::Scene<3> scene;
     run::RunResult<3> result;
     CHECK(run::warnings_before(scene, result).empty());
-    result.unseen_edges = contact::EdgePair<3>{{0, 0.3, Vector<3>(1.0, 2.0, 3.0)}, {1, 0.5, Vector<3>::Zero()}};
+    result.contact.unseen_edges = contact::EdgePair<3>{{0, 0.3, Vector<3>(1.0, 2.0, 3.0)}, {1, 0.5, Vector<3>::Zero()}};
     const auto warnings = run::warnings_before(scene, result);
     REQUIRE(kinds(warnings) == std::vector{WarningKind::unseen_edges});
     CHECK(warnings[0].value == 0.15);
@@ -271,10 +271,10 @@ TEST_CASE("what a mesh left out and corners that contact cannot see are known be
     report.n_turned_cells = 3;
     report.n_cut_cells = 4;
     report.n_coincident_vertices = 5;
-    result.unjoined.n_faces = 6;
-    result.unjoined.body = "block";
-    result.stencils.extrapolated = 7;
-    result.blind_corners.assign(8, {.body = 0, .position = {0.5, 0.25}});
+    result.bodies.unjoined.n_faces = 6;
+    result.bodies.unjoined.body = "block";
+    result.bodies.stencils.extrapolated = 7;
+    result.contact.blind_corners.assign(8, {.body = 0, .position = {0.5, 0.25}});
     const auto warnings = run::warnings_before(scene, result);
     CHECK(kinds(warnings) == std::vector{WarningKind::mesh_file, WarningKind::unused_vertices, WarningKind::ignored_elements,
                                          WarningKind::turned_cells, WarningKind::cut_cells, WarningKind::coincident_vertices,

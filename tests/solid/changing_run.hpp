@@ -93,11 +93,11 @@ SolidOptions<Dim> of_metal(Kinematics kinematics) {
     options.law = solid::ContactLaw::pair_potential;
     for (solid::Material& material : options.materials) {
         material.law = MaterialLaw::j2;
-        material.yield_stress = 2e-3 * material.young;
-        material.hardening = 0.05 * material.young;
-        material.mass_damping = 0.01;
-        material.stiffness_damping = 0.01;
-        material.quadratic_viscosity = 1.0;
+        material.flow.yield_stress = 2e-3 * material.young;
+        material.flow.hardening = 0.05 * material.young;
+        material.damping.mass = 0.01;
+        material.damping.stiffness = 0.01;
+        material.damping.quadratic_viscosity = 1.0;
     }
     return options;
 }
@@ -128,7 +128,7 @@ template <int Dim>
 SolidOptions<Dim> warming(Kinematics kinematics) {
     SolidOptions<Dim> options =
         kinematics == Kinematics::finite ? of_metal<Dim>(kinematics) : falling<Dim>({kinematics, kinematics});
-    for (solid::Material& material : options.materials) material.thermal_expansion = 0.01;
+    for (solid::Material& material : options.materials) material.expansion.along_1 = 0.01;
     const auto swing = [](double t, const Vector<Dim>& x) { return (1.0 + 0.3 * x[0]) * std::sin(2.0 * t); };
     options.temperature_rise.assign(2, {.value = swing, .varies = true});
     return options;

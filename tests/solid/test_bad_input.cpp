@@ -46,7 +46,7 @@ TEST_CASE("every number of a material is refused where it is none or beyond its 
         for (const double value : {not_a_number, infinite, -2.0}) {
             if (number.limits.allow(value)) continue;  // an angle, a ratio of any sign
             solid::Material material{.law = number.law.value_or(solid::MaterialLaw::st_venant_kirchhoff)};
-            material.*number.member = value;
+            number.at.in(material) = value;
             CHECK_THROWS_WITH(solid::check(material, 3),
                               Contains("body 3") && Contains(number.name) && Contains("it must be"));
         }

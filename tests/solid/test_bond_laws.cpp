@@ -146,8 +146,11 @@ TEST_CASE("what bonds under the modified reconstruction cannot do is refused", "
 namespace {
 
 /// Of steel in units of its yield strain: E = rho = 1.
-const Material yielding{
-    .young = 1.0, .poisson = 0.3, .density = 1.0, .law = solid::MaterialLaw::j2, .yield_stress = 2e-3, .hardening = 0.05};
+const Material yielding{.young = 1.0,
+                        .poisson = 0.3,
+                        .density = 1.0,
+                        .law = solid::MaterialLaw::j2,
+                        .flow = {.yield_stress = 2e-3, .hardening = 0.05}};
 
 /// How two halves of a bar that are flung apart, stretching it beyond yield, end.
 struct Stretched {
@@ -217,7 +220,7 @@ TEMPLATE_TEST_CASE_SIG("bonds of metal that yields open and break as it flows, a
     const int n = Dim == 2 ? 6 : 3;
     const auto two = flung_apart<Dim>(
         together(box_between<Dim>(-1.0, 0.0, n, n, shape, "left"), box_between<Dim>(0.0, 1.0, n + 1, n + 1, shape, "right")),
-        kinematics, 2, {.sides = {}, .strength = 1.1 * yielding.yield_stress, .fracture_energy = fracture_energy});
+        kinematics, 2, {.sides = {}, .strength = 1.1 * yielding.flow.yield_stress, .fracture_energy = fracture_energy});
     CHECK(two.in_cells > 0.01 * two.in_play);
     CHECK(two.in_bonds > 0.0);
     CHECK(two.drifts.pseudo_energy <= 1e-12);

@@ -527,7 +527,7 @@ TEST_CASE("bonds that cannot be made are refused with the reason", "[solid][bond
                Contains("'right' is rigid and is bonded"));
     CHECK_THAT(message([](auto& options) {
                    options.materials[1].law = solid::MaterialLaw::j2;
-                   options.materials[1].yield_stress = 1e-3;
+                   options.materials[1].flow.yield_stress = 1e-3;
                }),
                Contains("'right' is bonded to another small one and yields") && Contains("Kinematics::floating"));
     CHECK_THAT(message([](auto& options) { options.boundary.dirichlet = {support<2>("left.xmax")}; }),

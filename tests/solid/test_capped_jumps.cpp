@@ -19,8 +19,8 @@ constexpr double no_cap = 1e9;
 
 Material perfect(double poisson, double yield_stress, double jump_cap = 0.0) {
     Material material{
-        .young = 1.0, .poisson = poisson, .density = 1.0, .law = MaterialLaw::j2, .yield_stress = yield_stress};
-    material.jump_cap = jump_cap;
+        .young = 1.0, .poisson = poisson, .density = 1.0, .law = MaterialLaw::j2, .flow = {.yield_stress = yield_stress}};
+    material.flow.jump_cap = jump_cap;
     return material;
 }
 
@@ -99,7 +99,7 @@ struct Flow {
 Flow sphere(const Material& material) {
     constexpr double duration = 60.0;
     const auto mesh = hollow_sphere(6, 6);
-    const double limit = 2.0 * material.yield_stress * std::log(2.0);
+    const double limit = 2.0 * material.flow.yield_stress * std::log(2.0);
     // 5.6 of the yield stress over E at nu = 0.3 is what an elastic sphere expands by at the limit pressure.
     const double elastic = limit * (0.5 * (1.0 + material.poisson) * 8.0 + (1.0 - 2.0 * material.poisson)) / 7.0;
     const double last = 10.0 * elastic;
@@ -121,7 +121,7 @@ Flow sphere(const Material& material) {
 Flow torsion(const Material& material, CellShape shape, int n) {
     constexpr double length = 3.0, rigidity = 0.1406, duration = 100.0;
     const auto mesh = mesh::structured_box<3>({-0.5, -0.5, 0.0}, {0.5, 0.5, length}, {n, n, 3 * n}, shape);
-    const double limit = material.yield_stress / std::numbers::sqrt3 / 3.0;
+    const double limit = material.flow.yield_stress / std::numbers::sqrt3 / 3.0;
     const double last = 7.0 * limit * length / (rigidity * material.mu());
     auto options = alone<3>(material);
     const auto turned = [=](double t, const Vector<3>& x) -> Vector<3> {
@@ -235,8 +235,8 @@ TEST_CASE("a box that a load pulls slowly stretches as uniaxial hardening says, 
     constexpr int Dim = 3;
     constexpr double hardening = 0.05, most = 1.3e-3, duration = 200.0;
     Material material = perfect(0.3, 1e-3);
-    material.hardening = hardening;
-    material.mass_damping = 0.5;
+    material.flow.hardening = hardening;
+    material.damping.mass = 0.5;
     for (const auto& [name, mesh] : boxes<Dim>()) {
         CAPTURE(name);
         if (name == "hexahedra" || name == "prisms") continue;  // too coarse: docs/limits.md
@@ -255,7 +255,7 @@ TEST_CASE("a box that a load pulls slowly stretches as uniaxial hardening says, 
             products += x * scene.memm.q()[static_cast<std::size_t>(Dim * c)];
             squares += x * x;
         }
-        CHECK(products / squares == Approx(most + (most - material.yield_stress) / hardening).epsilon(0.03));
+        CHECK(products / squares == Approx(most + (most - material.flow.yield_stress) / hardening).epsilon(0.03));
         CHECK(scene.drifts().pseudo_energy <= 1e-12);
     }
 }

@@ -42,7 +42,7 @@ void seek_rest(solid::Solid<2>& solid) {
 
 void yield_at(double stress, solid::Material& material) {
     material.law = solid::MaterialLaw::j2;
-    material.yield_stress = stress;
+    material.flow.yield_stress = stress;
 }
 
 std::vector<Asked> all_asked() {
@@ -61,10 +61,10 @@ std::vector<Asked> all_asked() {
         {Feature::flow, [](Options& o) { yield_at(1e-3, o.materials[0]); }},
         {Feature::temperature,
          [](Options& o) {
-             for (solid::Material& material : o.materials) material.thermal_expansion = 0.01;
+             for (solid::Material& material : o.materials) material.expansion.along_1 = 0.01;
              o.temperature_rise.assign(2, {.value = [](double, const Vector<2>&) { return 1.0; }});
          }},
-        {Feature::damping, [](Options& o) { o.materials[0].stiffness_damping = 1e-3; }},
+        {Feature::damping, [](Options& o) { o.materials[0].damping.stiffness = 1e-3; }},
         {Feature::single_precision, [](Options& o) { o.precision = solid::Precision::single_precision; }},
         {Feature::rest, [](Options&) {}, seek_rest},
         {Feature::loaded_rest,

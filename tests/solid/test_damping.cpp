@@ -32,11 +32,11 @@ constexpr std::array kinematics_that_deform{Kinematics::small, Kinematics::float
 std::vector<Material> damped_materials() {
     const Material elastic{.young = 1.0, .poisson = 0.3, .density = 1.0};
     std::vector<Material> all(3, elastic);
-    all[0].stiffness_damping = 0.02;
-    all[1].linear_viscosity = 0.06;
-    all[1].quadratic_viscosity = 1.2;
-    all[2].stiffness_damping = 0.01;
-    all[2].linear_viscosity = 0.2;
+    all[0].damping.stiffness = 0.02;
+    all[1].damping.linear_viscosity = 0.06;
+    all[1].damping.quadratic_viscosity = 1.2;
+    all[2].damping.stiffness = 0.01;
+    all[2].damping.linear_viscosity = 0.2;
     return all;
 }
 
@@ -56,7 +56,7 @@ TEMPLATE_TEST_CASE_SIG(
     for (const Material& material : damped_materials())
         for (const Kinematics kinematics : kinematics_that_deform)
             for (const auto& [name, mesh] : boxes<Dim>()) {
-                CAPTURE(name, static_cast<int>(kinematics), material.stiffness_damping);
+                CAPTURE(name, static_cast<int>(kinematics), material.damping.stiffness);
                 const double spin = kinematics == Kinematics::small ? 0.0 : 0.02;
                 const Motion<Dim> spinning{Vector<Dim>::Constant(0.01), some_spin<Dim>(spin)};
                 TurningScene<Dim> scene(mesh, alone<Dim>(material), {spinning}, 0.6, kinematics, 0.01);
@@ -78,8 +78,8 @@ TEST_CASE("damping and viscosity are booked apart, in columns of the ledger by n
     for (const bool damped : {false, true})
         for (const bool viscous : {false, true}) {
             Material material{.young = 1.0, .poisson = 0.3, .density = 1.0};
-            material.stiffness_damping = damped ? 0.02 : 0.0;
-            material.linear_viscosity = viscous ? 0.2 : 0.0;
+            material.damping.stiffness = damped ? 0.02 : 0.0;
+            material.damping.linear_viscosity = viscous ? 0.2 : 0.0;
             TurningScene<2> scene(mesh, alone<2>(material), {moving<2>(Vector<2>::Zero())}, 0.6, Kinematics::small, 0.01);
             scene.run(50);
             const auto& entry = scene.ledger.entries().back();
@@ -141,7 +141,7 @@ TEST_CASE("a drag of the mass slows a body that flies by exp(-alpha t), whatever
         for (const Kinematics kinematics : kinematics_that_deform) {
             CAPTURE(alpha, dt, static_cast<int>(kinematics));
             Material material{.young = 1.0, .poisson = 0.3, .density = 1.0};
-            material.mass_damping = alpha;
+            material.damping.mass = alpha;
             TurningScene<2> scene(bar(4, 4), alone<2>(material), {moving<2>({0.1, 0.05})}, -dt, kinematics);
             const double first = scene.view().momentum(0).norm();
             scene.run(5);
@@ -159,8 +159,8 @@ TEST_CASE("the first mode of a free bar dies at (alpha + beta omega^2)/2, as Ray
     for (const auto& [alpha, beta] : {std::array{0.2, 0.0}, std::array{0.0, 0.02}, std::array{0.1, 0.01}})
         for (const Kinematics kinematics : kinematics_that_deform) {
             Material material{.young = 1.0, .poisson = 0.0, .density = 1.0};
-            material.mass_damping = alpha;
-            material.stiffness_damping = beta;
+            material.damping.mass = alpha;
+            material.damping.stiffness = beta;
             const auto mesh = bar(cells);
             auto options = alone<2>(material);
             options.kinematics = {kinematics};
@@ -183,8 +183,8 @@ TEST_CASE("the first mode of a free bar dies at (alpha + beta omega^2)/2, as Ray
 
 TEST_CASE("work that supports do on a damped body is what it stores and dissipates", "[solid][damping]") {
     Material material{.young = 1.0, .poisson = 0.3, .density = 1.0};
-    material.stiffness_damping = 0.05;
-    material.linear_viscosity = 0.1;
+    material.damping.stiffness = 0.05;
+    material.damping.linear_viscosity = 0.1;
     auto options = alone<2>(material);
     options.kinematics = {Kinematics::small};
     const auto moved = [](double t, const Vector<2>&) -> Vector<2> {
@@ -202,7 +202,7 @@ TEST_CASE("work that supports do on a damped body is what it stores and dissipat
 
 TEST_CASE("what is not made for damped bodies is refused by name", "[solid][damping]") {
     Material material{.young = 1.0, .poisson = 0.3, .density = 1.0};
-    material.stiffness_damping = 0.01;
+    material.damping.stiffness = 0.01;
     const auto mesh = bar(4);
     const auto refuses = [&](const solid::SolidOptions<2>& options, const std::string& words) {
         REQUIRE_THROWS_WITH(solid::Solid<2>(mesh, options), Catch::Contains(words));
@@ -218,7 +218,7 @@ TEST_CASE("what is not made for damped bodies is refused by name", "[solid][damp
     options.kinematics = {Kinematics::rigid};
     refuses(options, "rigid");
     options = alone<2>(material);
-    options.materials[0].stiffness_damping = -1.0;
+    options.materials[0].damping.stiffness = -1.0;
     refuses(options, "stiffness_damping");
     solid::Solid<2> solid(mesh, alone<2>(material));
     std::vector<double> q(solid.size(), 0.0), force(solid.size());
@@ -262,8 +262,8 @@ TEST_CASE("viscosity makes a shock of halves that meet: stress, place and energy
     };
     const auto run = [&](int cells, double linear, double quadratic) {
         Material material{.young = 1.0, .poisson = 0.0, .density = 1.0};
-        material.linear_viscosity = linear;
-        material.quadratic_viscosity = quadratic;
+        material.damping.linear_viscosity = linear;
+        material.damping.quadratic_viscosity = quadratic;
         const auto mesh = bar(cells);
         auto options = alone<2>(material);
         options.finite.stored_energy = {std::make_shared<Stiffening>()};
@@ -307,7 +307,7 @@ TEST_CASE("a damped body that is brought to rest goes on as one that begins ther
           "[solid][damping]") {
     for (const Material& material : damped_materials())
         for (const Kinematics kinematics : kinematics_that_deform) {
-            CAPTURE(static_cast<int>(kinematics), material.stiffness_damping);
+            CAPTURE(static_cast<int>(kinematics), material.damping.stiffness);
             const auto mesh = boxes<2>()[0].mesh;
             TurningScene<2> rests(mesh, alone<2>(material), {moving<2>({0.01, 0.0})}, 0.6, kinematics, 0.01);
             rests.run(20);

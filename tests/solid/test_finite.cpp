@@ -228,7 +228,7 @@ TEST_CASE("a finite body that collapses is refused by the name of the cell, and 
     const auto run = [&](double speed, double yield_stress = 0.0) {
         auto options = apart<2>({Kinematics::finite});
         if (yield_stress > 0.0) options.materials[0].law = solid::MaterialLaw::j2;
-        options.materials[0].yield_stress = yield_stress;
+        options.materials[0].flow.yield_stress = yield_stress;
         solid::Solid<2> solid(mesh, options);
         std::vector<double> p;
         for (std::size_t c = 0; c < mesh.cell_centroid.size(); ++c) {

@@ -21,17 +21,17 @@ constexpr double strain_per_kelvin = 1e-3;
 
 Material run_material(MaterialLaw law) {
     Material material{.young = 1.0, .poisson = 0.3, .density = 1.0, .law = law};
-    material.thermal_expansion = strain_per_kelvin;
+    material.expansion.along_1 = strain_per_kelvin;
     if (law == MaterialLaw::mooney_rivlin) material.second_share = 0.4;
     if (law == MaterialLaw::j2) {
-        material.yield_stress = 0.01;
-        material.hardening = 0.1;
+        material.flow.yield_stress = 0.01;
+        material.flow.hardening = 0.1;
     }
     return material;
 }
 
 Material with_kinematic_hardening(Material material) {
-    material.kinematic_hardening = 0.05;
+    material.flow.kinematic_hardening = 0.05;
     return material;
 }
 
@@ -61,9 +61,9 @@ TEMPLATE_TEST_CASE_SIG("the force on a warm finite body is the slope of its ener
                        "[solid][finite][thermal]", ((int Dim), Dim), 2, 3) {
     for (const auto& [name, mesh] : boxes<Dim>(2))
         for (const Material& material : run_materials) {
-            CAPTURE(name, static_cast<int>(material.law), material.kinematic_hardening);
+            CAPTURE(name, static_cast<int>(material.law), material.flow.kinematic_hardening);
             auto options = alone<Dim>(material);
-            options.materials[0].yield_stress *= 1e3;
+            options.materials[0].flow.yield_stress *= 1e3;
             options.temperature_rise = {
                 {.value = [](double, const Vector<Dim>& x) { return 100.0 + 80.0 * x[0]; }, .varies = false}};
             solid::Solid<Dim> solid(mesh, options);
@@ -81,7 +81,7 @@ TEMPLATE_TEST_CASE_SIG(
     "the work of heat in finite bodies that spin, collide and flow is booked: H~ + D - W and both momenta are kept",
     "[solid][finite][thermal][long]", ((int Dim), Dim), 2, 3) {
     for (const Material& material : run_materials) {
-        CAPTURE(static_cast<int>(material.law), material.kinematic_hardening);
+        CAPTURE(static_cast<int>(material.law), material.flow.kinematic_hardening);
         auto options = finite_of<Dim>(material, 2);
         options.temperature_rise = {swinging<Dim>(90.0), swinging<Dim>(-60.0)};
         const auto scene = spinning_collision<Dim>(options);
@@ -108,14 +108,14 @@ TEST_CASE("a warm body in space moves as a cold one of its size", "[solid][finit
     // a^2 as large. It turns and rings.
     constexpr double rise = 250.0, a = 1.0 + strain_per_kelvin * rise;
     for (const Material& material : run_materials) {
-        CAPTURE(static_cast<int>(material.law), material.kinematic_hardening);
+        CAPTURE(static_cast<int>(material.law), material.flow.kinematic_hardening);
         const auto run = [&](double size, double density, double eta, double cap, double temperature) {
             const auto mesh = mesh::structured_box<3>(Vector<3>::Zero(), size * Vector<3>(1.0, 0.7, 0.5), {4, 3, 3},
                                                       CellShape::tetrahedron);
             auto options = alone<3>(material);
             options.materials[0].density = density;
             options.materials[0].eta = eta;
-            if (material.law == MaterialLaw::j2) options.materials[0].jump_cap = cap;
+            if (material.law == MaterialLaw::j2) options.materials[0].flow.jump_cap = cap;
             options.temperature_rise = {lasting_rise<3>(temperature)};
             solid::Solid<3> solid(mesh, options);
             const auto stretched = sampled<3>(mesh, [&](const Vector<3>& x) -> Vector<3> { return (a / size - 1.0) * x; });
@@ -181,7 +181,7 @@ TEST_CASE("a block of rubber that is warmed between two walls presses with the s
           "[solid][finite][thermal]") {
     // From a gap on each side; in the end the stress of the stretches 1.02/a, x and 1/a with sigma_2 = 0. Contact gives way by a part of a cell.
     Material rubber = run_material(MaterialLaw::neo_hookean);
-    rubber.mass_damping = 1.0;
+    rubber.damping.mass = 1.0;
     constexpr double half = 0.5, gap = 0.01, rise = 120.0, a = 1.0 + strain_per_kelvin * rise;
     const double lambda = rubber.lambda(), mu = rubber.mu(), x_1 = (half + gap) / half / a, x_3 = 1.0 / a;
     const auto stress = [&](double x, double x_2) {
@@ -227,7 +227,7 @@ TEST_CASE("a run of a finite body with a temperature goes on from its state with
           "[solid][finite][thermal]") {
     const auto mesh = unit_disc(0.5);
     for (const Material& material : run_materials) {
-        CAPTURE(static_cast<int>(material.law), material.kinematic_hardening);
+        CAPTURE(static_cast<int>(material.law), material.flow.kinematic_hardening);
         auto options = alone<2>(material);
         options.temperature_rise = {{.value =
                                          [](double t, const Vector<2>& x) {

@@ -81,8 +81,9 @@ std::array<double, 2> pressures_at_rest(int sectors, int layers, const std::arra
 TEST_CASE("a ring that is pressed on a shaft has Lame's pressure within 2 %", "[solid][interference]") {
     const auto kinematics = GENERATE(Kinematics::small, Kinematics::floating, Kinematics::finite);
     const double young = GENERATE(1.0, 0.3);  // of the shaft
-    const std::array<Material, 2> materials{Material{.young = young, .poisson = 0.2, .density = 1.0, .mass_damping = 1.0},
-                                            Material{.young = 1.0, .poisson = 0.3, .density = 1.0, .mass_damping = 1.0}};
+    const std::array<Material, 2> materials{
+        Material{.young = young, .poisson = 0.2, .density = 1.0, .damping = {.mass = 1.0}},
+        Material{.young = 1.0, .poisson = 0.3, .density = 1.0, .damping = {.mass = 1.0}}};
     const double expected = pressure_of(materials[0], materials[1]);
     const auto [least, largest] = pressures_at_rest(60, 10, materials, kinematics);
     CAPTURE(static_cast<int>(kinematics), young, expected, least, largest);
@@ -94,9 +95,9 @@ TEST_CASE("a shaft that is warmed in a ring has Lame's pressure of the overlap (
           "[solid][interference][thermal]") {
     // In plane strain. Both fit at the start; strains of finite bodies are small.
     const auto kinematics = GENERATE(Kinematics::small, Kinematics::floating, Kinematics::finite);
-    Material shaft{.young = 0.5, .poisson = 0.2, .density = 1.0, .mass_damping = 1.0},
-        ring{.young = 1.0, .poisson = 0.3, .density = 1.0, .mass_damping = 1.0};
-    shaft.thermal_expansion = overlap / seat / (1.0 + shaft.poisson) / 100.0;
+    Material shaft{.young = 0.5, .poisson = 0.2, .density = 1.0, .damping = {.mass = 1.0}},
+        ring{.young = 1.0, .poisson = 0.3, .density = 1.0, .damping = {.mass = 1.0}};
+    shaft.expansion.along_1 = overlap / seat / (1.0 + shaft.poisson) / 100.0;
     const auto mesh = together(annulus(bore, seat, 48, 8, "shaft"), annulus(seat, outside, 48, 12, "ring"));
     auto options = resolving({shaft, ring}, 1.0, kinematics);
     options.interference.clear();

@@ -18,11 +18,11 @@ using solid::MaterialLaw;
 namespace {
 
 Material metal(double hardening, double kinematic, double saturation = 0.0) {
-    Material material{.young = 1.0, .poisson = 0.3, .density = 1.0, .law = MaterialLaw::j2, .yield_stress = 1e-3};
-    material.hardening = hardening;
-    material.kinematic_hardening = kinematic;
-    material.saturation = saturation;
-    material.saturation_rate = saturation > 0.0 ? 200.0 : 0.0;
+    Material material{.young = 1.0, .poisson = 0.3, .density = 1.0, .law = MaterialLaw::j2, .flow = {.yield_stress = 1e-3}};
+    material.flow.hardening = hardening;
+    material.flow.kinematic_hardening = kinematic;
+    material.flow.saturation = saturation;
+    material.flow.saturation_rate = saturation > 0.0 ? 200.0 : 0.0;
     return material;
 }
 
@@ -36,11 +36,12 @@ struct Radial {
 
     Matrix<3> step(const Matrix<3>& strain) {
         const auto deviator = [](const Matrix<3>& a) -> Matrix<3> { return a - a.trace() / 3.0 * Matrix<3>::Identity(); };
-        const double mu = material.mu(), back = 2.0 / 3.0 * material.kinematic_hardening;
+        const double mu = material.mu(), back = 2.0 / 3.0 * material.flow.kinematic_hardening;
         const Matrix<3> trial = 2.0 * mu * (deviator(strain) - plastic) - back * plastic;
-        const double over = trial.norm() - std::sqrt(2.0 / 3.0) * (material.yield_stress + material.hardening * alpha);
+        const double over =
+            trial.norm() - std::sqrt(2.0 / 3.0) * (material.flow.yield_stress + material.flow.hardening * alpha);
         if (over > 0.0) {
-            const double gamma = over / (2.0 * mu + back + 2.0 / 3.0 * material.hardening);
+            const double gamma = over / (2.0 * mu + back + 2.0 / 3.0 * material.flow.hardening);
             plastic += gamma * trial / trial.norm();
             alpha += std::sqrt(2.0 / 3.0) * gamma;
         }
@@ -55,7 +56,7 @@ TEMPLATE_TEST_CASE_SIG("a body that is strained alike everywhere has the stress 
                        "[solid][material]", ((int Dim), Dim), 2, 3) {
     for (const Material& material : {metal(0.0, 0.0), metal(0.05, 0.0), metal(0.0, 0.05), metal(0.04, 0.03)})
         for (const auto& [name, mesh] : boxes<Dim>()) {
-            CAPTURE(name, material.hardening, material.kinematic_hardening);
+            CAPTURE(name, material.flow.hardening, material.flow.kinematic_hardening);
             auto options = alone<Dim>(material);
             options.kinematics = {Kinematics::small};
             const Matrix<Dim> way = some_gradient<Dim>(5, 6e-3);
@@ -97,7 +98,7 @@ TEMPLATE_TEST_CASE_SIG(
     for (const Material& material : metals())
         for (const Kinematics kinematics : {Kinematics::small, Kinematics::floating})
             for (const auto& [name, mesh] : boxes<Dim>()) {
-                CAPTURE(name, static_cast<int>(kinematics), material.hardening, material.kinematic_hardening);
+                CAPTURE(name, static_cast<int>(kinematics), material.flow.hardening, material.flow.kinematic_hardening);
                 const Motion<Dim> spinning{Vector<Dim>::Constant(0.003),
                                            some_spin<Dim>(kinematics == Kinematics::small ? 0.0 : 0.01)};
                 TurningScene<Dim> scene(mesh, alone<Dim>(material), {spinning}, 0.9, kinematics, 0.005);
@@ -122,7 +123,7 @@ TEST_CASE(
     constexpr double modulus = 0.05, tangent = modulus / (1.0 + modulus);
     for (const CellShape shape : {CellShape::hexahedron, CellShape::tetrahedron}) {
         Material material = metal(0.0, modulus);
-        material.mass_damping = 0.5;
+        material.damping.mass = 0.5;
         const auto mesh = mesh::structured_box<3>({0.0, 0.0, 0.0}, {3.0, 1.0, 1.0}, {6, 2, 2}, shape);
         auto options = alone<3>(material);
         constexpr double duration = 400.0, most = 6e-3;
@@ -145,7 +146,7 @@ TEST_CASE(
                 sum += mesh.cell_measure[c] * scene.solid.cells().stress(c)(0, 0);
             return sum / 3.0;
         };
-        const double yield = material.yield_stress, at_top = yield + tangent * (most - yield);
+        const double yield = material.flow.yield_stress, at_top = yield + tangent * (most - yield);
         scene.run_until(0.5 * duration);
         CAPTURE(static_cast<int>(shape));
         CHECK(mean_stress() == Approx(at_top).epsilon(0.03));
@@ -163,8 +164,8 @@ TEST_CASE("a bar that is held as it flies has the plateau of the exact bilinear 
     constexpr int n = 200;
     constexpr double yield = 1e-4, speed = 5.0 * yield, modulus = 0.1, time = 0.8;
     const double plastic_speed = std::sqrt(modulus), plateau = yield + plastic_speed * (speed - yield);
-    Material bar{.young = 1.0, .poisson = 0.3, .density = 1.0, .law = MaterialLaw::j2, .yield_stress = yield};
-    bar.hardening = modulus / (1.0 - modulus);
+    Material bar{.young = 1.0, .poisson = 0.3, .density = 1.0, .law = MaterialLaw::j2, .flow = {.yield_stress = yield}};
+    bar.flow.hardening = modulus / (1.0 - modulus);
     const auto mesh = mesh::structured_box<3>({0.0, 0.0, 0.0}, {1.0, 2.0 / n, 2.0 / n}, {n, 2, 2}, CellShape::hexahedron);
     auto options = alone<3>(bar);
     options.boundary.dirichlet = {{.group = "xmin", .constraint = solid::Constraint::normal}};
@@ -187,7 +188,7 @@ TEMPLATE_TEST_CASE_SIG("metal bodies that collide under the pair potential flow,
                        "[solid][material]", ((int Dim), Dim), 2, 3) {
     for (const Kinematics kinematics : {Kinematics::small, Kinematics::floating}) {
         Material material = metal(0.05, 0.05);
-        material.yield_stress = 4e-3;
+        material.flow.yield_stress = 4e-3;
         auto options = bodies<Dim>(2);
         options.materials.assign(2, material);
         options.law = solid::ContactLaw::pair_potential;
@@ -221,7 +222,7 @@ TEMPLATE_TEST_CASE_SIG("a plate that is pressed against a wall flows in its firs
     constexpr int layers = 6;
     constexpr double duration = 60.0, most = 4e-3;
     Material material = metal(0.1, 0.05);
-    material.mass_damping = 1.0;
+    material.damping.mass = 1.0;
     std::vector<CellShape> shapes{CellShape::quadrangle, CellShape::triangle};
     if (Dim == 3) shapes = {CellShape::hexahedron, CellShape::tetrahedron};
     for (const CellShape shape : shapes) {
@@ -259,8 +260,8 @@ TEMPLATE_TEST_CASE_SIG("a plate that is pressed against a wall flows in its firs
             if (x < 0.5 || x > 0.8) continue;
             const double eps = -scene.solid.cells().displacement_gradient(c, scene.memm.q())(0, 0);
             inside += scene.solid.cells().plastic_strain(c);
-            exact += (2.0 * material.mu() * eps - material.yield_stress) /
-                     (3.0 * material.mu() + material.hardening + material.kinematic_hardening);
+            exact += (2.0 * material.mu() * eps - material.flow.yield_stress) /
+                     (3.0 * material.mu() + material.flow.hardening + material.flow.kinematic_hardening);
         }
         for (std::size_t i = 0; i < layers; ++i) strain[i] /= count[i];
         const dynamics::Losses lost = scene.solid.dissipated();

@@ -31,13 +31,13 @@ constexpr double pi = std::numbers::pi;
 /// About carbon fibres in epoxy, in units of E_2.
 Material ply() {
     Material material{.young = 14.0, .poisson = 0.3, .density = 1.6, .law = MaterialLaw::orthotropic};
-    material.young_2 = 1.0;
-    material.young_3 = 1.2;
-    material.poisson_13 = 0.25;
-    material.poisson_23 = 0.45;
-    material.shear_12 = 0.5;
-    material.shear_13 = 0.6;
-    material.shear_23 = 0.35;
+    material.orthotropic.young_2 = 1.0;
+    material.orthotropic.young_3 = 1.2;
+    material.orthotropic.poisson_13 = 0.25;
+    material.orthotropic.poisson_23 = 0.45;
+    material.orthotropic.shear_12 = 0.5;
+    material.orthotropic.shear_13 = 0.6;
+    material.orthotropic.shear_23 = 0.35;
     return material;
 }
 
@@ -45,12 +45,12 @@ template <int Dim>
 Material turned_ply(double angle) {
     Material material = ply();
     if constexpr (Dim == 2) {
-        material.axis_angle = angle;
+        material.orthotropic.axis_angle = angle;
     } else {
         const Matrix<3> axes = turned_by<3>(angle);
         for (int i = 0; i < 3; ++i) {
-            material.axis_1[static_cast<std::size_t>(i)] = 2.0 * axes(i, 0);  // of any length
-            material.axis_2[static_cast<std::size_t>(i)] = axes(i, 1);
+            material.orthotropic.axis_1[static_cast<std::size_t>(i)] = 2.0 * axes(i, 0);  // of any length
+            material.orthotropic.axis_2[static_cast<std::size_t>(i)] = axes(i, 1);
         }
     }
     return material;
@@ -68,9 +68,9 @@ Matrix<3> axes_at(double angle) {
 Material isotropic_as(const Material& isotropic) {
     Material material = isotropic;
     material.law = MaterialLaw::orthotropic;
-    material.young_2 = material.young_3 = isotropic.young;
-    material.poisson_13 = material.poisson_23 = isotropic.poisson;
-    material.shear_12 = material.shear_13 = material.shear_23 = isotropic.mu();
+    material.orthotropic.young_2 = material.orthotropic.young_3 = isotropic.young;
+    material.orthotropic.poisson_13 = material.orthotropic.poisson_23 = isotropic.poisson;
+    material.orthotropic.shear_12 = material.orthotropic.shear_13 = material.orthotropic.shear_23 = isotropic.mu();
     return material;
 }
 
@@ -78,12 +78,14 @@ Material isotropic_as(const Material& isotropic) {
 Matrix<3> strain_of(const Material& m, const Matrix<3>& axes, const Matrix<3>& stress) {
     const Matrix<3> s = axes.transpose() * stress * axes;
     Matrix<3> e = Matrix<3>::Zero();
-    e(0, 0) = (s(0, 0) - m.poisson * s(1, 1) - m.poisson_13 * s(2, 2)) / m.young;
-    e(1, 1) = s(1, 1) / m.young_2 - m.poisson / m.young * s(0, 0) - m.poisson_23 / m.young_2 * s(2, 2);
-    e(2, 2) = s(2, 2) / m.young_3 - m.poisson_13 / m.young * s(0, 0) - m.poisson_23 / m.young_2 * s(1, 1);
-    e(0, 1) = e(1, 0) = 0.5 * s(0, 1) / m.shear_12;
-    e(0, 2) = e(2, 0) = 0.5 * s(0, 2) / m.shear_13;
-    e(1, 2) = e(2, 1) = 0.5 * s(1, 2) / m.shear_23;
+    e(0, 0) = (s(0, 0) - m.poisson * s(1, 1) - m.orthotropic.poisson_13 * s(2, 2)) / m.young;
+    e(1, 1) = s(1, 1) / m.orthotropic.young_2 - m.poisson / m.young * s(0, 0) -
+              m.orthotropic.poisson_23 / m.orthotropic.young_2 * s(2, 2);
+    e(2, 2) = s(2, 2) / m.orthotropic.young_3 - m.orthotropic.poisson_13 / m.young * s(0, 0) -
+              m.orthotropic.poisson_23 / m.orthotropic.young_2 * s(1, 1);
+    e(0, 1) = e(1, 0) = 0.5 * s(0, 1) / m.orthotropic.shear_12;
+    e(0, 2) = e(2, 0) = 0.5 * s(0, 2) / m.orthotropic.shear_13;
+    e(1, 2) = e(2, 1) = 0.5 * s(1, 2) / m.orthotropic.shear_23;
     return axes * e * axes.transpose();
 }
 
@@ -141,9 +143,9 @@ TEMPLATE_TEST_CASE_SIG("an orthotropic body of isotropic constants has the force
             solid::Solid<Dim> plain(mesh, alone_as<Dim>(isotropic, kinematics));
             Material directed = isotropic_as(isotropic);
             if constexpr (Dim == 2)
-                directed.axis_angle = 0.7;
+                directed.orthotropic.axis_angle = 0.7;
             else
-                directed.axis_1 = {1.0, 2.0, 2.0}, directed.axis_2 = {2.0, 1.0, -2.0};
+                directed.orthotropic.axis_1 = {1.0, 2.0, 2.0}, directed.orthotropic.axis_2 = {2.0, 1.0, -2.0};
             solid::Solid<Dim> other(mesh, alone_as<Dim>(directed, kinematics));
             const auto q = random_state(plain.size(), 4, 1e-3);
             std::vector<double> expected(q.size()), force(q.size());
@@ -212,11 +214,11 @@ TEST_CASE("a bar pulled off its axes has the modulus of Lekhnitskii's formula an
     for (const double angle : {0.0, pi / 12.0, pi / 4.0, pi / 2.0}) {
         CAPTURE(angle);
         const double c = std::cos(angle), s = std::sin(angle);
-        const double compliance = std::pow(c, 4) / m.young + std::pow(s, 4) / m.young_2 +
-                                  (1.0 / m.shear_12 - 2.0 * m.poisson / m.young) * s * s * c * c;
+        const double compliance = std::pow(c, 4) / m.young + std::pow(s, 4) / m.orthotropic.young_2 +
+                                  (1.0 / m.orthotropic.shear_12 - 2.0 * m.poisson / m.young) * s * s * c * c;
         Material material = m;
-        material.axis_1 = {c, s, 0.0};
-        material.axis_2 = {-s, c, 0.0};
+        material.orthotropic.axis_1 = {c, s, 0.0};
+        material.orthotropic.axis_2 = {-s, c, 0.0};
         const auto mesh = mesh::structured_box<3>({0.0, 0.0, 0.0}, {3.0, 1.0, 1.0}, {6, 2, 2}, CellShape::hexahedron);
         auto options = alone_as<3>(material, Kinematics::small);
         const double t = 1e-3;
@@ -362,7 +364,7 @@ TEST_CASE("an orthotropic body that is damped by its stiffness keeps H~ + D, and
           "[solid][material]") {
     for (const Kinematics kinematics : {Kinematics::small, Kinematics::floating}) {
         Material material = turned_ply<2>(0.4);
-        material.stiffness_damping = 0.01;
+        material.damping.stiffness = 0.01;
         const auto mesh = unit_disc(0.4);
         const Motion<2> spinning{Vector<2>::Constant(0.01), some_spin<2>(kinematics == Kinematics::small ? 0.0 : 0.02)};
         TurningScene<2> scene(mesh, alone_as<2>(material, kinematics), {spinning}, 0.6, kinematics, 0.01);
@@ -379,22 +381,22 @@ TEST_CASE("what an orthotropic material must not be is refused by name, value an
     };
     Material material = ply();
     CHECK_NOTHROW(solid::check(material, 3));
-    material.shear_13 = 0.0;
+    material.orthotropic.shear_13 = 0.0;
     refused(material, "shear_13", "above 0 Pa");
     material = ply();
-    material.poisson_13 = 3.5;  // sqrt(14/1.2) = 3.42
+    material.orthotropic.poisson_13 = 3.5;  // sqrt(14/1.2) = 3.42
     refused(material, "poisson_13", "3.41565");
     material = ply();
-    material.poisson_13 = 3.3;
-    material.poisson_23 = -0.9;
+    material.orthotropic.poisson_13 = 3.3;
+    material.orthotropic.poisson_23 = -0.9;
     refused(material, "nu_21 nu_32 nu_13", "cost no energy");
     material = ply();
-    material.axis_2 = {1.0, 1.0, 0.0};
+    material.orthotropic.axis_2 = {1.0, 1.0, 0.0};
     refused(material, "axis_1 and axis_2", "0.707107");
-    material.axis_2 = {0.0, 0.0, 0.0};
+    material.orthotropic.axis_2 = {0.0, 0.0, 0.0};
     refused(material, "axis_2", "above 0");
     material = Material{};
-    material.axis_1 = {0.0, 1.0, 0.0};
+    material.orthotropic.axis_1 = {0.0, 1.0, 0.0};
     refused(material, "axis_1", "orthotropic");
 
     const auto of = [](const auto& mesh, const auto& options) { return solid::Solid(mesh, options); };
@@ -406,6 +408,6 @@ TEST_CASE("what an orthotropic material must not be is refused by name, value an
     options.precision = solid::Precision::single_precision;
     CHECK_THROWS_WITH(of(plane, options), Contains("orthotropic") && Contains("Precision::double_precision"));
     options = alone_as<2>(ply(), Kinematics::finite);
-    options.materials[0].stiffness_damping = 0.1;
+    options.materials[0].damping.stiffness = 0.1;
     CHECK_THROWS_WITH(of(plane, options), Contains("orthotropic") && Contains("mass_damping"));
 }

@@ -131,7 +131,7 @@ TEMPLATE_TEST_CASE_SIG("heat beside tractions from outside has an account of its
     auto options = blocks_loaded_from_outside<Dim>();
     options.law = solid::ContactLaw::pair_potential;
     options.kinematics.assign(2, kinematics);
-    for (solid::Material& material : options.materials) material.thermal_expansion = 1e-3;
+    for (solid::Material& material : options.materials) material.expansion.along_1 = 1e-3;
     for (const double amplitude : {30.0, -20.0})
         options.temperature_rise.push_back(
             {.value = [amplitude](double t, const Vector<Dim>& x) { return amplitude * (std::sin(3.0 * t) + 0.4 * x[0]); },
@@ -173,7 +173,7 @@ TEST_CASE("heat has the same account whether tractions from outside are set with
         auto options = blocks_loaded_from_outside<2>();
         options.contact.reset();
         options.kinematics.assign(2, kinematics);
-        for (solid::Material& material : options.materials) material.thermal_expansion = 1e-3;
+        for (solid::Material& material : options.materials) material.expansion.along_1 = 1e-3;
         options.temperature_rise.assign(
             2, {.value = [](double t, const Vector<2>&) { return 30.0 * std::sin(3.0 * t); }, .varies = true});
         Scene<2> scene(blocks<2>(), options, falling<2>());

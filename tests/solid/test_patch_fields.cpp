@@ -251,8 +251,8 @@ std::vector<solid::Material> materials_of(Kinematics kinematics) {
     std::vector<solid::Material> materials{plain};
     solid::Material metal = plain;
     metal.law = solid::MaterialLaw::j2;
-    metal.yield_stress = 1.0;  // it does not flow
-    metal.hardening = 0.1;
+    metal.flow.yield_stress = 1.0;  // it does not flow
+    metal.flow.hardening = 0.1;
     if (is_linear(kinematics)) {
         materials.push_back(metal);
     } else {

@@ -24,15 +24,12 @@ const Material metal{.young = 1.0,
                      .poisson = 0.3,
                      .density = 1.0,
                      .law = MaterialLaw::j2,
-                     .yield_stress = 4e-3,
-                     .hardening = 0.05,
-                     .saturation = 2e-3,
-                     .saturation_rate = 8.0};
+                     .flow = {.yield_stress = 4e-3, .hardening = 0.05, .saturation = 2e-3, .saturation_rate = 8.0}};
 
 /// The same with kinematic hardening.
 const Material kinematic = [] {
     Material material = metal;
-    material.kinematic_hardening = 0.04;
+    material.flow.kinematic_hardening = 0.04;
     return material;
 }();
 
@@ -90,7 +87,7 @@ TEMPLATE_TEST_CASE_SIG(
             const auto step = law->advance(last, any_dt, memory);
             if (!step.dissipates) continue;
             CHECK(law->plastic_strain(memory) > before);
-            const double yield = std::sqrt(2.0 / 3.0) * metal.flow_stress(law->plastic_strain(memory));
+            const double yield = std::sqrt(2.0 / 3.0) * metal.flow.stress(law->plastic_strain(memory));
             CHECK(std::abs(deviator_size<Dim>(step.response.stress, last, metal) - yield) <= 1e-12);
             if constexpr (Dim == 3) {
                 const Matrix<3> f = Matrix<3>::Identity() + last;
@@ -154,7 +151,7 @@ TEMPLATE_TEST_CASE_SIG("changes of the stress of metal are its slopes, in a stat
 TEST_CASE("pure shear in the plane hardens as the closed form says, for small and for large strains", "[solid][material]") {
     // Stretches l, 1/l: tau_1 = 2 mu (ln l - e_p), |dev| = sqrt(2) tau_1, alpha = 2 e_p/sqrt(3).
     Material linear = metal;
-    linear.saturation = linear.saturation_rate = 0.0;
+    linear.flow.saturation = linear.flow.saturation_rate = 0.0;
     const auto law = solid::inelastic_law<2>(linear);
     const double mu = linear.mu();
     for (const double log : {1e-3, 5e-3, 0.1, 0.8}) {
@@ -164,8 +161,8 @@ TEST_CASE("pure shear in the plane hardens as the closed form says, for small an
         g(1, 1) = std::expm1(-log);
         const auto step = law->advance(g, any_dt, memory);
         const double root = std::sqrt(3.0);
-        const double flowed =
-            std::max(0.0, (2.0 * mu * log - linear.yield_stress / root) / (2.0 * mu + 2.0 / 3.0 * linear.hardening));
+        const double flowed = std::max(
+            0.0, (2.0 * mu * log - linear.flow.yield_stress / root) / (2.0 * mu + 2.0 / 3.0 * linear.flow.hardening));
         CHECK(law->plastic_strain(memory) == Approx(2.0 * flowed / root).epsilon(1e-12).margin(1e-17));
         CHECK(step.response.stress(0, 0) == Approx(2.0 * mu * (log - flowed) / std::exp(log)).epsilon(1e-12));
     }
@@ -209,9 +206,9 @@ TEST_CASE("a bar of metal with kinematic hardening follows the closed form of cy
     // ln F = diag(e, l, l) with l = -nu (e - p) - p/2, so that no stress is across; Kirchhoff's along is E (e - p). It flows where
     // |E (e - p) - H p| reaches sigma_y + H_i alpha: forth at sigma_y, back 2 (sigma_y + H_i alpha) below where it turned (Bauschinger).
     Material bar = kinematic;
-    bar.saturation = bar.saturation_rate = 0.0;
+    bar.flow.saturation = bar.flow.saturation_rate = 0.0;
     for (const double hardening : {0.0, 0.05}) {
-        bar.hardening = hardening;
+        bar.flow.hardening = hardening;
         const auto law = solid::inelastic_law<3>(bar);
         const Matrix<3> axes = turned_by<3>(0.7);
         std::vector<double> memory = law->initial_memory();
@@ -219,10 +216,10 @@ TEST_CASE("a bar of metal with kinematic hardening follows the closed form of cy
         for (int i = 1; i <= 400; ++i) {
             const Matrix<3> turn = turned_by<3>(0.01 * i);
             const double strain = 0.4 * std::sin(0.05 * i);
-            const double beyond = bar.young * (strain - plastic) - bar.kinematic_hardening * plastic;
-            const double over = std::abs(beyond) - bar.yield_stress - bar.hardening * alpha;
+            const double beyond = bar.young * (strain - plastic) - bar.flow.kinematic_hardening * plastic;
+            const double over = std::abs(beyond) - bar.flow.yield_stress - bar.flow.hardening * alpha;
             if (over > 0.0) {
-                const double flowed = over / (bar.young + bar.kinematic_hardening + bar.hardening);
+                const double flowed = over / (bar.young + bar.flow.kinematic_hardening + bar.flow.hardening);
                 plastic += std::copysign(flowed, beyond);
                 alpha += flowed;
             }
@@ -243,10 +240,13 @@ TEST_CASE("a bar of metal with kinematic hardening follows the closed form of cy
 
 TEST_CASE("hardly any kinematic hardening is none where axes do not turn, and in shears up to a half", "[solid][material]") {
     // One rule adds logarithmic strains, the other multiplies stretches.
-    Material none{
-        .young = 1.0, .poisson = 0.3, .density = 1.0, .law = MaterialLaw::j2, .yield_stress = 2e-3, .hardening = 0.02};
+    Material none{.young = 1.0,
+                  .poisson = 0.3,
+                  .density = 1.0,
+                  .law = MaterialLaw::j2,
+                  .flow = {.yield_stress = 2e-3, .hardening = 0.02}};
     Material hardly = none;
-    hardly.kinematic_hardening = 1e-14;
+    hardly.flow.kinematic_hardening = 1e-14;
     const auto sum = solid::inelastic_law<2>(hardly), product = solid::inelastic_law<2>(none);
     const auto shear_off = [&](double most, bool turns) {
         std::vector<double> of_sum = sum->initial_memory(), of_product = product->initial_memory();
@@ -278,9 +278,10 @@ TEST_CASE("a bar that hits a wall has the two fronts and the plateau of the exac
     constexpr double yield = 1e-4, speed = 5.0 * yield, plastic_modulus = 0.1;
     const double plastic_speed = std::sqrt(plastic_modulus), time = 0.8;
     const double plateau = yield + plastic_speed * (speed - yield);
-    Material bar{.young = 1.0, .poisson = 0.3, .density = 1.0, .law = MaterialLaw::j2, .yield_stress = yield};
-    bar.hardening = plastic_modulus / (1.0 - plastic_modulus);
-    bar.jump_cap = GENERATE(0.0, 0.1);  // all cells have free faces: jumps that yield still bear what contact pushes with
+    Material bar{.young = 1.0, .poisson = 0.3, .density = 1.0, .law = MaterialLaw::j2, .flow = {.yield_stress = yield}};
+    bar.flow.hardening = plastic_modulus / (1.0 - plastic_modulus);
+    bar.flow.jump_cap =
+        GENERATE(0.0, 0.1);  // all cells have free faces: jumps that yield still bear what contact pushes with
     const auto mesh = mesh::structured_box<3>({0.0, 0.0, 0.0}, {1.0, 2.0 / n, 2.0 / n}, {n, 2, 2}, CellShape::hexahedron);
     auto options = bodies<3>(1);
     options.materials = {bar};
@@ -304,7 +305,7 @@ TEST_CASE("a bar that hits a wall has the two fronts and the plateau of the exac
     for (std::int32_t c = 0; c < mesh.n_cells(); ++c)
         if (position(c) > 0.05 && position(c) < 0.2) sum += pressure(c), ++count;
     const double mean = sum / count;
-    INFO("jump_cap " << bar.jump_cap << " plateau " << mean / plateau << " plastic " << front(0.5 * (plateau + yield))
+    INFO("jump_cap " << bar.flow.jump_cap << " plateau " << mean / plateau << " plastic " << front(0.5 * (plateau + yield))
                      << " elastic " << front(0.5 * yield));
     // Fronts are two to three cells wide, and behind by half of that: 0.8, 4 and 5 %, of 100 cells 4, 8 and 8 %.
     CHECK(std::abs(mean / plateau - 1.0) <= 0.01);
@@ -316,10 +317,10 @@ TEMPLATE_TEST_CASE_SIG("a metal block that spins and rings flows, keeps H~ + D a
                        "[solid][material]", ((int Dim), Dim), 2, 3) {
     const Material& material = GENERATE(false, true) ? kinematic : metal;
     for (const auto& [name, mesh] : boxes<Dim>()) {
-        CAPTURE(name, material.kinematic_hardening);
+        CAPTURE(name, material.flow.kinematic_hardening);
         const Motion<Dim> spinning{Vector<Dim>::Zero(), some_spin<Dim>(0.02)};
         TurningScene<Dim> scene(mesh, alone<Dim>(material), {spinning}, 0.4, Kinematics::finite, 0.03);
-        const double fall = fall_of_dissipation<Dim>(scene, Dim == 3 && material.kinematic_hardening > 0.0 ? 150 : 400,
+        const double fall = fall_of_dissipation<Dim>(scene, Dim == 3 && material.flow.kinematic_hardening > 0.0 ? 150 : 400,
                                                      &dynamics::Losses::in_cells);
         const Drifts drifts = scene.drifts();
         CHECK(scene.solid.dissipated().in_cells > 0.1 * scene.ledger.largest_energy());
@@ -346,7 +347,7 @@ TEMPLATE_TEST_CASE_SIG(
     "jumps of metal bodies that collide yield along faces, dissipate in each step, and keep H~ + D, momentum and J~",
     "[solid][material]", ((int Dim), Dim), 2, 3) {
     Material capped = metal;
-    capped.jump_cap = 0.1;
+    capped.flow.jump_cap = 0.1;
     const auto scene = spinning_collision<Dim>(finite_of<Dim>(capped, 2));
     const double fall = fall_of_dissipation<Dim>(*scene, steps_of_collision<Dim>, &dynamics::Losses::in_jumps);
     check_collision<Dim>(*scene);
@@ -436,13 +437,13 @@ TEST_CASE("a material that remembers is refused where nothing keeps what it reme
     CHECK_THROWS_WITH(solid::Solid<2>(mesh, options),
                       Catch::Contains("has a law of large strains") && Catch::Contains("Take Kinematics::finite"));
     options = alone<2>(metal);
-    options.materials[0].yield_stress = 0.0;
+    options.materials[0].flow.yield_stress = 0.0;
     CHECK_THROWS_WITH(solid::Solid<2>(mesh, options), Catch::Contains("yield_stress"));
     options = alone<2>(metal);
     options.materials[0].law = MaterialLaw::neo_hookean;
     CHECK_THROWS_WITH(solid::Solid<2>(mesh, options), Catch::Contains("its law is not j2"));
     options = alone<2>(metal);
-    options.materials[0].saturation_rate = 0.0;
+    options.materials[0].flow.saturation_rate = 0.0;
     CHECK_THROWS_WITH(solid::Solid<2>(mesh, options), Catch::Contains("saturation_rate"));
 }
 

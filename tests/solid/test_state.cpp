@@ -119,11 +119,11 @@ TEMPLATE_TEST_CASE_SIG("so do runs of metal that flows and is damped", "[solid][
     options.law = solid::ContactLaw::pair_potential;
     for (solid::Material& material : options.materials) {
         material.law = solid::MaterialLaw::j2;
-        material.yield_stress = 2e-3 * material.young;
-        material.hardening = 0.05 * material.young;
-        material.mass_damping = 0.01;
-        material.stiffness_damping = 0.01;
-        material.quadratic_viscosity = 1.0;
+        material.flow.yield_stress = 2e-3 * material.young;
+        material.flow.hardening = 0.05 * material.young;
+        material.damping.mass = 0.01;
+        material.damping.stiffness = 0.01;
+        material.damping.quadratic_viscosity = 1.0;
     }
     CHECK(compare_with_restarts<Dim>(options, MakeMemm{}, n_steps<Dim>, 23) > 0);
 }

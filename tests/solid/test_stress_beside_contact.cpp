@@ -163,7 +163,7 @@ TEST_CASE("a block whose law has a stress out of the plane of its own shows that
     const Kinematics kinematics = GENERATE(Kinematics::small, Kinematics::floating, Kinematics::finite);
     CAPTURE(static_cast<int>(kinematics));
     solid::SolidOptions<2> options = pressed_pile<2>(1, kinematics, ContactLaw::pair_potential, "ymax");
-    options.materials[0].thermal_expansion = 1e-5;
+    options.materials[0].expansion.along_1 = 1e-5;
     options.temperature_rise = {{.value = [](double, const Vector<2>&) { return 0.0; }}};
     check_pile<2>(boxes<2>(8).front().mesh, options);
 }

@@ -24,22 +24,22 @@ constexpr double expansion = 1e-5, rise = 80.0;
 
 Material steel() {
     Material material{.young = 2.0, .poisson = 0.3, .density = 1.5};
-    material.thermal_expansion = expansion;
+    material.expansion.along_1 = expansion;
     return material;
 }
 
 Material wood() {
     Material material{.young = 10.0, .poisson = 0.4, .density = 0.7, .law = MaterialLaw::orthotropic};
-    material.young_2 = 0.8;
-    material.young_3 = 0.5;
-    material.poisson_13 = 0.45;
-    material.poisson_23 = 0.35;
-    material.shear_12 = 0.7;
-    material.shear_13 = 0.6;
-    material.shear_23 = 0.1;
-    material.thermal_expansion = 0.4 * expansion;
-    material.thermal_expansion_2 = 3.0 * expansion;
-    material.thermal_expansion_3 = 4.0 * expansion;
+    material.orthotropic.young_2 = 0.8;
+    material.orthotropic.young_3 = 0.5;
+    material.orthotropic.poisson_13 = 0.45;
+    material.orthotropic.poisson_23 = 0.35;
+    material.orthotropic.shear_12 = 0.7;
+    material.orthotropic.shear_13 = 0.6;
+    material.orthotropic.shear_23 = 0.1;
+    material.expansion.along_1 = 0.4 * expansion;
+    material.expansion.along_2 = 3.0 * expansion;
+    material.expansion.along_3 = 4.0 * expansion;
     return material;
 }
 
@@ -95,12 +95,12 @@ TEMPLATE_TEST_CASE_SIG("a warm body that nothing holds expands without stress, a
             Material turned = wood();
             const Matrix<3> axes = turned_by<3>(0.8);
             for (int i = 0; i < 3; ++i) {
-                turned.axis_1[static_cast<std::size_t>(i)] = axes(i, 0);
-                turned.axis_2[static_cast<std::size_t>(i)] = axes(i, 1);
+                turned.orthotropic.axis_1[static_cast<std::size_t>(i)] = axes(i, 0);
+                turned.orthotropic.axis_2[static_cast<std::size_t>(i)] = axes(i, 1);
             }
             solid::Solid<3> of_wood(mesh, warm<3>(turned));
             const Vector<3> along =
-                rise * Vector<3>(turned.thermal_expansion, turned.thermal_expansion_2, turned.thermal_expansion_3);
+                rise * Vector<3>(turned.expansion.along_1, turned.expansion.along_2, turned.expansion.along_3);
             CHECK(out_of_balance<3>(of_wood, mesh, axes * along.asDiagonal() * axes.transpose(), scale) <= 1e-12);
             for (std::int32_t c = 0; c < mesh.n_cells(); ++c) CHECK(of_wood.cells().stress(c).norm() <= 1e-12 * scale);
         }
@@ -143,10 +143,10 @@ TEST_CASE("a strip of two bonded pieces bends with Timoshenko's curvature as it 
     const auto kinematics = GENERATE(Kinematics::small, Kinematics::finite);
     constexpr double t_1 = 0.4, t_2 = 0.6, length = 6.0;
     Material lower{.young = 1.0, .poisson = 0.0, .density = 1.0}, upper{.young = 2.5, .poisson = 0.0, .density = 1.0};
-    lower.thermal_expansion = 2.3e-5;
-    upper.thermal_expansion = 1.2e-5;
+    lower.expansion.along_1 = 2.3e-5;
+    upper.expansion.along_1 = 1.2e-5;
     const double m = t_1 / t_2, n = lower.young / upper.young, h = t_1 + t_2;
-    const double exact = 6.0 * (upper.thermal_expansion - lower.thermal_expansion) * rise * std::pow(1.0 + m, 2) /
+    const double exact = 6.0 * (upper.expansion.along_1 - lower.expansion.along_1) * rise * std::pow(1.0 + m, 2) /
                          (h * (3.0 * std::pow(1.0 + m, 2) + (1.0 + m * n) * (m * m + 1.0 / (m * n))));
     std::vector<double> errors;
     for (const int layers : {3, 6}) {
@@ -202,8 +202,8 @@ TEMPLATE_TEST_CASE_SIG(
             Material material = steel();
             if (yields) {
                 material.law = MaterialLaw::j2;
-                material.yield_stress = 2e-3;
-                material.hardening = 0.1;
+                material.flow.yield_stress = 2e-3;
+                material.flow.hardening = 0.1;
             }
             auto options = bodies<Dim>(2);
             options.law = solid::ContactLaw::pair_potential;
@@ -266,7 +266,7 @@ TEST_CASE("a temperature that a body cannot have is refused by name", "[solid][m
     };
     refused(warm<2>(steel(), Kinematics::rigid), "is rigid");
     auto options = warm<2>(steel());
-    options.materials[0].thermal_expansion = 0.0;
+    options.materials[0].expansion.along_1 = 0.0;
     refused(options, "thermal_expansion of 0");
     options = warm<2>(steel());
     options.precision = solid::Precision::single_precision;
@@ -274,7 +274,7 @@ TEST_CASE("a temperature that a body cannot have is refused by name", "[solid][m
     options = warm<2>(steel(), Kinematics::small, std::nan(""));
     refused(options, "is not finite");
     options = warm<2>(steel());
-    options.materials[0].thermal_expansion = 12.0;  // of a million
+    options.materials[0].expansion.along_1 = 12.0;  // of a million
     refused(options, "a thermal strain of");
     options = warm<2>(steel());
     options.temperature_rise.push_back(constant<2>(1.0));

@@ -24,10 +24,10 @@ constexpr double per_kelvin = 1e-3;
 /// Of the law, elastic at all stresses of the tests.
 Material elastic_of(MaterialLaw law, double kinematic_hardening = 0.0) {
     Material material{.young = 2.0, .poisson = 0.3, .density = 1.5, .law = law};
-    material.thermal_expansion = per_kelvin;
+    material.expansion.along_1 = per_kelvin;
     if (law == MaterialLaw::mooney_rivlin) material.second_share = 0.4;
-    if (law == MaterialLaw::j2) material.yield_stress = 1e3;
-    material.kinematic_hardening = kinematic_hardening;
+    if (law == MaterialLaw::j2) material.flow.yield_stress = 1e3;
+    material.flow.kinematic_hardening = kinematic_hardening;
     return material;
 }
 
@@ -106,7 +106,7 @@ TEMPLATE_TEST_CASE_SIG("a warm finite body that nothing holds expands without st
     const double a = 1.0 + per_kelvin * rise;
     for (const auto& [name, mesh] : boxes<Dim>())
         for (const Material& material : elastic_materials) {
-            CAPTURE(name, static_cast<int>(material.law), material.kinematic_hardening, rise);
+            CAPTURE(name, static_cast<int>(material.law), material.flow.kinematic_hardening, rise);
             const auto elastic = [&](double x) {
                 return Dim == 3 ? PrincipalStretches(x, x, x) : PrincipalStretches(x, x, 1.0 / a);
             };
@@ -144,7 +144,7 @@ TEMPLATE_TEST_CASE_SIG("a warm finite body that is held all round has the stress
     const double rise = GENERATE(300.0, -200.0), a = 1.0 + per_kelvin * rise;
     for (const auto& [name, mesh] : boxes<Dim>())
         for (const Material& material : elastic_materials) {
-            CAPTURE(name, static_cast<int>(material.law), material.kinematic_hardening, rise);
+            CAPTURE(name, static_cast<int>(material.law), material.flow.kinematic_hardening, rise);
             auto options = warm_alone<Dim>(material, rise);
             for (const auto& group : mesh.groups) options.boundary.dirichlet.push_back({.group = group.name});
             solid::Solid<Dim> solid(mesh, options);
@@ -168,7 +168,7 @@ TEMPLATE_TEST_CASE_SIG("a warm finite bar between walls has the stress of its la
     // Its sides are free, in plane strain but for that out of the plane. Away from the ends, which are free in the mesh.
     const double rise = GENERATE(150.0, -150.0), a = 1.0 + per_kelvin * rise;
     for (const Material& material : elastic_materials) {
-        CAPTURE(static_cast<int>(material.law), material.kinematic_hardening, rise);
+        CAPTURE(static_cast<int>(material.law), material.flow.kinematic_hardening, rise);
         std::array<int, Dim> counts;
         counts.fill(3);
         counts[0] = 9;
@@ -202,24 +202,24 @@ TEMPLATE_TEST_CASE_SIG("a warm finite bar between walls has the stress of its la
 TEST_CASE("a warm orthotropic body of finite strains expands along its axes, and presses by all of its stiffness",
           "[solid][finite][thermal][material]") {
     Material wood{.young = 10.0, .poisson = 0.4, .density = 0.7, .law = MaterialLaw::orthotropic};
-    wood.young_2 = 0.8;
-    wood.young_3 = 0.5;
-    wood.poisson_13 = 0.45;
-    wood.poisson_23 = 0.35;
-    wood.shear_12 = 0.7;
-    wood.shear_13 = 0.6;
-    wood.shear_23 = 0.1;
-    wood.thermal_expansion = 0.2 * per_kelvin;
-    wood.thermal_expansion_2 = -0.5 * per_kelvin;
-    wood.thermal_expansion_3 = per_kelvin;
+    wood.orthotropic.young_2 = 0.8;
+    wood.orthotropic.young_3 = 0.5;
+    wood.orthotropic.poisson_13 = 0.45;
+    wood.orthotropic.poisson_23 = 0.35;
+    wood.orthotropic.shear_12 = 0.7;
+    wood.orthotropic.shear_13 = 0.6;
+    wood.orthotropic.shear_23 = 0.1;
+    wood.expansion.along_1 = 0.2 * per_kelvin;
+    wood.expansion.along_2 = -0.5 * per_kelvin;
+    wood.expansion.along_3 = per_kelvin;
     constexpr double rise = 300.0;
     const Vector<3> a = Vector<3>::Ones() + rise * per_kelvin * Vector<3>(0.2, -0.5, 1.0);
     {
         Material turned = wood;
         const Matrix<3> axes = turned_by<3>(0.8);
         for (int i = 0; i < 3; ++i) {
-            turned.axis_1[static_cast<std::size_t>(i)] = axes(i, 0);
-            turned.axis_2[static_cast<std::size_t>(i)] = axes(i, 1);
+            turned.orthotropic.axis_1[static_cast<std::size_t>(i)] = axes(i, 0);
+            turned.orthotropic.axis_2[static_cast<std::size_t>(i)] = axes(i, 1);
         }
         for (const auto& [name, mesh] : boxes<3>()) {
             CAPTURE(name);
@@ -239,7 +239,7 @@ TEST_CASE("a warm orthotropic body of finite strains expands along its axes, and
     const Vector<3> strain = 0.5 * (squares - Vector<3>::Ones());
     const Vector<3> second = compliance.inverse() * strain;
     const Vector<3> stress = second.cwiseProduct(squares) / elastic.prod();
-    wood.axis_angle = 0.6;
+    wood.orthotropic.axis_angle = 0.6;
     const Matrix<2> turn = turned_by<2>(0.6);
     const Matrix<2> expected = turn * Vector<2>(stress[0], stress[1]).asDiagonal() * turn.transpose();
     for (const auto& [name, mesh] : boxes<2>()) {
@@ -264,8 +264,8 @@ TEMPLATE_TEST_CASE_SIG("metal that is warm yields at the strain at which it does
     const bool is_kinematic = GENERATE(false, true);
     constexpr double f = 1.02, rise = 250.0, a = 1.0 + per_kelvin * rise, yield = 0.01, hardening = 0.3;
     Material metal = elastic_of(MaterialLaw::j2);
-    metal.yield_stress = yield;
-    (is_kinematic ? metal.kinematic_hardening : metal.hardening) = hardening;
+    metal.flow.yield_stress = yield;
+    (is_kinematic ? metal.flow.kinematic_hardening : metal.flow.hardening) = hardening;
     const double mu = metal.mu(), lambda = metal.lambda();
     const solid::WarmInelastic<Dim> body(solid::inelastic_law<3>(metal),
                                          solid::ThermalStretch(solid::thermal_strain(metal)));
