@@ -84,7 +84,7 @@ void measure(Row& row, const Trial<Dim>& trial, const run::RunResult<Dim>& resul
     row.is_finite = all_finite(result);
     row.parasitic /= trial.speed;
     if (trial.keeps_momentum) row.momentum = result.ledger.momentum_drift() / impulse_scale(result);
-    row.sliding = result.contact.sliding_ratio_max;
+    row.sliding = result.contact.report.sliding_ratio_max;
     row.slipped = result.contact.report.slipped_compression_max;
     row.active_pairs_max = result.contact.report.active_pairs_max;
     row.blind_corners = static_cast<std::int64_t>(result.contact.blind_corners.size());

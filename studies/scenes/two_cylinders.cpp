@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "abut/mesh/shapes/shapes.hpp"
+#include "abut/run/result.hpp"
 
 namespace abut::studies {
 namespace {

@@ -87,8 +87,8 @@ Outcome solve_on_nodes(const Impact& impact, const NodalRun& run, const Referenc
     auto [outcome, velocity] = run_on_nodes<Dim>(impact, scene, run, limit);
     run::RunResult<Dim> motion;  // what restitution is made of
     for (std::size_t body = 0; body < velocity.size(); ++body) {
-        motion.start.push_back({.mass = 0.0, .velocity = scene.velocity[body], .rotation = 0.0});
-        motion.end.push_back({.mass = 0.0, .velocity = velocity[body], .rotation = 0.0});
+        motion.bodies.start.push_back({.mass = 0.0, .velocity = scene.velocity[body], .rotation = 0.0});
+        motion.bodies.end.push_back({.mass = 0.0, .velocity = velocity[body], .rotation = 0.0});
     }
     add_errors<Dim>(scene, motion, reference, impact.bodies.speed, outcome);
     return outcome;

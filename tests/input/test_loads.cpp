@@ -208,7 +208,7 @@ groups = ["right.xmin"]
     longer.push_back("contact.enabled=false");  // as a scene is tried: its obstacles may be idle
     const input::SceneFile without_contact(untouched.path(), {.set = longer});
     const auto same = run::simulate<2>(without_contact.scene<2>(), without_contact.options());
-    CHECK(same.end[1].velocity == result.bodies.end[1].velocity);
+    CHECK(same.bodies.end[1].velocity == result.bodies.end[1].velocity);
 
     const auto faults = [&](const std::string& bonds) {
         const WrittenScene wrong(two_blocks(bonds));

@@ -117,16 +117,16 @@ TEST_CASE("a wall whose mortar breaks is bitwise the same on one thread, and aft
     run::Observer<2> nobody;
     const auto whole = run::simulate<2>(scene, options, nobody);
     check_balance(whole, 28.0 * 0.239 * 0.07 * 1800.0);
-    REQUIRE(whole.fragments.size() > 1);
+    REQUIRE(whole.bonds.fragments.size() > 1);
     const auto check_same = [&](const run::RunResult<2>& other) {
         REQUIRE(other.ledger.entries().size() == whole.ledger.entries().size());
         CHECK(dynamics::ledger_values(other.ledger.entries().back()) ==
               dynamics::ledger_values(whole.ledger.entries().back()));
-        REQUIRE(other.fragments.size() == whole.fragments.size());
-        for (std::size_t i = 0; i < whole.fragments.size(); ++i)
-            CHECK(other.fragments[i].velocity == whole.fragments[i].velocity);
+        REQUIRE(other.bonds.fragments.size() == whole.bonds.fragments.size());
+        for (std::size_t i = 0; i < whole.bonds.fragments.size(); ++i)
+            CHECK(other.bonds.fragments[i].velocity == whole.bonds.fragments[i].velocity);
     };
-    test::Keep<2> keep(whole.steps / 2);
+    test::Keep<2> keep(whole.run.steps / 2);
     options.threads = 1;
     check_same(run::simulate<2>(scene, options, keep));
     REQUIRE(keep.kept);

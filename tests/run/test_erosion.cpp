@@ -288,10 +288,10 @@ TEST_CASE("files of a run that was stopped after cells had left are those of the
     const run::RunResult<2> whole = go("whole", -1);
     const std::int64_t first = whole.erosion.cells.front().step, last = whole.erosion.cells.back().step;
     REQUIRE(first < last);
-    CHECK_FALSE(go("in_parts", (first + last) / 2).complete);
+    CHECK_FALSE(go("in_parts", (first + last) / 2).run.complete);
     options.resume = true;
-    CHECK_FALSE(go("in_parts", last + 5).complete);
-    CHECK(go("in_parts", -1).complete);
+    CHECK_FALSE(go("in_parts", last + 5).run.complete);
+    CHECK(go("in_parts", -1).run.complete);
     int n_compared = 0;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(folder.path() / "whole")) {
         const std::string extension = entry.path().extension().string();

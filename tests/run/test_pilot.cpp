@@ -86,13 +86,13 @@ TEST_CASE("an automatic run is the run with the kinematics that it picked", "[ru
     scene.after_step = [&](const solid::Solid<2>&, double) { ++seen; };
     const run::RunResult<2> chosen = run::simulate<2>(scene, automatic);
     REQUIRE(chosen.run.pilot);
-    CHECK(seen == chosen.steps);
+    CHECK(seen == chosen.run.steps);
     scene.solid.kinematics = {Kinematics::rigid, Kinematics::small};
     const run::RunResult<2> given = run::simulate<2>(scene);
     CHECK_FALSE(given.run.pilot);
-    REQUIRE(chosen.steps == given.steps);
+    REQUIRE(chosen.run.steps == given.run.steps);
     CHECK(chosen.ledger.entries().back().energy == given.ledger.entries().back().energy);
-    CHECK(chosen.contact.active_pairs_max > 0);
+    CHECK(chosen.contact.report.active_pairs_max > 0);
 }
 
 TEST_CASE("who takes the steps of a scene must ask for what automatic picks", "[run][pilot]") {

@@ -162,7 +162,7 @@ TEST_CASE("a report says whether the run came to its end, and all that warns", "
     CHECK_THAT(report_of(run), Contains("asked to stop at t = ") && Contains("class=\"attention\""));
     run.result.run.complete = true;
     run.result.contact.report.missed_contacts = 3;
-    run.result.contact.sliding_ratio_max = 7.0;
+    run.result.contact.report.sliding_ratio_max = 7.0;
     const auto root = parsed(report_of(run));
     const auto items = all(root, "li");
     const auto warnings = run::warnings_after(run.result);

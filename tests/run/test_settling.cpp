@@ -118,7 +118,7 @@ TEST_CASE("a block on 10 degrees sticks from the start: no face slides, friction
     const double weight = 1000.0 * width * height * g, angle = 10.0 * M_PI / 180.0;
     CHECK(look.push[0] == Approx(weight * std::sin(angle)).epsilon(1e-9));
     CHECK(look.push[1] == Approx(-weight * std::cos(angle)).epsilon(1e-9));
-    CHECK(result.contact.sliding_faces_max == 0);
+    CHECK(result.contact.report.sliding_faces_max == 0);
     CHECK(result.ledger.entries().back().dissipated == 0.0);
     CHECK(result.ledger.entries().front().friction_energy > 0.0);
     double drift = 0.0;

@@ -83,11 +83,11 @@ TEST_CASE("a body that slides off a floor with a rim is said, and one without a 
     CHECK(said[0].text.find("'cube'") != std::string::npos);
     CHECK(said[0].text.find("'floor'") != std::string::npos);
     CHECK(said[0].value == Approx(0.1).margin(0.02));  // its centre is 0.4 m from the rim
-    CHECK(off.end[0].velocity.z() < -1.0);             // it falls
+    CHECK(off.bodies.end[0].velocity.z() < -1.0);      // it falls
     scene.solid.obstacles = {endless(100.0)};
     const auto on = run::simulate<3>(scene, options);
     CHECK(of_kind(run::warnings_after(on), WarningKind::past_rim).empty());
-    CHECK(std::abs(on.end[0].velocity.z()) < 0.2);
+    CHECK(std::abs(on.bodies.end[0].velocity.z()) < 0.2);
 }
 
 TEST_CASE("a body that falls past a floor beside it is said", "[run][sightings]") {
@@ -97,7 +97,7 @@ TEST_CASE("a body that falls past a floor beside it is said", "[run][sightings]"
     CHECK(said[0].value > 0.15);
     const auto above = run::simulate<3>(cube({3.0, 0.0, 0.1}, {0.0, 0.0, -0.1}, endless(1000.0)), {.interval = 1});
     CHECK(of_kind(run::warnings_after(above), WarningKind::past_rim).empty());
-    CHECK(above.contact.active_pairs_max > 0);
+    CHECK(above.contact.report.active_pairs_max > 0);
 }
 
 TEST_CASE("obstacles that bodies can only meet from behind are said before the first step", "[run][sightings]") {

@@ -86,7 +86,7 @@ TEST_CASE("an observer that asks to stop ends the run after the present step, wh
     CHECK(result.bodies.end.size() == 1);
 
     Stop at_the_end(20);  // no step is left out
-    CHECK(run::simulate<2>(test::block_on_plane(0.01), {.steps = 20}, at_the_end).complete);
+    CHECK(run::simulate<2>(test::block_on_plane(0.01), {.steps = 20}, at_the_end).run.complete);
 }
 
 TEST_CASE("a block bounces off a plane with the speed it came with on the mean, and H~ stays", "[run]") {
@@ -227,7 +227,7 @@ TEST_CASE("a run beyond the stable step diverges, and its error says so by its t
     scene.contact = false;
     scene.solid.obstacles.clear();
     scene.displacement = [](const Vector<2>& x) { return Vector<2>(1e-3 * x.x(), 0.0); };
-    options.dt = 1.5 * run::simulate<2>(scene, {.steps = 1}).stable.dt;
+    options.dt = 1.5 * run::simulate<2>(scene, {.steps = 1}).run.stable.dt;
     CHECK_THROWS_AS(static_cast<void>(run::simulate<2>(scene, options)), Diverged);
     options.allow_unstable = false;
     try {
@@ -271,12 +271,12 @@ TEST_CASE("restarts clear the parasitic mode of a block that bounces, at no chan
     scene.time = 12.0;
     const auto plain = run::simulate<2>(scene), restarted = run::simulate<2>(scene, {.restart = 10});
     const auto& last = restarted.ledger.entries().back();
-    CHECK(last.restarts.restarts == restarted.steps / 10);
+    CHECK(last.restarts.restarts == restarted.run.steps / 10);
     CHECK(last.restarts.paid != 0.0);
     CHECK(plain.ledger.entries().back().restarts.restarts == 0);
     REQUIRE(last.active_pairs == 0);  // it has left the plane: e stays as it is
     CHECK(last.parasitic < 1e-10 * plain.ledger.entries().back().parasitic);
-    CHECK(restarted.ledger.pseudo_energy_drift() < 1e-11 * restarted.scale.value);
+    CHECK(restarted.ledger.pseudo_energy_drift() < 1e-11 * restarted.energy.scale.value);
     const auto json = nlohmann::json::parse(run::summary_json<2>("test", scene, restarted));
     CHECK(json["restarts"] == last.restarts.restarts);
     CHECK(json["restart_paid"] == last.restarts.paid);
@@ -309,7 +309,7 @@ TEST_CASE("a rigid body that touches nothing has no longest step: a run asks for
     CHECK_THROWS_WITH(
         static_cast<void>(run::simulate<2>(scene, {.steps = 1})),
         Catch::Matchers::StartsWith("run.cfl (--cfl): ") && Catch::Matchers::Contains("Give one by run.dt (--dt)"));
-    CHECK(run::simulate<2>(scene, {.steps = 1, .dt = 100.0}).steps == 1);
+    CHECK(run::simulate<2>(scene, {.steps = 1, .dt = 100.0}).run.steps == 1);
 }
 
 TEST_CASE("a run takes as many steps as reach its end, rounding aside", "[run]") {
@@ -357,7 +357,7 @@ TEST_CASE("a finite body is run with neutral restarts, others are not, and who a
     CHECK(by_default.options.restart == 50);
     CHECK(without.options.restart == 0);
     const auto& last = by_default.ledger.entries().back();
-    CHECK(last.restarts.restarts == by_default.steps / 50);
+    CHECK(last.restarts.restarts == by_default.run.steps / 50);
     const double energy = by_default.ledger.largest_energy();
     CAPTURE(energy, without.ledger.energy_excess(), by_default.ledger.energy_excess());
     CHECK(by_default.ledger.pseudo_energy_drift() <= 1e-11 * energy);

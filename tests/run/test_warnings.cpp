@@ -43,10 +43,10 @@ TEST_CASE("each figure above its threshold is a warning of its kind with value a
     run::RunResult<2> result;
     result.run.dt = result.run.finest_dt = 1.0;
     result.run.steps = 10;
-    result.contact.sliding_ratio_max = run::stiff_sliding_ratio;
+    result.contact.report.sliding_ratio_max = run::stiff_sliding_ratio;
     result.contact.report.slipped_compression_max = run::deep_slip_compression;
     CHECK(run::warnings_after(result).empty());
-    result.contact.sliding_ratio_max *= 2.0;
+    result.contact.report.sliding_ratio_max *= 2.0;
     result.contact.report.slipped_compression_max *= 2.0;
     result.contact.report.missed_contacts = 3;
     result.watch.compressed = {"'a'", "obstacle 'floor'", 0.5, 4};
@@ -183,8 +183,8 @@ TEST_CASE("a slip that alternates in a fortieth of the records is told of wherev
         run::RunResult<2> result;
         for (std::int64_t i = 0; i < 2000; ++i) {
             const double limit = i < 900 ? 1.0 : i < 950 ? 0.0 : 1e-3;  // it slides, sticks, and slips a little now and then
-            result.contact.sliding_limit += limit;
-            result.contact.sliding_force += limit * (begin <= i && i < end ? 0.05 : 0.95);
+            result.contact.report.sliding_limit += limit;
+            result.contact.report.sliding_force += limit * (begin <= i && i < end ? 0.05 : 0.95);
             result.contact.sliding.record(result.contact.report);
         }
         return result;
@@ -193,7 +193,7 @@ TEST_CASE("a slip that alternates in a fortieth of the records is told of wherev
     CHECK(run::warnings_after(result_with(1000, 1050)).empty());  // hardly anything slides
     for (const std::int64_t begin : {0, 13, 25, 387, 840}) {
         const run::RunResult<2> result = result_with(begin, begin + 50);
-        CHECK(result.contact.sliding_force > 0.85 * result.contact.sliding_limit);
+        CHECK(result.contact.report.sliding_force > 0.85 * result.contact.report.sliding_limit);
         const auto warnings = run::warnings_after(result);
         REQUIRE(kinds(warnings) == std::vector{WarningKind::alternating_slip});
         CHECK(warnings.front().value < 0.06);

@@ -52,7 +52,7 @@ TEST_CASE("every number of a material is refused where it is none or beyond its 
         }
         if (!number.law) continue;
         solid::Material other{.law = solid::MaterialLaw::neo_hookean};
-        other.*number.member = 0.5;
+        number.at.in(other) = 0.5;
         CHECK_THROWS_WITH(solid::check(other, 3), Contains(number.name) && Contains("its law is not"));
     }
 }
