@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <iterator>
 #include <span>
 #include <string>
 #include <utility>
@@ -102,16 +103,19 @@ public:
         if (!std::exchange(list_is_valid_, false)) law_.list_remembered(pairs_.pairs());
         law_.search(candidates_, start, end);
         found_.clear();
-        std::vector<FacetPair> kept_apart;
+        std::vector<FacetPair> not_seen;
         for (const auto& [facet_1, facet_2] : candidates_.candidates()) {
             const FacetPair pair{Facet{facet_1}, Facet{facet_2}};
-            (law_.is_wanted(pair) ? found_ : kept_apart).push_back(pair);
+            const bool is_wanted = law_.is_wanted(pair);
+            if (is_wanted) found_.push_back(pair);
+            if (!is_wanted || std::ranges::binary_search(kept_apart_, pair)) not_seen.push_back(pair);
         }
         keep_contacts(start);
         law_.list(found_, in_contact_, start, std::max(0.5 * candidates_.skin(), candidates_.report().motion));
         pairs_.follow(found_, [&](std::size_t i) { return memory_at_first(i, start); });
-        sort_unique(kept_apart);
-        kept_apart_ = std::move(kept_apart);
+        sort_unique(not_seen);
+        kept_apart_.clear();
+        std::ranges::set_difference(not_seen, found_, std::back_inserter(kept_apart_));
         if constexpr (LawWithMemory<Law>) law_.set_born_offsets(pairs_.memory());
         law_.clear(step_);
         listed(law_);
@@ -331,7 +335,7 @@ private:
     PairStore pairs_;             // in the order of the list
     FacetStore facets_;
     std::vector<Facet> new_facets_;      // that no search has seen yet, increasing: the run begins for them
-    std::vector<FacetPair> kept_apart_;  // candidates of the last search that were not wanted, increasing
+    std::vector<FacetPair> kept_apart_;  // candidates that were not wanted, and in no list since then, increasing
     Step step_;
     ContactReport report_;
     std::vector<FacetPair> found_;  // work arrays of `search`

@@ -29,7 +29,7 @@ struct SavedContact {
     PairStore pairs;
     FacetStore facets;
     std::vector<Facet> new_facets;      ///< that no search has seen yet, increasing
-    std::vector<FacetPair> kept_apart;  ///< candidates of the last search that a host did not want, increasing
+    std::vector<FacetPair> kept_apart;  ///< candidates that a host did not want, and in no list since then, increasing
     LawMemory law;
 };
 
