@@ -129,13 +129,19 @@ void Solid<Dim>::part_frames(std::span<const Vector<Dim>> q) {
     if (const std::vector<std::size_t> opening = bonds_->opening_bodies(); !opening.empty())
         loose = bonds_->loose_bonds(frames_->own_turns(of_cells(q), opening));
     const bool part = !loose.empty() || (any_broke && bonds_->frame_groups() != frames_->united());
-    const double before = part ? potential_here(q) : 0.0;
+    const auto energy_in_frames = [&] {
+        frames_->stand_at(of_cells(q));
+        if (contact_) contact_->evaluate_listed(q, time_);
+        return stored_energy(q, loads_->end()) + (contact_ ? contact_->energy() : 0.0) + point_loads_->energy(q);
+    };
+    if (part) {
+        const double before = energy_in_frames();
+        if (!loose.empty()) bonds_->loosen(loose);
+        unite_frames();
+        frames_->end_at(of_cells(q));
+        dissipated_.at_splits += before - energy_in_frames();
+    }
     if (contact_ && (any_broke || part)) contact_->jumped(q, time_);  // more faces may touch than in its list
-    if (!part) return;
-    if (!loose.empty()) bonds_->loosen(loose);
-    unite_frames();
-    frames_->end_at(of_cells(q));
-    dissipated_.at_splits += before - potential_here(q);
 }
 
 template <int Dim>

@@ -103,7 +103,7 @@ public:
         if (!std::exchange(list_is_valid_, false)) law_.list_remembered(pairs_.pairs());
         law_.search(candidates_, start, end);
         found_.clear();
-        std::vector<FacetPair> not_seen;
+        std::vector<FacetPair> not_seen;  // increasing, as candidates are
         for (const auto& [facet_1, facet_2] : candidates_.candidates()) {
             const FacetPair pair{Facet{facet_1}, Facet{facet_2}};
             const bool is_wanted = law_.is_wanted(pair);
@@ -113,7 +113,6 @@ public:
         keep_contacts(start);
         law_.list(found_, in_contact_, start, std::max(0.5 * candidates_.skin(), candidates_.report().motion));
         pairs_.follow(found_, [&](std::size_t i) { return memory_at_first(i, start); });
-        sort_unique(not_seen);
         kept_apart_.clear();
         std::ranges::set_difference(not_seen, found_, std::back_inserter(kept_apart_));
         if constexpr (LawWithMemory<Law>) law_.set_born_offsets(pairs_.memory());
