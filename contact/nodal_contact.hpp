@@ -36,7 +36,9 @@ struct NodalOptions {
     /// Piece of each body, which those have in common that were one or are bonded, -1: none (n_bodies); empty: no pieces.
     /// Faces of a piece that lie inside of each other at rest are no contact until they have been seen from outside.
     std::vector<std::int32_t> pieces;
-    /// Which pairs of faces of the host may touch, beside the bodies they belong to; empty: all
+    /// Which pairs of faces of the host may touch, beside the bodies they belong to; empty: all. What it says may change
+    /// between two searches. A pair of two bodies that lies inside of each other when it is wanted for the first time is a
+    /// contact whose overlap at that moment does not act, until it has been apart.
     std::function<bool(Face, Face)> wanted;
 };
 

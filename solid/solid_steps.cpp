@@ -50,9 +50,9 @@ private:
     double dt_;
 };
 
-/// Keeps that half of the changes which loses most, none of a single one. Places whose faces are of one cell hold energy
-/// together: some of them may open with D < 0, and wait for the next step.
-void keep_larger_half(std::vector<BondChange>& changes) {
+/// Keeps that half of the changes whose share falls most, none of a single one. Places whose faces are of one cell hold
+/// energy together: some of them may open with D < 0, and wait for the next step.
+void keep_half_that_falls_most(std::vector<BondChange>& changes) {
     std::ranges::stable_sort(changes, std::ranges::greater{},
                              [](const BondChange& change) { return change.start - change.end; });
     changes.resize(changes.size() / 2);
@@ -80,7 +80,7 @@ void Solid<Dim>::mean_force(std::span<const double> q_0, std::span<const double>
 
     const Stopwatch watch(times_.bulk);
     const auto gradient = result_here(force);
-    const StepEnds<Dim> ends = step_ends({u_0, u_1}, start_load, dt);
+    StepEnds<Dim> ends = step_ends({u_0, u_1}, start_load, dt);
     const auto take_gradient = [&](const BoundaryLoad<Dim>& load) {
         const ProcessorStopwatch of_cells(times_.own_cells);
         if (frames_->any())
@@ -89,42 +89,59 @@ void Solid<Dim>::mean_force(std::span<const double> q_0, std::span<const double>
             ccg_.mean_gradient(ends, load, corrections(), gradient);
         bonds_->add_gradient(gradient);
     };
-    std::vector<BondChange> changes = bonds_that_give_way({u_0, u_1}, start_load);
-    if (!changes.empty()) {
-        double lost = energy_lost_by(changes, {u_0, u_1}, start_load);
-        while (lost < 0.0) {
-            bonds_->set_shares(changes, Bonds<Dim>::When::start);
-            keep_larger_half(changes);
-            lost = changes.empty() ? 0.0 : energy_lost_by(changes, {u_0, u_1}, start_load);
-        }
-        dissipated_.in_bonds += lost;
-        bonds_->set_shares(changes, Bonds<Dim>::When::middle);
-        static_cast<void>(follow_frames(of_cells(u_0), of_cells(u_1)));
-    }
-    bonds_->follow(u_0, start_load, u_1, loads_->end());
+    const std::vector<BondChange> changes = bonds_that_give_way({u_0, u_1}, start_load);
+    ends.change = bonds_->change();
     if (loads_->vary())
         take_gradient(loads_->mean());
     else
         take_gradient(loads_->end());
     finish_step({u_0, u_1}, time, dt, contact::TakenForce::mean, 1.0, gradient, force);
-    if (!changes.empty()) bonds_->set_shares(changes, Bonds<Dim>::When::end);
-    const bool any_breaks = std::ranges::any_of(changes, [](const BondChange& change) { return change.end == 0.0; });
-    if (contact_ && any_breaks) contact_->jumped(u_1, time + dt);  // more faces may touch than in its list
-    if (bonds_->may_be_loose()) part_frames(u_1);
+    bonds_->end_changes(changes);
+    part_frames(u_1);
+}
+
+/// Follows the bonds along the step. What of them opens takes energy together; the rest waits for the next step. Shares are
+/// the mean of both ends.
+template <int Dim>
+std::vector<BondChange> Solid<Dim>::bonds_that_give_way(const Ends& ends, const BoundaryLoad<Dim>& start_load) {
+    bonds_->follow(ends.start, start_load, ends.end, loads_->end());
+    std::vector<BondChange> changes = bonds_->changes();
+    if (changes.empty()) return changes;
+    double lost = energy_lost_by(changes, ends, start_load);
+    while (lost < 0.0) {
+        bonds_->set_shares(changes, Bonds<Dim>::When::start);
+        keep_half_that_falls_most(changes);
+        lost = changes.empty() ? 0.0 : energy_lost_by(changes, ends, start_load);
+    }
+    dissipated_.in_bonds += lost;
+    bonds_->set_shares(changes, Bonds<Dim>::When::middle);
+    static_cast<void>(follow_frames(of_cells(ends.start), of_cells(ends.end)));
+    bonds_->follow(ends.start, start_load, ends.end, loads_->end());
+    return changes;
 }
 
 /// Each part of what has come apart or become loose in a step that ended at q takes a frame of its own. What V loses by that
-/// is booked.
+/// is booked. Faces that a break has laid free touch nothing until contact looks again.
 template <int Dim>
 void Solid<Dim>::part_frames(std::span<const Vector<Dim>> q) {
-    const std::vector<std::size_t> loose = bonds_->loose_bonds(frames_->own_turns(of_cells(q)));
-    if (loose.empty() && bonds_->frame_groups() == frames_->united()) return;
-    const double before = potential_here(q);
-    if (!loose.empty()) bonds_->loosen(loose);
-    unite_frames();
-    if (contact_) contact_->jumped(q, time_);
-    frames_->end_at(of_cells(q));
-    dissipated_.at_splits += before - potential_here(q);
+    const bool any_broke = bonds_->any_broke();
+    std::vector<std::size_t> loose;
+    if (const std::vector<std::size_t> opening = bonds_->opening_bodies(); !opening.empty())
+        loose = bonds_->loose_bonds(frames_->own_turns(of_cells(q), opening));
+    const bool part = !loose.empty() || (any_broke && bonds_->frame_groups() != frames_->united());
+    const auto energy_in_frames = [&] {
+        frames_->stand_at(of_cells(q));
+        if (contact_) contact_->evaluate_listed(q, time_);
+        return stored_energy(q, loads_->end()) + (contact_ ? contact_->energy() : 0.0) + point_loads_->energy(q);
+    };
+    if (part) {
+        const double before = energy_in_frames();
+        if (!loose.empty()) bonds_->loosen(loose);
+        unite_frames();
+        frames_->end_at(of_cells(q));
+        dissipated_.at_splits += before - energy_in_frames();
+    }
+    if (contact_ && (any_broke || part)) contact_->jumped(q, time_);  // more faces may touch than in its list
 }
 
 template <int Dim>
@@ -156,13 +173,6 @@ void Solid<Dim>::end_force(std::span<const double> q_0, std::span<const double> 
         bonds_->add_gradient(gradient);
     }
     finish_step({u_0, u_1}, time, dt, contact::TakenForce::end, 0.5, gradient, force);
-}
-
-template <int Dim>
-std::vector<BondChange> Solid<Dim>::bonds_that_give_way(const Ends& ends, const BoundaryLoad<Dim>& start_load) {
-    if (!bonds_->any_breaks()) return {};
-    bonds_->follow(ends.start, start_load, ends.end, loads_->end());
-    return bonds_->changes();
 }
 
 /// By the change of their shares to the mean in the step where it starts, and from there where it ends.

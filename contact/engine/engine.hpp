@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <iterator>
 #include <span>
 #include <string>
 #include <utility>
@@ -101,11 +103,18 @@ public:
         if (!std::exchange(list_is_valid_, false)) law_.list_remembered(pairs_.pairs());
         law_.search(candidates_, start, end);
         found_.clear();
-        for (const auto& [facet_1, facet_2] : candidates_.candidates())
-            if (const FacetPair pair{Facet{facet_1}, Facet{facet_2}}; law_.is_wanted(pair)) found_.push_back(pair);
+        std::vector<FacetPair> not_seen;  // increasing, as candidates are
+        for (const auto& [facet_1, facet_2] : candidates_.candidates()) {
+            const FacetPair pair{Facet{facet_1}, Facet{facet_2}};
+            const bool is_wanted = law_.is_wanted(pair);
+            if (is_wanted) found_.push_back(pair);
+            if (!is_wanted || std::ranges::binary_search(kept_apart_, pair)) not_seen.push_back(pair);
+        }
         keep_contacts(start);
         law_.list(found_, in_contact_, start, std::max(0.5 * candidates_.skin(), candidates_.report().motion));
         pairs_.follow(found_, [&](std::size_t i) { return memory_at_first(i, start); });
+        kept_apart_.clear();
+        std::ranges::set_difference(not_seen, found_, std::back_inserter(kept_apart_));
         if constexpr (LawWithMemory<Law>) law_.set_born_offsets(pairs_.memory());
         law_.clear(step_);
         listed(law_);
@@ -151,11 +160,13 @@ public:
         const ContactReport report = report_;
         const double next_skin = candidates_.next_skin();
         const std::vector<Facet> new_facets = new_facets_;
+        const std::vector<FacetPair> kept_apart = kept_apart_;
         const LawMemory memory = law_memory();
         const auto take_back = [&] {
             list_is_valid_ = false;
             pairs_ = pairs;
             new_facets_ = new_facets;
+            kept_apart_ = kept_apart;
             set_law_memory(memory);
             report_ = report;
             candidates_.restore_skin(next_skin);
@@ -177,8 +188,8 @@ public:
     void clear_report() { report_ = {}; }
 
     [[nodiscard]] std::vector<std::byte> state() const {
-        return saved(state_key(),
-                     {has_searched_, candidates_.next_skin(), report_, pairs_, facets_, new_facets_, law_memory()});
+        return saved(state_key(), {has_searched_, candidates_.next_skin(), report_, pairs_, facets_, new_facets_,
+                                   kept_apart_, law_memory()});
     }
 
     void restore(std::span<const std::byte> bytes) {
@@ -190,6 +201,7 @@ public:
         report_ = from.report;
         has_searched_ = from.has_searched;
         new_facets_ = std::move(from.new_facets);
+        kept_apart_ = std::move(from.kept_apart);
         drop_list();
     }
 
@@ -207,6 +219,7 @@ public:
         std::vector<Facet> new_facets;
         for (std::size_t i = 0; i < old_of_new.size(); ++i)
             if (old_of_new[i] < 0 || before.is_new(Facet{old_of_new[i]})) new_facets.push_back(Facet(i));
+        std::vector<FacetPair> kept_apart = carried_over(before.kept_apart_, old_of_new, [](FacetPair) { return true; });
         take_over_law_memory(before, old_of_new);
         candidates_.restore_skin(before.candidates_.next_skin());
         report_ = before.report_;
@@ -215,6 +228,7 @@ public:
         pairs_ = std::move(pairs);
         facets_ = std::move(facets);
         new_facets_ = std::move(new_facets);
+        kept_apart_ = std::move(kept_apart);
         drop_list();
     }
 
@@ -228,6 +242,7 @@ public:
         pairs_ = std::move(next.pairs_);
         facets_ = std::move(next.facets_);
         new_facets_ = std::move(next.new_facets_);
+        kept_apart_ = std::move(next.kept_apart_);
         report_ = next.report_;
         drop_list();
     }
@@ -244,14 +259,20 @@ private:
     void set_law_memory([[maybe_unused]] const LawMemory& memory) {
         if constexpr (LawWithMemory<Law>) law_.set_memory(memory);
     }
+    /// Pairs whose facets have got other numbers, as PairStore::carried_over.
+    [[nodiscard]] static std::vector<FacetPair> carried_over(std::span<const FacetPair> pairs,
+                                                             std::span<const std::int32_t> old_of_new,
+                                                             const std::function<bool(FacetPair)>& is_kept) {
+        PairStore store;
+        store.follow(pairs, [](std::size_t) { return PairMemory{}; });
+        store = store.carried_over(old_of_new, is_kept);
+        return {store.pairs().begin(), store.pairs().end()};
+    }
     /// Pairs that were seen from outside keep that where they lie inside of a body of this surface, too.
     void take_over_law_memory(const Engine& before, std::span<const std::int32_t> old_of_new) {
         if constexpr (LawWithMemory<Law>) {
             LawMemory memory = before.law_.memory();
-            PairStore seen;
-            seen.follow(memory.seen, [](std::size_t) { return PairMemory{}; });
-            seen = seen.carried_over(old_of_new, [&](FacetPair pair) { return law_.lies_inside(pair); });
-            memory.seen.assign(seen.pairs().begin(), seen.pairs().end());
+            memory.seen = carried_over(memory.seen, old_of_new, [&](FacetPair pair) { return law_.lies_inside(pair); });
             law_.set_memory(memory);
         }
     }
@@ -276,11 +297,14 @@ private:
 
     [[nodiscard]] bool is_new(Facet facet) const { return std::ranges::binary_search(new_facets_, facet); }
 
+    /// A pair that a host has kept apart until now may be pressed in; any other one should have been seen before.
     [[nodiscard]] PairMemory memory_at_first(std::size_t i, const State& start) {
         const auto [facet_1, facet_2] = found_[i];
         const FirstLook first = law_.decide_first(i, start, !has_searched_ || is_new(facet_1) || is_new(facet_2));
-        if (first.admission == FirstAdmission::missed) ++report_.missed_contacts;
-        return {.admitted = first.admission == FirstAdmission::admitted, .offset = first.offset};
+        if (first.admission != FirstAdmission::missed) return {.admitted = first.admission == FirstAdmission::admitted};
+        if (std::ranges::binary_search(kept_apart_, found_[i])) return {.admitted = true, .offset = first.overlap};
+        ++report_.missed_contacts;
+        return {};
     }
 
     [[nodiscard]] StateKey state_key() const {
@@ -309,7 +333,8 @@ private:
     bool list_is_valid_ = false;  // the last search came to its end
     PairStore pairs_;             // in the order of the list
     FacetStore facets_;
-    std::vector<Facet> new_facets_;  // that no search has seen yet, increasing: the run begins for them
+    std::vector<Facet> new_facets_;      // that no search has seen yet, increasing: the run begins for them
+    std::vector<FacetPair> kept_apart_;  // candidates that were not wanted, and in no list since then, increasing
     Step step_;
     ContactReport report_;
     std::vector<FacetPair> found_;  // work arrays of `search`

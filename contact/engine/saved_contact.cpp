@@ -11,10 +11,32 @@
 namespace abut::contact {
 namespace {
 
-constexpr std::uint32_t state_version = 10;
+constexpr std::uint32_t state_version = 11;
 
 /// A new counter needs its place in `ContactReport::fields`, or it is lost where a state is saved; then a new version, too.
 static_assert(sizeof(ContactReport) == 24 * sizeof(double));
+
+void put_pairs(StateWriter& state, std::span<const FacetPair> pairs) {
+    state.put(static_cast<std::uint64_t>(pairs.size()));
+    for (const FacetPair& pair : pairs) {
+        state.put(number_of(pair.facet_1));
+        state.put(number_of(pair.facet_2));
+    }
+}
+
+std::vector<FacetPair> pairs_from(StateReader& state, const StateKey& key) {
+    std::vector<FacetPair> pairs;
+    const auto n = state.get<std::uint64_t>();
+    for (std::uint64_t i = 0; i < n; ++i) {  // `get` refuses to read past the end, whatever n claims
+        pairs.push_back({Facet{state.get<std::int32_t>()}, Facet{state.get<std::int32_t>()}});
+        const auto [facet_1, facet_2] = pairs.back();
+        if (number_of(facet_1) < 0 || !(facet_1 < facet_2) || number_of(facet_2) >= key.n_facets)
+            throw BadInput("state of " + key.kind + ": facets " + std::to_string(number_of(facet_1)) + " and " +
+                           std::to_string(number_of(facet_2)) + " of " + std::to_string(key.n_facets) +
+                           " are no pair. It is damaged.");
+    }
+    return pairs;
+}
 
 }  // namespace
 
@@ -28,11 +50,8 @@ std::vector<std::byte> saved(const StateKey& key, const SavedContact& contact) {
     for (const Facet facet : contact.new_facets) state.put(number_of(facet));
     contact.pairs.save(state);
     contact.facets.save(state);
-    state.put(static_cast<std::uint64_t>(contact.law.seen.size()));
-    for (const FacetPair& pair : contact.law.seen) {
-        state.put(number_of(pair.facet_1));
-        state.put(number_of(pair.facet_2));
-    }
+    put_pairs(state, contact.kept_apart);
+    put_pairs(state, contact.law.seen);
     state.put(static_cast<std::uint64_t>(contact.law.interference.size()));
     for (const double value : contact.law.interference) state.put(value);
     return std::move(state).finish();
@@ -54,15 +73,8 @@ SavedContact read_saved(const StateKey& key, std::span<const std::byte> bytes) {
     for (std::int32_t i = 0; i < n_new; ++i) contact.new_facets.push_back(Facet{state.get<std::int32_t>()});
     contact.pairs = PairStore::restored(state, key.n_facets);
     contact.facets = FacetStore::restored(state, key.n_facets, key.facet_memory);
-    const auto n_seen = state.get<std::uint64_t>();
-    for (std::uint64_t i = 0; i < n_seen; ++i) {  // `get` refuses to read past the end, whatever n_seen claims
-        contact.law.seen.push_back({Facet{state.get<std::int32_t>()}, Facet{state.get<std::int32_t>()}});
-        const auto [facet_1, facet_2] = contact.law.seen.back();
-        if (number_of(facet_1) < 0 || !(facet_1 < facet_2) || number_of(facet_2) >= key.n_facets)
-            throw BadInput("state of " + key.kind + ": facets " + std::to_string(number_of(facet_1)) + " and " +
-                           std::to_string(number_of(facet_2)) + " of " + std::to_string(key.n_facets) +
-                           " are no pair. It is damaged.");
-    }
+    contact.kept_apart = pairs_from(state, key);
+    contact.law.seen = pairs_from(state, key);
     const auto n_interference = state.get<std::uint64_t>();
     for (std::uint64_t i = 0; i < n_interference; ++i) contact.law.interference.push_back(state.get<double>());
     state.finish();

@@ -28,7 +28,8 @@ struct SavedContact {
     ContactReport report;
     PairStore pairs;
     FacetStore facets;
-    std::vector<Facet> new_facets;  ///< that no search has seen yet, increasing
+    std::vector<Facet> new_facets;      ///< that no search has seen yet, increasing
+    std::vector<FacetPair> kept_apart;  ///< candidates that a host did not want, and in no list since then, increasing
     LawMemory law;
 };
 

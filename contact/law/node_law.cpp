@@ -46,9 +46,8 @@ NodeLaw<Dim>::NodeLaw(BevelledSurface<Dim> surface, const NodalOptions& options,
     : surface_(std::move(surface)),
       options_(options),
       sharing_(sharing),
-      piece_(pieces_of(acting(), options_)),
       sides_(acting().facets().view()),
-      inside_(acting().facets().view(), piece_),
+      inside_(acting().facets().view(), pieces_of(acting(), options_)),
       pairs_(options_.facing, options_.friction, options_.interference, sharing),
       ramps_(options_.interference),
       looks_away_(std::cos(std::acos(std::clamp(options_.facing.none, -1.0, 1.0)) - turns_in_all)),
@@ -263,22 +262,14 @@ bool NodeLaw<Dim>::sees_from_outside(const Path& path) {
     return any;
 }
 
-/// Whether bonds held two bodies together, directly or through others.
-template <int Dim>
-bool NodeLaw<Dim>::were_one_piece(const NodalPair<Dim>& pair) const {
-    const auto piece_of = [&](std::int32_t facet) { return piece_[static_cast<std::size_t>(facets().body[facet])]; };
-    return pair.body_1 != pair.body_2 && piece_of(pair.facet_1) >= 0 && piece_of(pair.facet_1) == piece_of(pair.facet_2);
-}
-
-/// A pair of one body that is pressed in when the run begins lies inside of it. One of two bodies that a bond has held is
-/// pressed in where they come apart by shear: from there on it may not be pressed in deeper.
+/// A pair of one body that is pressed in when the run begins lies inside of it.
 template <int Dim>
 FirstLook NodeLaw<Dim>::decide_first(std::size_t p, State x, bool run_begins) const {
     const NodalPair<Dim>& pair = pairs_.pairs()[p];
     if (pair.body_1 != pair.body_2) {
         const FirstAdmission first = contact::decide_first<Dim>(pair, x, sides_, run_begins);
-        if (first != FirstAdmission::missed || !were_one_piece(pair)) return {first};
-        return {FirstAdmission::admitted, -geometry::pair_state<Dim>(pair.at(x), pair.law).gap};
+        if (first != FirstAdmission::missed) return {first};
+        return {first, -geometry::pair_state<Dim>(pair.at(x), pair.law).gap};
     }
     const geometry::PairCorners<Dim> corners = pair.at(x);
     const auto state = geometry::pair_state<Dim>(corners, pair.law);

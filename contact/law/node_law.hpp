@@ -104,12 +104,10 @@ private:
     void begin_interference(State x_0);
     [[noreturn]] void refuse_deep_interference(const NodalPair<Dim>& pair) const;
     void set_offsets(double dt);
-    [[nodiscard]] bool were_one_piece(const NodalPair<Dim>& pair) const;
 
     BevelledSurface<Dim> surface_;
     NodalOptions options_;
     Sharing* sharing_;
-    std::vector<std::int32_t> piece_;  // of each body, -1: none
     SideOutlines<Dim> sides_;
     InsidePairs<Dim> inside_;
     std::vector<NodalPair<Dim>> watched_;  // of these, that may be seen from outside while the list is valid

@@ -15,6 +15,7 @@
 #include "abut/run/words/warnings.hpp"
 #include "abut/solid/contact_view.hpp"
 #include "abut/solid/options/law_options.hpp"
+#include "abut/solid/step_of_breaking.hpp"
 
 namespace abut::run {
 namespace {
@@ -188,7 +189,7 @@ RunResult<Dim> run_rigid(const Scene<Dim>& scene, const RunOptions& given, doubl
         options.dt = length / least_pilot_steps;
         {
             solid::Solid<Dim> solid(scene.mesh, solid_options(scene, options));
-            options.dt = std::min(options.dt, given.cfl * dynamics::stable_step(solid).dt);
+            options.dt = std::min(options.dt, given.cfl * solid::step_of_breaking(solid).dt);
         }
         options.time = length;
         options.interval = 1;

@@ -230,21 +230,21 @@ void BodyFrames<Dim>::place(std::span<const Vector<Dim>> q, std::vector<BodyFram
 }
 
 template <int Dim>
-std::vector<Matrix<Dim>> BodyFrames<Dim>::own_turns(std::span<const Vector<Dim>> q) const {
-    std::vector<Matrix<Dim>> turns(turns_.size(), Matrix<Dim>::Identity());
+std::vector<Matrix<Dim>> BodyFrames<Dim>::own_turns(std::span<const Vector<Dim>> q,
+                                                    std::span<const std::size_t> bodies) const {
+    std::vector<Matrix<Dim>> turns;
+    for (const BodyFrame<Dim>& frame : end()) turns.push_back(frame.turn);
     const std::vector<Vector<Dim>> origins = part_.of_first_cells(q);
-    for (const std::vector<std::size_t>& group : groups_)
-        for (const std::size_t body : group) {
-            turns[body] = end()[body].turn;
-            if (group.size() == 1 || !turns_[body]) continue;
-            const Lanes<Dim> origin = load_packed<Dim>(origins[body]);
-            const auto sums = moments(std::span(&body, 1), [&](Moments<Dim>& sum, std::ptrdiff_t i) {
-                sum.add(rest_arm(i) + load_packed<Dim>(q[i]) - origin, load_four(weighted_arm_, i));
-            });
-            const Matrix<Dim> about_own_centre =
-                sums.template leftCols<Dim>() - sums.col(Dim) * own_moment_[body].transpose() / own_mass_[body];
-            turns[body] = nearest_rotation(about_own_centre);
-        }
+    for (const std::size_t body : bodies) {
+        if (mass_[body] == own_mass_[body] || !turns_[body]) continue;
+        const Lanes<Dim> origin = load_packed<Dim>(origins[body]);
+        const auto sums = moments(std::span(&body, 1), [&](Moments<Dim>& sum, std::ptrdiff_t i) {
+            sum.add(rest_arm(i) + load_packed<Dim>(q[i]) - origin, load_four(weighted_arm_, i));
+        });
+        const Matrix<Dim> about_own_centre =
+            sums.template leftCols<Dim>() - sums.col(Dim) * own_moment_[body].transpose() / own_mass_[body];
+        turns[body] = nearest_rotation(about_own_centre);
+    }
     return turns;
 }
 

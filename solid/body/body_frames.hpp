@@ -68,9 +68,10 @@ public:
     [[nodiscard]] std::span<const BodyFrame<Dim>> end() const { return is_standing_ ? state_ : end_; }
     [[nodiscard]] const FrameStep<Dim>& step(std::size_t body) const { return steps_[body]; }
 
-    /// The rotation of each body with a frame in common with others, by itself: the nearest one of its own points at q
-    /// (n_points) [m]; that of the frame where it is alone in it (n_bodies). A call of all ranks.
-    [[nodiscard]] std::vector<Matrix<Dim>> own_turns(std::span<const Vector<Dim>> q) const;
+    /// The rotation of some bodies by themselves: the nearest one of their own points at q (n_points) [m]; that of the frame
+    /// where one is alone in it, and of all others (n_bodies). A call of all ranks.
+    [[nodiscard]] std::vector<Matrix<Dim>> own_turns(std::span<const Vector<Dim>> q,
+                                                     std::span<const std::size_t> bodies) const;
 
     // There
 

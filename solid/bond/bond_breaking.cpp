@@ -27,8 +27,8 @@ void Bonds<Dim>::append_change(std::size_t place, const Vector<Dim>& traction, d
 template <int Dim>
 std::vector<BondChange> Bonds<Dim>::changes() const {
     std::vector<BondChange> changes;
+    if (!any_breaks()) return changes;
     for (std::size_t p = 0; p < joints_.size(); ++p) {
-        if (!holds_as_joint(joints_[p].place)) continue;
         const Vector<Dim> traction = joints_[p].stiffness * jump_1_[p];
         const double energy = traction.dot(jump_1_[p]);
         if (energy > 0.0)
@@ -45,11 +45,19 @@ std::vector<BondChange> Bonds<Dim>::changes() const {
 
 template <int Dim>
 void Bonds<Dim>::set_shares(std::span<const BondChange> changes, When when) {
-    may_be_loose_ = may_be_loose_ || !changes.empty();
     for (const auto& [place, start, end] : changes)
         share_[place] = when == When::start ? start : when == When::end ? end : 0.5 * (start + end);
     in_middle_.clear();
     if (when == When::middle) in_middle_.assign(changes.begin(), changes.end());
+}
+
+template <int Dim>
+void Bonds<Dim>::end_changes(std::span<const BondChange> changes) {
+    any_broke_ = std::ranges::any_of(changes, [](const BondChange& change) { return change.end == 0.0; });
+    if (changes.empty()) return;
+    set_shares(changes, When::end);
+    if (any_broke_) leave_out_broken();
+    find_opening();
 }
 
 template <int Dim>
@@ -111,8 +119,8 @@ void Bonds<Dim>::take_over(const Bonds& before, std::span<const std::int32_t> ol
         loosened_[p] = before.loosened_[old];
         places_[p].strength = from->strength;  // drawn once, whatever numbers the faces have now
     }
-    may_be_loose_ = before.may_be_loose_;
-    make_springs();
+    leave_out_broken();
+    find_opening();
 }
 
 #define ABUT_INSTANTIATE(Dim)                                                                            \
@@ -121,6 +129,7 @@ void Bonds<Dim>::take_over(const Bonds& before, std::span<const std::int32_t> ol
                                             std::vector<BondChange>&) const;                             \
     template std::vector<BondChange> Bonds<Dim>::changes() const;                                        \
     template void Bonds<Dim>::set_shares(std::span<const BondChange>, When);                             \
+    template void Bonds<Dim>::end_changes(std::span<const BondChange>);                                  \
     template void Bonds<Dim>::see_end(std::span<const Vector<Dim>>, const BoundaryLoad<Dim>&);           \
     template double Bonds<Dim>::energy_at_end(std::span<const Vector<Dim>>, const BoundaryLoad<Dim>&);   \
     template void Bonds<Dim>::check_fracture_energy() const;                                             \

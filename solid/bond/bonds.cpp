@@ -56,9 +56,7 @@ Bonds<Dim>::Bonds(const Bodies<Dim>& bodies, Ccg<Dim>& ccg, const BodyFrames<Dim
       share_(places_.size(), 1.0),
       loosened_(places_.size(), 0.0) {
     check_bodies();
-    std::vector<std::size_t> of_joints;
-    for (std::size_t p = 0; p < places_.size(); ++p)
-        if (is_joint(p)) of_joints.push_back(p);
+    const std::vector<std::size_t> of_joints = held_joints();
     check_metal(of_joints);
     make_springs();
     faces_.emplace(mesh_, part, places_, of_joints);
@@ -66,6 +64,25 @@ Bonds<Dim>::Bonds(const Bodies<Dim>& bodies, Ccg<Dim>& ccg, const BodyFrames<Dim
         for (const BondFaces<Dim>* faces : std::array<const BondFaces<Dim>*, 2>{&*faces_, &springs_->faces()})
             for (const BoundaryFace face : faces->own_faces()) check(face);
     });
+    make_joints(of_joints);
+    check_fracture_energy();
+}
+
+template <int Dim>
+std::vector<std::size_t> Bonds<Dim>::held_joints() const {
+    std::vector<std::size_t> held;
+    for (std::size_t p = 0; p < places_.size(); ++p)
+        if (holds_as_joint(p)) held.push_back(p);
+    return held;
+}
+
+/// Interfaces of half cells, of `faces_`.
+template <int Dim>
+void Bonds<Dim>::make_joints(std::span<const std::size_t> of_joints) {
+    of_faces_.clear();
+    joints_.clear();
+    slope_.clear();
+    cells_.clear();
     if (!of_joints.empty()) take_faces();
     for (const std::size_t p : of_joints) append_joint(p);
     take_cells();
@@ -73,12 +90,12 @@ Bonds<Dim>::Bonds(const Bodies<Dim>& bodies, Ccg<Dim>& ccg, const BodyFrames<Dim
     for (std::size_t j = 0; j < joints_.size(); ++j)
         for (std::size_t side = 0; side < 2; ++side)
             if (faces_->is_own(joints_[j].face[side])) own_sides.push_back(2 * j + side);
-    sides_ = RankItems(part.ranks(), std::move(own_sides));
+    sides_ = RankItems(part_.ranks(), std::move(own_sides));
     for (auto* jump : {&jump_, &jump_0_, &jump_1_}) jump->resize(joints_.size());
     for (auto* of_sides : {&of_side_0_, &of_side_1_}) of_sides->resize(2 * joints_.size());
     for (auto* of_face : {&of_face_, &delta_, &excess_, &gradient_}) of_face->resize(faces_->size());
     delta_here_.resize(faces_->here().size());
-    check_fracture_energy();
+    if (ccg_.any_damped()) change_here_.resize(faces_->here().size());
 }
 
 /// Springs of the places that are no joints and not broken.
@@ -88,6 +105,16 @@ void Bonds<Dim>::make_springs() {
     for (std::size_t p = 0; p < places_.size(); ++p)
         if (!is_joint(p) && !is_broken(p)) of_springs.push_back(p);
     springs_ = std::make_unique<BondSprings<Dim>>(bodies_, ccg_, frames_, part_, places_, of_springs, share_, loosened_);
+}
+
+/// Places that are broken, or springs by now, are no joints any more, and broken springs are none.
+template <int Dim>
+void Bonds<Dim>::leave_out_broken() {
+    make_springs();
+    const std::vector<std::size_t> of_joints = held_joints();
+    if (of_joints.size() == joints_.size()) return;
+    faces_.emplace(mesh_, part_, places_, of_joints);
+    make_joints(of_joints);
 }
 
 template <int Dim>
@@ -236,14 +263,8 @@ std::vector<std::int32_t> Bonds<Dim>::frame_groups() const {
 }
 
 template <int Dim>
-std::vector<std::size_t> Bonds<Dim>::loose_bonds(std::span<const Matrix<Dim>> turns) const {
-    const auto is_loose = [&](std::size_t p) {
-        const auto turn_of = [&](std::size_t side) -> const Matrix<Dim>& {
-            return turns[static_cast<std::size_t>(bodies_.deformable_body(places_[p].bodies[side]))];
-        };
-        return rotation_angle<Dim>(turn_of(0).transpose() * turn_of(1)) > loose_turn;
-    };
-    std::vector<std::size_t> loose;
+void Bonds<Dim>::find_opening() {
+    opening_.clear();
     for (std::size_t first = 0, end = 0; first < places_.size(); first = end) {
         while (end < places_.size() && places_[end].bond == places_[first].bond) ++end;
         bool holds = false, has_opened = false;
@@ -251,8 +272,28 @@ std::vector<std::size_t> Bonds<Dim>::loose_bonds(std::span<const Matrix<Dim>> tu
             holds = holds || holds_as_joint(p);
             has_opened = has_opened || share_[p] < 1.0;
         }
-        if (holds && has_opened && bodies_.have_one_frame(places_[first]) && is_loose(first))
-            loose.push_back(places_[first].bond);
+        if (holds && has_opened && bodies_.have_one_frame(places_[first])) opening_.push_back(first);
+    }
+}
+
+template <int Dim>
+std::vector<std::size_t> Bonds<Dim>::opening_bodies() const {
+    std::vector<std::size_t> bodies;
+    for (const std::size_t place : opening_)
+        for (const std::int32_t body : places_[place].bodies)
+            bodies.push_back(static_cast<std::size_t>(bodies_.deformable_body(body)));
+    sort_unique(bodies);
+    return bodies;
+}
+
+template <int Dim>
+std::vector<std::size_t> Bonds<Dim>::loose_bonds(std::span<const Matrix<Dim>> turns) const {
+    std::vector<std::size_t> loose;
+    for (const std::size_t place : opening_) {
+        const auto turn_of = [&](std::size_t side) -> const Matrix<Dim>& {
+            return turns[static_cast<std::size_t>(bodies_.deformable_body(places_[place].bodies[side]))];
+        };
+        if (rotation_angle<Dim>(turn_of(0).transpose() * turn_of(1)) > loose_turn) loose.push_back(places_[place].bond);
     }
     return loose;
 }
@@ -261,11 +302,12 @@ template <int Dim>
 void Bonds<Dim>::loosen(std::span<const std::size_t> bonds) {
     for (std::size_t i = 0; i < joints_.size(); ++i) {
         const std::size_t p = joints_[i].place;
-        if (!holds_as_joint(p) || !std::ranges::binary_search(bonds, places_[p].bond)) continue;
+        if (!std::ranges::binary_search(bonds, places_[p].bond)) continue;
         const Vector<Dim> along = jump_[i].isZero(0.0) ? places_[p].normal : jump_[i];
         loosened_[p] = along.dot(joints_[i].stiffness * along) / along.squaredNorm();
     }
-    make_springs();
+    leave_out_broken();
+    find_opening();
 }
 
 // In one state, or along a step --------------------------------------------------------------------------------------
@@ -314,6 +356,10 @@ void Bonds<Dim>::follow(std::span<const Vector<Dim>> q_0, const BoundaryLoad<Dim
     sides_.bring({{as_values<Dim>(of_side_0_), Dim}, {as_values<Dim>(of_side_1_), Dim}});
     take_jumps(of_side_0_, jump_0_);
     take_jumps(of_side_1_, jump_1_);
+    if (!change_here_.empty()) {
+        for (std::size_t i = 0; i < joints_.size(); ++i) jump_[i] = jump_1_[i] - jump_0_[i];
+        set_corrections(jump_, delta_, change_here_);
+    }
     for (std::size_t i = 0; i < joints_.size(); ++i) jump_[i] = 0.5 * (jump_0_[i] + jump_1_[i]);
     set_corrections(jump_, delta_, delta_here_);
     springs_->follow(q_0, load_0, q_1, load_1);
@@ -469,8 +515,8 @@ void Bonds<Dim>::restore(StateReader& state) {
         throw BadInput(mesh_.name + ": the saved state of its bonds is damaged. Take another checkpoint.");
     share_ = share;
     loosened_ = loosened;
-    make_springs();
-    may_be_loose_ = std::ranges::any_of(share_, [](double s) { return s < 1.0; });
+    leave_out_broken();
+    find_opening();
     for (std::size_t p = 0; p < places_.size(); ++p) places_[p].strength = strengths[p];  // drawn once
 }
 
@@ -478,7 +524,7 @@ template <int Dim>
 void Bonds<Dim>::break_all() {
     for (std::size_t p = 0; p < places_.size(); ++p)
         if (std::isfinite(places_[p].strength)) share_[p] = 0.0;
-    make_springs();
+    leave_out_broken();
 }
 
 template class Bonds<2>;

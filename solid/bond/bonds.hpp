@@ -70,6 +70,10 @@ public:
     [[nodiscard]] std::span<const BoundaryFace> bonded_faces() const { return faces_->faces_here(); }
     /// Corrections of contact and those of the bonds. Valid until the next call and as long as those are.
     [[nodiscard]] FaceCorrections<Dim> corrections(const FaceCorrections<Dim>& of_contact);
+    /// Change of delta along the step that was followed, where a material is damped. Valid until the next one.
+    [[nodiscard]] FaceCorrections<Dim> change() const {
+        return {change_here_.empty() ? std::span<const BoundaryFace>{} : faces_->faces_here(), change_here_, {}, {}};
+    }
     /// Adds dV/du through the corrections (n_cells) [N], after the cells have taken their gradient with the last of them.
     void add_gradient(std::span<Vector<Dim>> gradient);
     /// Pushes on bodies as a whole, those of others included (n_bodies that deform).
@@ -102,15 +106,20 @@ public:
     /// end, or the mean of both.
     enum class When { start, middle, end };
     void set_shares(std::span<const BondChange> changes, When when);
+    /// The step has ended, and these places have the share of its end from now on. Those that are broken cost nothing any
+    /// more. A call of all ranks.
+    void end_changes(std::span<const BondChange> changes);
+    /// Whether a place broke in the last step that has ended so.
+    [[nodiscard]] bool any_broke() const { return any_broke_; }
     [[nodiscard]] double share(std::size_t place) const { return share_[place]; }
     /// Number of the first body that has the same frame, of each that deforms (n_bodies): as places of Bond::of_grains
     /// hold now.
     [[nodiscard]] std::vector<std::int32_t> frame_groups() const;
-    /// Bonds that hold grains in one frame, have begun to open and whose grains have turned against each other by more than
-    /// `loose_turn`, increasing. `turns`: rotation of each body that deforms (n_bodies).
+    /// Bodies that deform and that bonds of grains in one frame hold which have begun to open, increasing.
+    [[nodiscard]] std::vector<std::size_t> opening_bodies() const;
+    /// Bonds among these whose grains have turned against each other by more than `loose_turn`, increasing. `turns`: the
+    /// rotation of each body (n_bodies that deform), read of `opening_bodies`.
     [[nodiscard]] std::vector<std::size_t> loose_bonds(std::span<const Matrix<Dim>> turns) const;
-    /// Whether one that holds grains in one frame has begun to open.
-    [[nodiscard]] bool may_be_loose() const { return may_be_loose_; }
     /// Springs hold what is left of these bonds from now on, so that grains may have frames of their own: in the state of
     /// the last `stand_at` they have the energy that half cells had. A call of all ranks.
     void loosen(std::span<const std::size_t> bonds);
@@ -145,7 +154,10 @@ private:
         double weight;
     };
 
+    [[nodiscard]] std::vector<std::size_t> held_joints() const;
+    void make_joints(std::span<const std::size_t> of_joints);
     void make_springs();
+    void leave_out_broken();
     /// Whether it is the interface of half cells, and else a spring.
     [[nodiscard]] bool is_joint(std::size_t place) const {
         return bodies_.is_joint(places_[place]) && loosened_[place] == 0.0;
@@ -160,6 +172,7 @@ private:
     void append_joint(std::size_t place);
     void append_slope(std::size_t face, const Vector<Dim>& arm);
     void take_cells();
+    void find_opening();
     [[nodiscard]] std::span<const Vector<Dim>> of_cells(std::span<const Vector<Dim>> q,
                                                         std::span<const BodyFrame<Dim>> frames);
     void stand_linear(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load);
@@ -167,10 +180,7 @@ private:
     void take_jumps(std::span<const Vector<Dim>> of_sides, std::vector<Vector<Dim>>& jump) const;
     void set_corrections(std::span<const Vector<Dim>> jump, std::vector<Vector<Dim>>& delta,
                          std::vector<Vector<Dim>>& here) const;
-    /// 0 where the place is a spring by now.
-    [[nodiscard]] double share_of(const Joint& joint) const {
-        return loosened_[joint.place] == 0.0 ? share_[joint.place] : 0.0;
-    }
+    [[nodiscard]] double share_of(const Joint& joint) const { return share_[joint.place]; }
     [[nodiscard]] FaceCorrections<Dim> own_corrections() const { return {faces_->faces_here(), delta_here_, {}, {}}; }
     void check_fracture_energy() const;
     void append_change(std::size_t place, const Vector<Dim>& traction, double stiffness, const Vector<Dim>& normal,
@@ -187,7 +197,8 @@ private:
     std::vector<BondPlace<Dim>> places_;
     std::vector<double> share_;     // by place, from 1, whole, to 0, broken
     std::vector<double> loosened_;  // by place: its stiffness if it has become a spring [Pa/m]; 0: it has not
-    bool may_be_loose_ = false;
+    bool any_broke_ = false;
+    std::vector<std::size_t> opening_;   // first place of each bond of grains in one frame that has begun to open and holds
     std::vector<BondChange> in_middle_;  // whose share is the mean of both ends of a step
     std::unique_ptr<BondSprings<Dim>> springs_;
     std::optional<BondFaces<Dim>> faces_;  // of small bodies
@@ -202,6 +213,7 @@ private:
     std::vector<Vector<Dim>> of_face_;                 // û, by bonded face here [m]
     std::vector<Vector<Dim>> delta_, delta_here_;      // by bonded face, by those here [m]
     std::vector<Vector<Dim>> jump_at_, delta_at_, delta_here_at_;  // of `displacement_at`
+    std::vector<Vector<Dim>> change_here_;                         // of delta in a step; empty: nothing is damped
     std::vector<Vector<Dim>> excess_;    // of the face's traction over that of its half cell alone, by bonded face [Pa]
     std::vector<Vector<Dim>> gradient_;  // dV/dû through the corrections, by bonded face [N]
     FaceCorrections<Dim> of_others_;     // of contact and springs

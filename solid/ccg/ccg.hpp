@@ -49,6 +49,7 @@ struct StepEnds {
     const BoundaryLoad<Dim>* start_load = nullptr;  ///< null: none; read where MeanForce is of both ends
     const BoundaryLoad<Dim>* end_load = nullptr;    ///< the same
     double dt = 0.0;                                ///< [s]; read where a material is damped
+    FaceCorrections<Dim> change{};                  ///< change of `displacement` in the step; read there, too
 };
 
 /// Defect of a cell in a step whose mean force is that of both ends, contact and tractions not counted.

@@ -27,6 +27,7 @@ void CcgSweeps<Dim, Real>::load_change(const StepEnds<Dim>& ends) {
     if (steps_ && ends.start_load && ends.end_load)
         for (std::size_t b = 0; b < ends.end_load->displacement.size(); ++b)
             load_change_.push_back(ends.end_load->displacement[b] - ends.start_load->displacement[b]);
+    if (steps_ && viscous_) add_change_of_corrections(ends.change);
     if (std::ranges::all_of(load_change_, [](const Vector<Dim>& change) { return change.isZero(0.0); }))
         load_change_.clear();
     std::atomic<bool> same = plastic_ && follows_last_load(ends) && load_change_.empty();
@@ -37,6 +38,19 @@ void CcgSweeps<Dim, Real>::load_change(const StepEnds<Dim>& ends) {
         store(load_packed<Dim>(ends.end[c]), u_end_, c);
     });
     follows_ = same;
+}
+
+/// Bonded faces move their cells beside what prescribed displacements do.
+template <int Dim, class Real>
+void CcgSweeps<Dim, Real>::add_change_of_corrections(const FaceCorrections<Dim>& change) {
+    if (!change.faces.empty()) load_change_.resize(arrays_.boundary_faces.size(), Vector<Dim>::Zero());
+    for (std::size_t i = 0; i < change.faces.size(); ++i) {
+        const Vector<Dim>& of_face = change.displacement[i];
+        load_change_[static_cast<std::size_t>(change.faces[i])] += of_face;
+        arrays_.boundary.for_each_answer(change.faces[i], [&](BoundaryFace face, const Matrix<Dim>& answer) {
+            load_change_[static_cast<std::size_t>(face)] += answer * of_face;
+        });
+    }
 }
 
 /// Whether prescribed displacements begin where those of the last step ended.
@@ -385,6 +399,7 @@ void CcgSweeps<Dim, Real>::keep_end(std::int32_t c, const Response<Dim>& of_law,
 }
 
 #define ABUT_INSTANTIATE(Dim)                                                                                 \
+    template void CcgSweeps<Dim>::add_change_of_corrections(const FaceCorrections<Dim>&);                     \
     template Matrix<Dim> CcgSweeps<Dim>::linear_change(std::int32_t) const;                                   \
     template bool CcgSweeps<Dim>::makes_change(std::int32_t);                                                 \
     template Matrix<Dim> CcgSweeps<Dim>::change_of_stage(std::int32_t) const;                                 \

@@ -166,6 +166,7 @@ private:
     void set_finite_displacement_gradient(std::int32_t c);
     void set_finite_stress(std::int32_t c);
     void load_change(const StepEnds<Dim>& ends);
+    void add_change_of_corrections(const FaceCorrections<Dim>& change);
     [[nodiscard]] Matrix<Dim> linear_change(std::int32_t c) const;
     [[nodiscard]] bool makes_change(std::int32_t c);
     [[nodiscard]] Matrix<Dim> change_of_stage(std::int32_t c) const;
@@ -260,7 +261,7 @@ private:
     LargeArray<double> u_end_;           // of the last step; empty without `plastic_`
     std::vector<Vector<Dim>> load_end_;  // BoundaryLoad::displacement there
     double dt_ = 0.0;                    // of that
-    std::vector<Vector<Dim>> load_change_;  // of BoundaryLoad::displacement in it; empty: none
+    std::vector<Vector<Dim>> load_change_;  // of û in it beside that by cells; empty: none
     std::vector<Chunk> chunks_;             // one more at the end
     std::vector<double> strain_bounds_;     // by chunk, of the last call [-]; empty: nobody asks
     SweepLists wanted_;

@@ -48,6 +48,11 @@ public:
             for (std::size_t side = 0; side < 2; ++side)
                 entries_.push_back({bonds.places()[place].numbers[side], place, side});
         std::ranges::sort(entries_);
+        for (const Entry& entry : entries_) {
+            begin_.resize(entry.number + 2, entries_.size());
+            begin_[entry.number] = std::min(begin_[entry.number], static_cast<std::size_t>(&entry - entries_.data()));
+        }
+        for (std::size_t face = begin_.size(); face-- > 1;) begin_[face - 1] = std::min(begin_[face - 1], begin_[face]);
     }
 
     /// Whether the whole face is bonded: then nothing can touch it.
@@ -72,12 +77,15 @@ private:
         std::size_t number, place, side;
         auto operator<=>(const Entry&) const = default;
     };
-    [[nodiscard]] auto of(contact::Face face) const {
-        return std::ranges::equal_range(entries_, static_cast<std::size_t>(face), {}, &Entry::number);
+    [[nodiscard]] std::span<const Entry> of(contact::Face face) const {
+        const auto i = static_cast<std::size_t>(face);
+        if (i + 1 >= begin_.size()) return {};
+        return {entries_.data() + begin_[i], begin_[i + 1] - begin_[i]};
     }
 
     const Bonds<Dim>& bonds_;
-    std::vector<Entry> entries_;
+    std::vector<Entry> entries_;      // face by face
+    std::vector<std::size_t> begin_;  // of each face, one more at the end
 };
 
 /// All pairs of faces except those of which one is bonded to the body of the other, or all over, as the bonds are when it is
@@ -287,6 +295,15 @@ void PairPotentialDriver<Dim>::evaluate(std::span<const Vector<Dim>> q, double t
         listed_ = corners_.list(listed_nodes_ = contact_.last().nodes);
         has_stepped_ = false;
     }
+    collect(x_state_, x_state_);
+}
+
+template <int Dim>
+void PairPotentialDriver<Dim>::evaluate_listed(std::span<const Vector<Dim>> q, double time) {
+    if (!contact_.is_valid_for(0.0)) return evaluate(q, time);
+    corners_.place_rigid(q);
+    corners_.place(listed_, q, frames_.end(), loads_.end(), time, x_state_);
+    contact_.evaluate_listed(x_state_);
     collect(x_state_, x_state_);
 }
 

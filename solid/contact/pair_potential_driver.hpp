@@ -43,6 +43,7 @@ public:
     void take_end(double dt) override;
     void evaluate_last_end(std::span<const Vector<Dim>> q) override;
     void evaluate(std::span<const Vector<Dim>> q, double time) override;
+    void evaluate_listed(std::span<const Vector<Dim>> q, double time) override;
 
     [[nodiscard]] FaceCorrections<Dim> corrections() const override;
     [[nodiscard]] std::span<const BodyPush<Dim>> pushes() const override { return pushes_; }

@@ -262,7 +262,6 @@ TEST_CASE(
     const TwoFaces faces;
     bool holds = true;
     contact::NodalOptions options = with_skin(0.05);
-    options.pieces = {0, 0};
     options.wanted = [&](Face, Face) { return !holds; };
     const auto at = [&](double y) { return faces.at(0.0, y); };
     NodalContact<2> contact(faces.scene.surface(), options);
@@ -278,6 +277,26 @@ TEST_CASE(
     go(contact, faces, {0.0, -0.08}, {0.0, 0.01});
     CHECK(go(contact, faces, {0.0, 0.01}, {0.0, -0.05}).energy == Approx(0.5 * 1.5 * 0.05 * 0.05));
     CHECK(contact.report().missed_contacts == 0);
+}
+
+TEST_CASE("faces that were let go while they were apart are a missed contact where they are first seen inside of each other",
+          "[contact][nodal]") {
+    const TwoFaces faces;
+    bool holds = true;
+    contact::NodalOptions options = with_skin(0.05);
+    options.pieces = {0, 0};
+    options.wanted = [&](Face, Face) { return !holds; };
+    NodalContact<2> contact(faces.scene.surface(), options);
+    contact.step(1.0, faces.at(0.0, 0.01), faces.at(0.0, 0.01));
+    holds = false;
+    contact.search(faces.at(5.0, 0.01), faces.at(5.0, 0.01));
+    NodalContact<2> restarted(faces.scene.surface(), options);
+    restarted.restore(contact.state());
+    for (NodalContact<2>* each : {&contact, &restarted}) {
+        each->search(faces.at(0.0, -0.05), faces.at(0.0, -0.05));  // a jump that no list has foreseen
+        CHECK_FALSE(each->step(1.0, faces.at(0.0, -0.05), faces.at(0.0, -0.06)).is_active());
+        CHECK(each->report().missed_contacts == 1);
+    }
 }
 
 TEST_CASE("forces on obstacles that a host has appended to its nodes are left out of its own", "[contact][nodal]") {

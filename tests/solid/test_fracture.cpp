@@ -425,6 +425,24 @@ TEST_CASE("bodies that never had a bond are in no fragment", "[solid][fracture]"
     CHECK(std::all_of(fragment.begin() + 1, fragment.end(), [](std::int32_t number) { return number == 0; }));
 }
 
+TEMPLATE_TEST_CASE_SIG(
+    "a damped body in grains that strikes a wall loses energy from its first to its last step, and H~ + D closes",
+    "[solid][fracture][damping]", ((int Dim), Dim), 2, 3) {
+    const auto mesh = box_of_grains<Dim>();
+    const double strength = GENERATE(std::numeric_limits<double>::infinity(), 0.02);
+    auto options = of_grains<Dim>(mesh, {.sides = {}, .strength = strength});
+    for (auto& material : options.materials) material.stiffness_damping = 0.01;
+    options.obstacles = {contact::plane_obstacle<Dim>(-1e-3 * Vector<Dim>::Unit(0), Vector<Dim>::Unit(0), 5.0)};
+    const std::vector<Motion<Dim>> motions(options.materials.size(),
+                                           moving<Dim>(-0.05 * Vector<Dim>::Unit(0), some_spin<Dim>(0.02)));
+    TurningScene<Dim> scene(mesh, options, motions, 0.5);
+    scene.run_until(2.0);
+    CAPTURE(Dim, strength, scene.solid.dissipated().by_damping, scene.solid.bonds().broken_share());
+    CHECK(scene.solid.dissipated().by_damping > 0.01 * scene.ledger.largest_energy());
+    CHECK((scene.solid.bonds().broken_share() > 0.0) == std::isfinite(strength));
+    CHECK(scene.drifts().pseudo_energy <= 1e-12);
+}
+
 TEST_CASE("a bar of grains that strikes a wall stops when the wave is back, within 5 %", "[solid][fracture]") {
     // In one dimension: L/c after it has touched the wall; nu is 0.
     const double length = 2.0, gap = 0.005, speed = 0.01;
