@@ -1,7 +1,7 @@
 # abut_test(<name> SOURCES files... LINK targets... [LAYER name] [LONG] [PROPERTIES name value...])
 #
 # One Catch2 program, test_<name>, and one CTest per TEST_CASE, called "<name>/<title>" or "<layer>/<title>". LINK names what is under test, for
-# example abut::contact. PROPERTIES go to every one of its CTests, for example TIMEOUT 300 or PROCESSORS 2. LONG: some cases have the tag
+# example abut::contact. PROPERTIES go to every one of its CTests, for example TIMEOUT 300 or COST 20. LONG: some cases have the tag
 # [long], and their CTests this label, which continuous integration leaves out. The main program is compiled once, in tests/support; headers
 # there are included as "support/<name>.hpp".
 include(Catch)

@@ -119,7 +119,7 @@ TEST_CASE("the chosen skin costs little more than the best fixed one", "[contact
                 if (surface.body[face] == 1) u[face].x() = x;
         };
         double cost = 0.0, motion = std::numeric_limits<double>::infinity(), x = 0.0;
-        const int steps = 800;
+        const int steps = 400;
         for (int step = 0; step < steps; ++step) {
             const double before = x;
             x += (step / 100 % 2 == 0 ? 1.0 : -1.0) * speed;  // to and fro

@@ -79,15 +79,18 @@ TEST_CASE("a frozen overlap does not keep the energy", "[programs]") {
 }
 
 TEST_CASE("each choice of the method changes the motion", "[programs]") {
-    const std::string choice =
-        GENERATE(as<std::string>(), "--lab weighting=half", "--lab free_faces=extrapolate", "--lab free_faces=adjacent",
-                 set_both("eta", 0.5, 0.5), set_both("poisson", 0.1, 0.1));
-    CAPTURE(choice);
     // unequal bodies: between equal ones the weights are halves
     const std::string bodies = set_both("young", 1.0, 5.0);
-    const auto by_default = run_coarse(bodies, "default_choice");
-    const auto other = run_coarse(bodies + choice, "other_choice");
-    CHECK(read_summary(other)["bodies"][0]["velocity_final"] != read_summary(by_default)["bodies"][0]["velocity_final"]);
+    const auto velocity = [&](const std::string& choice, const std::string& folder) {
+        return read_summary(run_coarse(bodies + choice, folder))["bodies"][0]["velocity_final"];
+    };
+    const auto by_default = velocity("", "default_choice");
+    for (const std::string& choice :
+         {std::string("--lab weighting=half"), std::string("--lab free_faces=extrapolate"),
+          std::string("--lab free_faces=adjacent"), set_both("eta", 0.5, 0.5), set_both("poisson", 0.1, 0.1)}) {
+        CAPTURE(choice);
+        CHECK(velocity(choice, "other_choice") != by_default);
+    }
 }
 
 TEST_CASE("what free faces do beside one in contact changes the motion of bodies with edges", "[programs]") {

@@ -311,7 +311,7 @@ TEMPLATE_TEST_CASE_SIG("the operator of simplices is symmetric, and half its pro
 
 TEMPLATE_TEST_CASE_SIG("the forces of simplices have the same bits on one thread, two and four", "[solid][simplices]",
                        ((int Dim), Dim), 2, 3) {
-    const auto mesh = three_bodies<Dim>(Dim == 2 ? 48 : 12);  // more chunks than the threads take one by one
+    const auto mesh = three_bodies<Dim>(Dim == 2 ? 48 : 10);  // more chunks than the threads take one by one
     const auto conditions =
         with_traces(held_and_pulled<Dim>(FreeFaceRule::local_equilibrium), mesh, GENERATE(Traces::balanced, Traces::affine));
     solid::Ccg<Dim> ccg(mesh, materials, conditions);
