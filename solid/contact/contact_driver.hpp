@@ -90,7 +90,7 @@ public:
     /// In one state with the loads at the end of the step, `time` being when the last step ended. Throws Misuse for a state
     /// too far from where candidates were searched.
     virtual void evaluate(std::span<const Vector<Dim>> q, double time) = 0;
-    /// As `evaluate` where a step has ended and frames have changed since then: pairs that its list does not have bear nothing
+    /// As `evaluate` where a step has ended and frames have changed since: pairs that its list does not have bear nothing
     /// yet.
     virtual void evaluate_listed(std::span<const Vector<Dim>> q, double time) { evaluate(q, time); }
 
