@@ -28,9 +28,9 @@ mesh::Mesh<Dim> two_round_bodies() {
         centre[0] = i == 0 ? -1.005 : 1.005;
         centre[1] = i == 0 ? 0.0 : 0.5;
         if constexpr (Dim == 2)
-            bodies.push_back(mesh::disc({.centre = centre, .size = i == 0 ? 0.08 : 0.09, .variant = i}));
+            bodies.push_back(mesh::disc({.centre = centre, .size = i == 0 ? 0.1 : 0.11, .variant = i}));
         else
-            bodies.push_back(mesh::cylinder({.centre = centre, .length = 0.6, .size = i == 0 ? 0.2 : 0.22, .variant = i}));
+            bodies.push_back(mesh::cylinder({.centre = centre, .length = 0.6, .size = i == 0 ? 0.28 : 0.31, .variant = i}));
     }
     return mesh::combine<Dim>(bodies);
 }

@@ -74,9 +74,9 @@ TEMPLATE_TEST_CASE_SIG("springs, dashpots and moments have the bits of one rank"
                         .length = 1.0}};
     options.moments = {{.body = 0, .moment = AxialVector<Dim>::Constant(0.01), .damping = 0.02},
                        {.body = 1, .moment = AxialVector<Dim>::Constant(-0.02)}};
-    check_same_bits<Dim>(all, mesh, options, towards_each_other<Dim>(0.05), 60, parts(all, mesh),
+    check_same_bits<Dim>(all, mesh, options, towards_each_other<Dim>(0.05), 30, parts(all, mesh),
                          {.waves = 0.01, .spin = 0.05});
-    check_same_bits<Dim, dynamics::Leapfrog>(all, mesh, options, towards_each_other<Dim>(0.05), 20, parts(all, mesh),
+    check_same_bits<Dim, dynamics::Leapfrog>(all, mesh, options, towards_each_other<Dim>(0.05), 10, parts(all, mesh),
                                              {.waves = 0.01, .spin = 0.05});
 }
 

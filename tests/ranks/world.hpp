@@ -2,8 +2,10 @@
 // All ranks of the program.
 #include <mpi.h>
 
+#include <chrono>
 #include <cstdint>
 #include <exception>
+#include <thread>
 #include <vector>
 
 #include "abut/ranks/communicator.hpp"
@@ -17,6 +19,22 @@ inline ranks::Communicator world() { return ranks::Communicator(MPI_Comm_c2f(MPI
     return all.largest(here ? 0.0 : 1.0) == 0.0;
 }
 
+/// The other ranks sleep until the first one comes here: as they wait in MPI they would take processors from it.
+inline void sleep_until_first(const ranks::Communicator& all) {
+    constexpr int tag = 1;
+    if (all.rank() == 0) {
+        for (int rank = 1; rank < all.size(); ++rank) MPI_Send(nullptr, 0, MPI_BYTE, rank, tag, MPI_COMM_WORLD);
+        return;
+    }
+    int is_here = 0;
+    while (true) {
+        MPI_Iprobe(0, tag, MPI_COMM_WORLD, &is_here, MPI_STATUS_IGNORE);
+        if (is_here != 0) break;
+        std::this_thread::sleep_for(std::chrono::microseconds(50));
+    }
+    MPI_Recv(nullptr, 0, MPI_BYTE, 0, tag, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
+}
+
 /// Does it on the first rank alone; what it throws there is thrown on all.
 template <class Do>
 void on_first(const ranks::Communicator& all, Do&& what) {
@@ -28,6 +46,7 @@ void on_first(const ranks::Communicator& all, Do&& what) {
             error = std::current_exception();
         }
     }
+    sleep_until_first(all);
     all.agree(error);
 }
 
@@ -36,6 +55,7 @@ template <class Values, class Compute>
 [[nodiscard]] Values of_first(const ranks::Communicator& all, Compute&& compute) {
     Values values;
     if (all.rank() == 0) values = compute();
+    sleep_until_first(all);
     std::uint64_t n = values.size();
     MPI_Bcast(&n, 1, MPI_UINT64_T, 0, MPI_COMM_WORLD);
     values.resize(n);
