@@ -480,7 +480,7 @@ TEST_CASE("strengths are drawn from the Weibull distribution that is asked for",
         CHECK(n > 300);
         CHECK(farthest < 1.95 / std::sqrt(n));
     }
-    CHECK_THROWS_WITH(strengths_of(0.0, 0), Catch::Contains("Weibull modulus of 0; > 0 is needed"));
+    CHECK_THROWS_WITH(strengths_of(0.0, 0), Catch::Contains("its weibull is 0; above 0 is needed"));
 }
 
 }  // namespace abut::test
