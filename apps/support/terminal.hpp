@@ -5,8 +5,8 @@
 
 namespace abut::apps {
 
-/// Whether a terminal shows at once what goes to this descriptor. Of a rank that `--ranks` has started it is the terminal of the
-/// program that was called.
+/// Whether a terminal shows at once what goes to this descriptor. Of a rank that `--ranks` has started it is the
+/// terminal of the program that was called.
 [[nodiscard]] bool is_terminal(int descriptor);
 
 /// Columns of the terminal behind a descriptor; what COLUMNS in the environment says where that is set, 20 at least;
