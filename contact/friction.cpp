@@ -7,6 +7,7 @@
 #include "abut/base/error.hpp"
 #include "abut/base/ids.hpp"
 #include "abut/base/messages.hpp"
+#include "abut/contact/option_table.hpp"
 
 namespace abut::contact {
 namespace {
@@ -16,21 +17,10 @@ namespace {
 }
 
 void check(const Friction& law) {
-    const auto not_negative = [](const std::string& name, double value, const std::string& unit) {
-        if (!(value >= 0.0) || !std::isfinite(value)) refuse(name, value, "it must be finite and >= 0" + unit + ".");
-    };
-    const auto positive = [](const std::string& name, double value, const std::string& unit) {
-        if (!(value > 0.0)) refuse(name, value, "it must be > 0" + unit + "; leave it out where it has no part.");
-    };
-    not_negative("coefficient", law.coefficient, "");
-    if (!std::isnan(law.sliding_coefficient)) not_negative("sliding_coefficient", law.sliding_coefficient, "");
-    positive("decay_speed", law.decay_speed, " m/s");
-    positive("decay_slip", law.decay_slip, " m");
-    not_negative("strength", law.strength, " Pa");
-    positive("relaxation_time", law.relaxation_time, " s");
+    check_options("", friction_options(), law);
     const bool decays = std::isfinite(law.decay_speed) || std::isfinite(law.decay_slip);
     if (!std::isnan(law.sliding_coefficient) && law.sliding_coefficient != law.coefficient && !decays)
-        refuse("sliding_coefficient", law.sliding_coefficient,
+        refuse("sliding_friction", law.sliding_coefficient,
                "say when it is reached: give `decay_speed` [m/s] or `decay_slip` [m].");
 }
 

@@ -1,6 +1,16 @@
 #include "abut/dynamics/step_options.hpp"
 
+#include "abut/base/error.hpp"
+#include "abut/base/messages.hpp"
+
 namespace abut::dynamics {
+
+void require_stable(const std::string& what, double dt, double stable_dt, const std::string& remedy) {
+    if (dt <= stable_dt) return;
+    throw BadInput(what + " is " + number(dt) + " s, above the stable step of " + number(stable_dt) +
+                       " s, from which on vibrations grow. " + remedy,
+                   {.value = dt, .allowed = stable_dt});
+}
 
 const OptionList<StepOptions>& step_options() {
     using Of = StepOptions;

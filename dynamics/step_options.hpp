@@ -1,5 +1,6 @@
 #pragma once
 #include <limits>
+#include <string>
 
 #include "abut/base/option.hpp"
 
@@ -11,6 +12,10 @@ struct StepOptions {
     double dt = std::numeric_limits<double>::quiet_NaN();  ///< time step [s], instead of `cfl`
     int restart = 0;                                       ///< steps between neutral restarts; 0: none
 };
+
+/// Throws BadInput for a step above the stable one: "<what> is 2 s, above the stable step of 1 s, from which on vibrations
+/// grow. <remedy>".
+void require_stable(const std::string& what, double dt, double stable_dt, const std::string& remedy);
 
 [[nodiscard]] const OptionList<StepOptions>& step_options();
 

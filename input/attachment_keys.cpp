@@ -1,4 +1,5 @@
 #include "abut/input/keys.hpp"
+#include "abut/solid/options/number_tables.hpp"
 
 namespace abut::input {
 namespace {
@@ -27,14 +28,16 @@ const Keys<AnchorSettings>& anchor_keys() {
 
 const Keys<SpringSettings>& spring_keys() {
     using Spring = SpringSettings;
+    using Law = solid::Spring<3>;
+    const auto limits_of = [](double Law::*member) { return number_of(solid::spring_numbers<3>, member).limits; };
     using Of = Make<Spring>;
     static const Keys<Spring> keys = {
         anchor("from", &Spring::from, "one end, such as {body = \"left\", point = [0, 0]}"),
         anchor("to", &Spring::to, "the other end, as from"),
-        Of::number("stiffness", &Spring::stiffness, {.unit = "N/m", .above = 0.0, .zero = true}, "of the spring"),
-        Of::number("length", &Spring::length, {.unit = "m", .above = 0.0, .zero = true},
+        Of::number("stiffness", &Spring::stiffness, limits_of(&Law::stiffness), "of the spring"),
+        Of::number("length", &Spring::length, limits_of(&Law::length),
                    "where it is not tense, 0: a hinge; by default the distance of its ends at rest"),
-        Of::number("damping", &Spring::damping, {.unit = "N s/m", .above = 0.0, .zero = true},
+        Of::number("damping", &Spring::damping, limits_of(&Law::damping),
                    "of the dashpot beside it, along it; of a hinge in all directions")};
     return keys;
 }

@@ -7,9 +7,12 @@
 #include <vector>
 
 #include "abut/input/keys.hpp"
+#include "abut/mesh/grains.hpp"
 #include "abut/mesh/io/length_units.hpp"
+#include "abut/mesh/mesh_words.hpp"
 #include "abut/run/option_table.hpp"
 #include "abut/solid/material/material_numbers.hpp"
+#include "abut/solid/options/number_tables.hpp"
 #include "abut/solid/options/option_words.hpp"
 
 namespace abut::input {
@@ -30,8 +33,6 @@ constexpr std::array<CellWord, 6> cell_words{{{"triangle", mesh::CellShape::tria
                                               {"hexahedron", mesh::CellShape::hexahedron},
                                               {"prism", mesh::CellShape::prism},
                                               {"pyramid", mesh::CellShape::pyramid}}};
-constexpr std::array<Word<mesh::NonPlanarFaces>, 2> non_planar_words{
-    {{"fail", mesh::NonPlanarFaces::fail}, {"split", mesh::NonPlanarFaces::split}}};
 /// Words of run::kinematics_words that a body may have by itself.
 std::vector<Word<solid::Kinematics>> body_kinematics() {
     std::vector<Word<solid::Kinematics>> words;
@@ -186,14 +187,14 @@ const Keys<FractureSettings>& fracture_keys() {
     using Part = FractureSettings;
     using From = Make<Part>;
     static const Keys<Part> keys = {
-        required(From::number("grain", &Part::grain, a_length,
+        required(From::number("grain", &Part::grain, mesh::grain_size,
                               "size of the pieces: edge of a square or cube as large. Cracks follow their faces")),
-        required(From::number("strength", &Part::strength, {.unit = "Pa", .above = 0.0},
+        required(From::number("strength", &Part::strength, number_of(solid::bond_numbers, &solid::Bond::strength).limits,
                               "largest traction that a face between pieces bears, pressure not counted")),
         From::number(
-            "fracture_energy", &Part::fracture_energy, {.unit = "J/m^2", .above = 0.0, .zero = true},
+            "fracture_energy", &Part::fracture_energy, number_of(solid::bond_numbers, &solid::Bond::fracture_energy).limits,
             "energy per area that an opening crack takes; 0: faces break at once, with less energy in smaller cells"),
-        From::number("weibull", &Part::weibull, {.above = 0.0},
+        From::number("weibull", &Part::weibull, number_of(solid::bond_numbers, &solid::Bond::weibull_modulus).limits,
                      "modulus of the scatter of strength from face to face, 63 % of which are below `strength`; not given: "
                      "all have it"),
         From::count("seed", &Part::seed, 0, Of::many, "another one gives other pieces and another scatter")};
@@ -204,10 +205,12 @@ const Keys<solid::ErosionLimits>& erosion_keys() {
     using Limits = solid::ErosionLimits;
     using From = Make<Limits>;
     static const Keys<Limits> keys = {
-        From::number("strain", &Limits::strain, {.above = 0.0},
+        From::number("strain", &Limits::strain, number_of(solid::erosion_numbers, &Limits::strain).limits,
                      "largest principal strain of a cell; of finite bodies its largest stretch less 1"),
-        From::number("plastic_strain", &Limits::plastic_strain, {.above = 0.0}, "equivalent one, of j2"),
-        From::number("stress", &Limits::stress, {.unit = "Pa", .above = 0.0}, "largest principal stress, tension above 0")};
+        From::number("plastic_strain", &Limits::plastic_strain,
+                     number_of(solid::erosion_numbers, &Limits::plastic_strain).limits, "equivalent one, of j2"),
+        From::number("stress", &Limits::stress, number_of(solid::erosion_numbers, &Limits::stress).limits,
+                     "largest principal stress, tension above 0")};
     return keys;
 }
 
@@ -291,7 +294,7 @@ const std::vector<Variety<Body, Shape>>& body_varieties() {
           {2, 3},
           {required(
                Of::text("mesh", &Body::mesh, "path", ".msh or .vtu file, from the folder of the scene; no shape is needed")),
-           Of::word("non_planar", &Body::non_planar, non_planar_words,
+           Of::word("non_planar", &Body::non_planar, mesh::non_planar_words,
                     "cells with faces that are not planar: refuse them, or split them into tetrahedra"),
            Of::number("planarity_tolerance", &Body::planarity_tolerance, {.above = 0.0, .zero = true},
                       "how far a corner may lie off the plane of its face, over the size of the face")}},

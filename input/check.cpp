@@ -235,7 +235,8 @@ std::string text_of(const Estimate& estimate) {
     line("steps", fmt::format("{}", estimate.steps));
     if (!estimate.fewer_steps.empty()) line("  fewer by", estimate.fewer_steps);
     line("end", fmt::format("{:.4g} s", estimate.end));
-    line("takes", fmt::format("about {}, contact and frames not counted", duration(estimate.seconds)));
+    line("takes",
+         fmt::format("about {}, without frames and contacts that are not closed at the start", duration(estimate.seconds)));
     line("memory", fmt::format("about {:.2g} MB", 1e-6 * estimate.bytes));
     return text;
 }

@@ -8,6 +8,7 @@
 #include <numeric>
 #include <utility>
 
+#include "abut/base/counted.hpp"
 #include "abut/base/error.hpp"
 #include "abut/contact/surface/obstacle.hpp"
 #include "abut/geometry/box.hpp"
@@ -81,23 +82,13 @@ struct Shell {
 void require_one_side(const mesh::SurfaceMesh& surface, const geometry::SurfaceReport& health, double volume) {
     if (!health.inconsistent_edges.empty())
         throw BadInput(fmt::format(
-            "{}: {} edges have faces that look to different sides of the surface, the first one beside "
-            "face {}, so that bodies would meet some of them from behind. Turn these faces around.",
-            surface.name, health.inconsistent_edges.size(), surface.label(health.inconsistent_edges.front().face)));
-    std::vector<geometry::Box<3>> boxes(health.components.size());
-    for (std::int32_t face = 0; face < surface.faces.size(); ++face)
-        if (const std::int32_t part = health.face_component[static_cast<std::size_t>(face)]; part >= 0)
-            for (const std::int32_t v : surface.faces[face])
-                boxes[static_cast<std::size_t>(part)].extend(surface.vertices[v]);
-    const auto is_around = [&](std::size_t outer, std::size_t inner) {
-        return all_at_most(boxes[outer].lower, boxes[inner].lower) && all_at_most(boxes[inner].upper, boxes[outer].upper);
-    };
-    for (std::size_t part = 0; part < boxes.size(); ++part) {
-        if (!(health.components[part].volume * volume < 0.0)) continue;
-        bool is_cavity = false;
-        for (std::size_t other = 0; other < boxes.size(); ++other)
-            is_cavity = is_cavity || (health.components[other].volume * volume > 0.0 && is_around(other, part));
-        if (is_cavity) continue;
+            "{}: {} faces that look to different sides of the surface, the first one beside face {}, so that bodies would "
+            "meet some of them from behind. Turn these faces around.",
+            surface.name, counted(std::ssize(health.inconsistent_edges), "edge has", "edges have"),
+            surface.label(health.inconsistent_edges.front().face)));
+    const std::vector<bool> cavities = mesh::cavities_of(surface, health);
+    for (std::size_t part = 0; part < cavities.size(); ++part) {
+        if (!(health.components[part].volume * volume < 0.0) || cavities[part]) continue;
         throw BadInput(
             fmt::format("{}: its part with face {} looks inwards, other than the rest, and lies in no other part whose "
                         "cavity it could be. Turn its {} faces around.",

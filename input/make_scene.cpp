@@ -113,7 +113,8 @@ void add_bodies(run::Scene<Dim>& scene, const Settings& settings, std::vector<Fa
 std::string more_cells(std::span<const mesh::Interpenetration> found, const std::array<std::int32_t, 2>& bodies) {
     const std::int64_t n = std::ranges::count(found, bodies, &mesh::Interpenetration::bodies);
     if (n >= mesh::enough_interpenetrations.of_two_bodies)
-        return fmt::format(" ({} pairs of cells were looked at, more may overlap, and deeper)", n);
+        return fmt::format(" ({} looked at, more may overlap, and deeper)",
+                           counted(n, "pair of cells was", "pairs of cells were"));
     return std::ssize(found) >= mesh::enough_interpenetrations.in_all
                ? fmt::format(" (the search ended at {} pairs of cells: more bodies may overlap)", found.size())
                : "";

@@ -74,6 +74,8 @@ constexpr std::array synonyms = std::to_array<Synonym>({{"e", "young"},
                                                         {"angular_velocity", "spin"},
                                                         {"min", "lower"},
                                                         {"max", "upper"},
+                                                        {"points", "corners"},
+                                                        {"vertices", "corners"},
                                                         {"n", "counts"},
                                                         {"divisions", "counts"},
                                                         {"elements", "counts"},
@@ -140,7 +142,7 @@ std::string hint_of_key(const std::string& word, const std::vector<std::string>&
             return fmt::format(" It is a key of [laboratory], which compares methods; on a command line --lab {}=VALUE.",
                                small);
     if (is_of_surfaces(small) && std::ranges::find(known, "mesh") != known.end())
-        return " It goes with `surface`, a file of triangles such as .stl, and `mesh` is a file of cells.";
+        return " It goes with `surface`, a closed surface in 3D such as an .stl, and `mesh` is a file of cells.";
     for (const Synonym& synonym : synonyms)
         if (synonym.word == small && std::ranges::find(known, synonym.key) != known.end())
             return fmt::format(" Did you mean '{}'?", synonym.key);

@@ -96,7 +96,7 @@ void merge_overrides(Node& document, const std::vector<std::string>& set, std::v
 void check_options(const Settings& settings, std::vector<Fault>& faults) {
     const std::string where = settings.file.string();
     const run::RunOptions& options = settings.options;
-    if (std::isnan(options.time) && options.steps == 0)
+    if (std::isnan(options.time) && options.steps == 0 && !settings.given.has("run.time"))
         faults.push_back({where, "nothing says when the run ends. Give run.time [s] or run.steps."});
     if (options.allow_unstable && std::isnan(options.dt))
         faults.push_back({where, "run.allow_unstable is for run.dt, which is missing. Give it, or leave both out."});

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "abut/base/given_value.hpp"
 #include "abut/input/nearest_word.hpp"
 
 namespace abut::input {
@@ -108,10 +109,9 @@ std::optional<Formula> Reader::formula(const Node& node, const std::string& key,
 std::optional<double> Reader::number(const Node& node, const std::string& key, const Limits& limits) {
     const auto value = formula(node, key, limits, Variables::none);
     if (!value) return std::nullopt;
-    if (limits.allow(value->value())) return value->value();
-    const std::string allowed = text_of(limits);
-    fault(node, fmt::format("{} is {}, {} is needed.", key, with_unit_of(limits, value->value()),
-                            allowed.empty() ? "a finite number" : allowed));
+    std::string wrong = fault_of(key, limits, value->value());
+    if (wrong.empty()) return value->value();
+    fault(node, std::move(wrong));
     return std::nullopt;
 }
 

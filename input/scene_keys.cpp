@@ -8,6 +8,7 @@
 #include "abut/input/option_keys.hpp"
 #include "abut/mesh/io/length_units.hpp"
 #include "abut/run/option_table.hpp"
+#include "abut/solid/options/number_tables.hpp"
 
 namespace abut::input {
 namespace {
@@ -169,10 +170,11 @@ const Keys<BondSettings>& bond_keys() {
         key_of<BondSettings>("groups", "names",
                              "two groups of boundary faces, \"<body>.<group>\"; one of them beside one of `bodies`",
                              &BondSettings::groups, names),
-        Make<BondSettings>::number("strength", &BondSettings::strength, {.unit = "Pa", .above = 0.0},
+        Make<BondSettings>::number("strength", &BondSettings::strength,
+                                   number_of(solid::bond_numbers, &solid::Bond::strength).limits,
                                    "largest traction that it bears, pressure not counted; not given: it holds for ever"),
         Make<BondSettings>::number("fracture_energy", &BondSettings::fracture_energy,
-                                   {.unit = "J/m^2", .above = 0.0, .zero = true},
+                                   number_of(solid::bond_numbers, &solid::Bond::fracture_energy).limits,
                                    "that it takes per area as it opens from its strength on; 0: it breaks at once")};
     return keys;
 }

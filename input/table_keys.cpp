@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "abut/base/counted.hpp"
 #include "abut/input/key_readers.hpp"
 #include "abut/input/keys.hpp"
 #include "abut/input/make_body.hpp"
@@ -236,7 +237,8 @@ void read(PatternSettings& pattern, const Node& table, const std::string& path, 
     for (const auto& [key, with] : {std::pair("shift", "step"), std::pair("angle", "centre"), std::pair("turns", "places")})
         if (has(key) && !has(with)) return fault(fmt::format(" has {} without {}. Leave it out.", key, with));
     if (!pattern.turns.empty() && pattern.turns.size() != pattern.places.size())
-        fault(fmt::format(" has {} turns for {} places. Give as many.", pattern.turns.size(), pattern.places.size()));
+        fault(fmt::format(" has {} for {}. Give as many.", counted(std::ssize(pattern.turns), "turn"),
+                          counted(std::ssize(pattern.places), "place")));
 }
 
 void read(SymmetrySettings& symmetry, const Node& table, const std::string& path, Reader& reader) {

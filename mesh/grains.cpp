@@ -16,6 +16,7 @@
 #include "abut/base/decompositions.hpp"
 #include "abut/base/disjoint_sets.hpp"
 #include "abut/base/error.hpp"
+#include "abut/base/given_value.hpp"
 #include "abut/base/messages.hpp"
 
 namespace abut::mesh {
@@ -221,9 +222,7 @@ private:
 
 template <int Dim>
 std::vector<std::int32_t> grains_of(const Mesh<Dim>& mesh, const GrainOptions& options) {
-    if (!(options.size > 0.0))
-        throw BadInput(mesh.name + ": grains of size " + number(options.size) + " m are asked for; > 0 is needed.",
-                       {.value = options.size, .allowed = 0.0});
+    require_allowed(mesh.name + ": the size of grains", grain_size, options.size);
     std::vector<std::int32_t> grains = Grains<Dim>(mesh, options).make();
     if (*std::ranges::max_element(grains) + 1 > mesh.n_bodies()) return grains;
     const double smallest = std::pow(least_cells_of_grain<Dim> * *std::ranges::max_element(mesh.cell_measure), 1.0 / Dim);

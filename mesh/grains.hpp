@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "abut/base/option.hpp"
 #include "abut/mesh/mesh.hpp"
 
 namespace abut::mesh {
@@ -11,6 +12,8 @@ struct GrainOptions {
     double size = 0.0;       ///< edge of a square or cube as large as a grain should be [m], > 0
     std::uint32_t seed = 0;  ///< another one gives other grains of the same size
 };
+
+inline constexpr Limits grain_size{.unit = "m", .above = 0.0};  ///< of GrainOptions::size
 
 /// Fewest cells of a grain: smaller ones join a neighbour, and so do those whose centroids lie in one plane. It is twice the
 /// Dim + 1 cells, itself included, that the gradient of a cell needs.

@@ -4,6 +4,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "abut/base/counted.hpp"
 #include "abut/base/disjoint_sets.hpp"
 #include "abut/base/error.hpp"
 #include "abut/base/index.hpp"
@@ -70,7 +71,7 @@ void append_displacement(SurfaceMesh& all, const SurfaceMesh& mesh) {
     constexpr std::size_t most = 5;
     const std::size_t n = health.unusable_faces.size();
     std::string message =
-        mesh.name + ": " + std::to_string(n) + " of " + std::to_string(health.n_faces) + " faces " + "cannot be used: ";
+        mesh.name + ": " + std::to_string(n) + " of " + counted(health.n_faces, "face") + " cannot be used: ";
     for (std::size_t i = 0; i < std::min(n, most); ++i) {
         const std::int32_t face = health.unusable_faces[i];
         message += (i > 0 ? "; face " : "face ") + std::to_string(mesh.label(face)) + " " +
@@ -243,16 +244,32 @@ SurfaceMesh boundary_of(const Mesh<3>& mesh, std::span<const Vector<3>> displace
 
 CleanSurface clean(const SurfaceMesh& mesh, const geometry::SurfaceReport& health, UnusableFaces policy) {
     if (health.n_faces != mesh.faces.size() || at(health.n_vertices) != mesh.vertices.size())
-        throw BadInput(mesh.name + ": has " + std::to_string(mesh.faces.size()) + " faces and " +
-                       std::to_string(mesh.vertices.size()) + " vertices, but the health is that of " +
-                       std::to_string(health.n_faces) + " faces and " + std::to_string(health.n_vertices) +
-                       " vertices. Give that of this surface.");
+        throw BadInput(mesh.name + ": has " + counted(mesh.faces.size(), "face") + " and " +
+                       counted(std::ssize(mesh.vertices), "vertex", "vertices") + ", but the health is that of " +
+                       counted(health.n_faces, "face") + " and " + counted(health.n_vertices, "vertex", "vertices") +
+                       ". Give that of this surface.");
     if (!health.unusable_faces.empty() && (policy == UnusableFaces::fail || health.n_usable() == 0))
         refuse_faces(mesh, health);
     if (health.n_usable() == 0)
         throw MeshError(mesh.name +
                         ": the surface is empty: it has 0 faces, at least 1 is needed. Write the surface again.");
     return Cleaning(mesh, health).result();
+}
+
+std::vector<bool> cavities_of(const SurfaceMesh& mesh, const geometry::SurfaceReport& health) {
+    const auto& parts = health.components;
+    std::vector<geometry::Box<3>> boxes(parts.size());
+    for (std::int32_t face = 0; face < mesh.faces.size(); ++face)
+        if (const std::int32_t part = health.face_component[at(face)]; part >= 0)
+            for (const std::int32_t v : mesh.faces[face]) boxes[at(part)].extend(mesh.vertices[at(v)]);
+    const auto is_around = [&](std::size_t outer, std::size_t inner) {
+        return all_at_most(boxes[outer].lower, boxes[inner].lower) && all_at_most(boxes[inner].upper, boxes[outer].upper);
+    };
+    std::vector<bool> cavities(parts.size(), false);
+    for (std::size_t inner = 0; inner < parts.size(); ++inner)
+        for (std::size_t outer = 0; outer < parts.size(); ++outer)
+            if (parts[outer].volume * parts[inner].volume < 0.0 && is_around(outer, inner)) cavities[inner] = true;
+    return cavities;
 }
 
 }  // namespace abut::mesh

@@ -68,4 +68,8 @@ struct CleanSurface {
 /// nothing is left; BadInput if `health` is that of another surface.
 [[nodiscard]] CleanSurface clean(const SurfaceMesh& mesh, const geometry::SurfaceReport& health, UnusableFaces policy);
 
+/// Whether each part of a surface is a cavity: it looks the other way than another part, in whose box it lies (n_parts).
+/// `health` is check_surface(mesh.soup()).
+[[nodiscard]] std::vector<bool> cavities_of(const SurfaceMesh& mesh, const geometry::SurfaceReport& health);
+
 }  // namespace abut::mesh

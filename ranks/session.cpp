@@ -140,6 +140,7 @@ int code_of(pid_t process) {
 }  // namespace
 
 void start_on(int n_ranks) {
+    if (isatty(STDOUT_FILENO) != 1) setenv(plain_output, "1", 1);
     std::vector<std::string> words = command_for(n_ranks);
     std::vector<char*> pointers;
     for (std::string& word : words) pointers.push_back(word.data());

@@ -12,6 +12,8 @@ namespace abut::ranks {
 /// Whether mpirun, or what stands for it, has started this process as one of several: as its environment says (Open MPI,
 /// MPICH and others that follow PMI, Slurm's srun).
 [[nodiscard]] bool is_launched();
+/// Variable of the environment of ranks whose launcher (`start_on`) writes to no terminal: mpirun gives them one of its own.
+inline constexpr const char* plain_output = "ABUT_PLAIN_OUTPUT";
 
 /// MPI from here to the end of the scope, for programs of ours; a host has its own, and needs none of this. One in a
 /// process.

@@ -9,6 +9,7 @@
 #include <numeric>
 
 #include "abut/base/error.hpp"
+#include "abut/dynamics/step_options.hpp"
 #include "abut/run/option_table.hpp"
 #include "abut/run/user_words.hpp"
 #include "abut/solid/combinations/combinations.hpp"
@@ -94,12 +95,9 @@ double choose_step(const RunOptions& options, double stable_dt) {
             "--cfl: nothing resists a displacement, as of rigid bodies that touch nothing, and every step is stable. "
             "Give one by --dt, a hundredth of a turn or shorter.");
     const double dt = by_cfl ? options.cfl * stable_dt : options.dt;
-    if (!(dt <= stable_dt) && !options.allow_unstable)
-        throw BadInput(
-            fmt::format("{}: {:.6g} s is above the stable step of {:.6g} s. Take at most that, or --cfl of at most "
-                        "1; --allow-unstable takes it all the same.",
-                        by_cfl ? "--cfl" : "--dt", dt, stable_dt),
-            {.value = dt, .allowed = stable_dt});
+    if (!options.allow_unstable)
+        dynamics::require_stable(by_cfl ? "--cfl: the step" : "--dt", dt, stable_dt,
+                                 "Take at most that, or --cfl of at most 1; --allow-unstable takes it all the same.");
     return dt;
 }
 

@@ -89,8 +89,8 @@ BodyContacts contacts_of(const Bodies& bodies, const StepResult& result) {
     for (const MeetingBodies& meeting : result.neighbours.meeting) {
         BodyContact& contact = contacts[{meeting.body_1, meeting.body_2}];
         contact.depth = meeting.depth;
-        contact.crosses = meeting.depth > 0.0;
         contact.inner = meeting.inner;
+        contact.crosses = meeting.depth > 0.0 && meeting.inner < 0;
     }
     return contacts;
 }

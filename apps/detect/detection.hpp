@@ -49,7 +49,7 @@ struct BodyContact {
     double gap_min = nan;       ///< [m]; not a number without overlaps
     double distance_min = nan;  ///< of faces that overlap [m]; not a number without
     double depth = 0.0;         ///< how deep they lie in each other [m]; below 0: how far these faces are apart
-    bool crosses = false;       ///< a point of one is inside of the other one
+    bool crosses = false;       ///< one is partly inside of the other one
     std::int32_t inner = -1;    ///< that which is wholly inside; -1: neither is
 };
 /// By pair of bodies, the smaller number first: those with overlaps, and all that meet. Distances must have been measured.

@@ -49,6 +49,7 @@ int report_errors(const Program& program, const Body& body) {
 
 int run_body(const Program& program, const std::function<void()>& body) {
     const auto terminal = std::make_shared<spdlog::sinks::stdout_color_sink_mt>();
+    if (!is_terminal(STDOUT_FILENO)) terminal->set_color_mode(spdlog::color_mode::never);
     terminal->set_color(spdlog::level::info, terminal->reset);  // what warns is coloured alone
     spdlog::set_default_logger(std::make_shared<spdlog::logger>(program.name, terminal));
     spdlog::set_pattern("[%T] %^%v%$");

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "apps/support/standard_streams.hpp"
+#include "apps/support/terminal.hpp"
 
 #include "abut/run/result.hpp"
 #include "abut/run/scene.hpp"
@@ -29,7 +30,7 @@ std::int64_t next_tenth(std::int64_t step, std::int64_t n_steps) {
 Progress::Progress(std::int64_t n_steps)
     : n_steps_(n_steps),
       time_left_(n_steps),
-      terminal_(isatty(STDOUT_FILENO) == 1),
+      terminal_(is_terminal(STDOUT_FILENO)),
       next_step_(next_tenth(0, n_steps)),
       start_(Clock::now()),
       last_(start_) {}
@@ -56,7 +57,7 @@ void Progress::show(std::int64_t step, double time, double drift) {
     std::fflush(stdout);
 }
 
-SettlingLine::SettlingLine() : terminal_(isatty(STDOUT_FILENO) == 1) {}
+SettlingLine::SettlingLine() : terminal_(is_terminal(STDOUT_FILENO)) {}
 
 SettlingLine::~SettlingLine() {
     if (!line_open_) return;

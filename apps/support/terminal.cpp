@@ -9,6 +9,8 @@
 #include <sstream>
 #include <string_view>
 
+#include "abut/ranks/session.hpp"
+
 namespace abut::apps {
 namespace {
 
@@ -50,6 +52,8 @@ std::string wrapped_line(const std::string& line, std::size_t width) {
 
 }  // namespace
 
+bool is_terminal(int descriptor) { return isatty(descriptor) == 1 && std::getenv(ranks::plain_output) == nullptr; }
+
 std::optional<std::size_t> terminal_width(int descriptor) {
     if (const char* columns = std::getenv("COLUMNS")) {
         std::size_t width = 0;
@@ -58,7 +62,7 @@ std::optional<std::size_t> terminal_width(int descriptor) {
         if (error == std::errc() && end == text.data() + text.size() && width > 0) return std::max(width, least_width);
     }
     winsize size{};
-    if (isatty(descriptor) != 1 || ioctl(descriptor, TIOCGWINSZ, &size) != 0 || size.ws_col == 0) return std::nullopt;
+    if (!is_terminal(descriptor) || ioctl(descriptor, TIOCGWINSZ, &size) != 0 || size.ws_col == 0) return std::nullopt;
     return std::max<std::size_t>(size.ws_col, least_width);
 }
 

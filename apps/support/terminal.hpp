@@ -5,6 +5,10 @@
 
 namespace abut::apps {
 
+/// Whether a terminal shows at once what goes to this descriptor. Of a rank that `--ranks` has started it is the
+/// terminal of the program that was called.
+[[nodiscard]] bool is_terminal(int descriptor);
+
 /// Columns of the terminal behind a descriptor; what COLUMNS in the environment says where that is set, 20 at least;
 /// nothing where there is neither: what goes to a file or another program keeps its lines.
 [[nodiscard]] std::optional<std::size_t> terminal_width(int descriptor);

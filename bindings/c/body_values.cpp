@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "abut/base/error.hpp"
+#include "abut/base/given_value.hpp"
 #include "abut/base/unit.hpp"
 #include "abut/solid/kinematics/properties.hpp"
 #include "abut/solid/material/material_numbers.hpp"
@@ -14,42 +15,14 @@
 namespace abut::c_layer {
 namespace {
 
-/// "'a', 'b'"
-template <class List, class NameOf>
-std::string names_of(const List& list, const NameOf& name_of) {
-    std::string names;
-    for (const auto& one : list) names += (names.empty() ? "'" : ", '") + std::string(name_of(one)) + "'";
-    return names;
-}
-
 const solid::MaterialNumber& number_called(const std::string& key) {
-    const auto number = std::ranges::find(solid::material_numbers, key, &solid::MaterialNumber::name);
-    if (number == solid::material_numbers.end())
-        throw BadInput("a body has no number '" + key + "'. There are " +
-                       names_of(solid::material_numbers, [](const auto& one) { return one.name; }) + ".");
-    return *number;
-}
-
-template <class Choice, std::size_t N>
-Choice choice_of(const std::array<Word<Choice>, N>& words, const std::string& key, const std::string& text) {
-    for (const auto& [word, choice] : words)
-        if (text == word) return choice;
-    throw BadInput(key + " is '" + text + "'. There are " + names_of(words, [](const auto& one) { return one.word; }) + ".");
+    return entry_called(solid::material_numbers, &solid::MaterialNumber::name, "a number of a body", key);
 }
 
 solid::Kinematics kinematics_called(const std::string& text) {
     const auto& all = solid::kinematics_properties;
-    const auto found = std::ranges::find(all, text, &solid::KinematicsProperties::name);
-    if (found == all.end())
-        throw BadInput("kinematics is '" + text + "'. There are " + names_of(all, [](const auto& one) { return one.name; }) +
-                       ".");
-    return static_cast<solid::Kinematics>(found - all.begin());
-}
-
-const solid::KnownMaterial& known_by(const std::string& name) {
-    if (const solid::KnownMaterial* known = solid::known_material(name)) return *known;
-    throw BadInput("'" + name + "' is no material that is known by its name. There are " +
-                   names_of(solid::known_materials(), [](const auto& one) { return one.name; }) + ".");
+    const auto& found = entry_called(all, &solid::KinematicsProperties::name, "kinematics", text);
+    return static_cast<solid::Kinematics>(&found - all.data());
 }
 
 double with_unit(const solid::MaterialNumber& number, const std::string& text) {
@@ -64,23 +37,17 @@ double with_unit(const solid::MaterialNumber& number, const std::string& text) {
 
 void set_number(BodyValues& values, const std::string& key, double value) {
     const solid::MaterialNumber& number = number_called(key);
-    if (!number.limits.allow(value)) {
-        const std::string allowed = text_of(number.limits), remedy = number.limits.remedy;
-        throw BadInput(key + " is " + with_unit_of(number.limits, value) + "; " +
-                           (allowed.empty() ? "a finite number" : allowed) + " is allowed." +
-                           (remedy.empty() ? "" : " " + remedy),
-                       {.value = value});
-    }
+    require_allowed(key, number.limits, value);
     number.at.in(values.material) = value;
 }
 
 void set_text(BodyValues& values, const std::string& key, const std::string& text) {
     if (key == "law") {
-        values.material.law = choice_of(solid::material_law_words, key, text);
+        values.material.law = choice_called(solid::material_law_words, key, text);
     } else if (key == "kinematics") {
         values.kinematics = kinematics_called(text);
     } else if (key == "material") {
-        values.known = &known_by(text);
+        values.known = &solid::material_called(text);
         for (const auto member : {&solid::Material::young, &solid::Material::poisson, &solid::Material::density})
             values.material.*member = values.known->material.*member;
     } else {

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "abut/base/error.hpp"
+#include "abut/base/given_value.hpp"
 #include "abut/base/messages.hpp"
 #include "abut/contact/option_table.hpp"
 #include "abut/dynamics/ledger.hpp"
@@ -21,6 +22,7 @@
 #include "abut/solid/contact_view.hpp"
 #include "abut/solid/fragments.hpp"
 #include "abut/solid/kinematics/properties.hpp"
+#include "abut/solid/options/number_tables.hpp"
 #include "abut/solid/outside_faces.hpp"
 #include "abut/solid/outside_view.hpp"
 #include "abut/solid/step_of_breaking.hpp"
@@ -46,14 +48,14 @@ void write_items(std::span<const double> values, int per_item, const abut_array&
             to.data[i * to.item + d * to.component] = values[static_cast<std::size_t>(i * per_item + d)];
 }
 
-/// Throws BadInput for a step above the stable one. `whose`: "abut_solid_options.dt".
-void require_stable(double dt, double stable_dt, const std::string& whose) {
-    if (dt > stable_dt)
-        throw BadInput(
-            whose + " is " + number(dt) + " s, above the stable step of " + number(stable_dt) +
-                " s, from which on vibrations grow. Give at most that (abut_solid_state.stable_dt), or a cfl of at "
-                "most 1.",
-            {.value = dt, .allowed = stable_dt});
+constexpr const char* stable_remedy = "Give at most that (abut_solid_state.stable_dt), or a cfl of at most 1.";
+
+/// "is 'bar'", "are 'block_1.block', 'block_2.block'"; of many the first ones.
+std::string names_in_words(const std::vector<std::string>& names) {
+    constexpr std::size_t most = 6;
+    std::string text = names.size() == 1 ? "is '" : "are '";
+    for (std::size_t i = 0; i < std::min(names.size(), most); ++i) text += (i > 0 ? "', '" : "") + names[i];
+    return text + (names.size() > most ? "' and " + std::to_string(names.size() - most) + " more" : "'");
 }
 
 template <int Dim>
@@ -61,21 +63,10 @@ std::span<const double> numbers_of(const std::vector<Vector<Dim>>& vectors) {
     return {vectors.empty() ? nullptr : vectors.front().data(), vectors.size() * Dim};
 }
 
-void check(const abut_fracture& fracture) {
-    const auto refuse = [](const char* field, double value, const char* needed) {
-        throw BadInput(std::string("abut_fracture.") + field + " is " + number(value) + "; " + needed + " is needed.",
-                       {.value = value, .allowed = 0.0});
-    };
-    if (!(fracture.grain > 0.0)) refuse("grain", fracture.grain, "a size > 0 [m]");
-    if (!(fracture.strength > 0.0)) refuse("strength", fracture.strength, "a stress > 0 [Pa]");
-    if (!(fracture.fracture_energy >= 0.0)) refuse("fracture_energy", fracture.fracture_energy, "an energy >= 0 [J/m^2]");
-    if (!(fracture.weibull >= 0.0)) refuse("weibull", fracture.weibull, "a modulus > 0, or 0 for no scatter,");
-}
-
 solid::Bond bond_of(const abut_fracture& fracture) {
     solid::Bond bond{.strength = fracture.strength, .fracture_energy = fracture.fracture_energy};
     bond.of_grains = true;
-    if (fracture.weibull > 0.0) bond.weibull_modulus = fracture.weibull;
+    if (fracture.weibull != 0.0) bond.weibull_modulus = fracture.weibull;
     bond.seed = static_cast<std::uint32_t>(fracture.seed);
     return bond;
 }
@@ -105,7 +96,8 @@ void SolidRun<Dim>::add(mesh::Mesh<Dim> mesh, const abut_material& material, con
 
 template <int Dim>
 void SolidRun<Dim>::set_fracture(const std::string& body, const abut_fracture& fracture) {
-    check(fracture);
+    require_allowed("abut_fracture.grain", mesh::grain_size, fracture.grain);
+    require_allowed("abut_fracture.", solid::bond_numbers, bond_of(fracture));
     const auto has_it = [&](const auto& mesh) { return std::ranges::count(mesh.body_names, body) > 0; };
     if (std::ranges::count_if(meshes_, has_it) + std::ranges::count(fractures_, body, &Fracture::body) > 1)
         throw BadInput("abut_solid_set_fracture: several bodies are called '" + body +
@@ -143,9 +135,7 @@ std::vector<std::int32_t> SolidRun<Dim>::bodies_called(const std::string& name) 
             (fracture >= 0 && fractures_[static_cast<std::size_t>(fracture)].body == name))
             bodies.push_back(body);
     }
-    if (bodies.empty())
-        throw BadInput("there is no body '" + name +
-                       "'. Give one that was added, with its file in front where several have it.");
+    if (bodies.empty()) throw BadInput("there is no body '" + name + "'. There " + names_in_words(mesh_.body_names) + ".");
     return bodies;
 }
 
@@ -154,6 +144,9 @@ std::int32_t SolidRun<Dim>::side_of_bond(const std::string& name) const {
     if (const auto body = std::ranges::find(mesh_.body_names, name); body != mesh_.body_names.end())
         return static_cast<std::int32_t>(body - mesh_.body_names.begin());
     const auto group = std::ranges::find(mesh_.groups, name, &mesh::BoundaryGroup::name);
+    if (std::ranges::count(fractures_, name, &Fracture::body) > 0)
+        throw BadInput("abut_solid_bond: body '" + name + "' may break: it is in the grains '" + name + ".1', '" + name +
+                       ".2' and so on. Give one of these, or a group of its faces, \"" + name + ".<group>\".");
     if (group == mesh_.groups.end())
         throw BadInput("abut_solid_bond: there is no body and no group '" + name +
                        "'. Give one that was added, with its body in front where several have it.");
@@ -230,7 +223,7 @@ void SolidRun<Dim>::begin(const abut_solid_options& given) {
     auto solid = std::make_unique<solid::Solid<Dim>>(mesh_, std::move(options));
     stable_dt_ = solid::step_of_breaking(*solid).dt;
     const double dt = given.dt > 0.0 ? given.dt : (given.cfl > 0.0 ? given.cfl : dynamics::StepOptions{}.cfl) * stable_dt_;
-    require_stable(dt, stable_dt_, "abut_solid_options.dt");
+    dynamics::require_stable("abut_solid_options.dt", dt, stable_dt_, stable_remedy);
     const bool rubs = given.contact != 0 && given.friction > 0.0;
     const int restart =
         given.restart == 0 ? solid::default_remedies(solid->options().kinematics, rubs).restart : given.restart;
@@ -242,7 +235,7 @@ void SolidRun<Dim>::begin(const abut_solid_options& given) {
 
 template <int Dim>
 void SolidRun<Dim>::set_step(double dt, dynamics::StepChange change) {
-    require_stable(dt, stable_dt_, "abut_solid_set_step: dt");
+    dynamics::require_stable("abut_solid_set_step: dt", dt, stable_dt_, stable_remedy);
     const std::string warning = run_->set_step(dt, change, "abut_solid_begin_clock and abut_solid_advance");
     if (!warning.empty() && log_ != nullptr) log_(ABUT_WARNING, warning.c_str(), user_);
 }

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "abut/base/error.hpp"
+#include "abut/base/given_value.hpp"
 #include "abut/base/nearest_word.hpp"
 #include "abut/solid/material/known_materials.hpp"
 #include "abut/solid/material/material_numbers.hpp"
@@ -22,32 +23,6 @@ using namespace py::literals;
 
 namespace abut::python {
 namespace {
-
-solid::MaterialLaw material_law(const std::string& name) {
-    std::string all;
-    for (const auto& [word, law] : solid::material_law_words) {
-        if (name == word) return law;
-        all += std::string(all.empty() ? "'" : ", '") + word + "'";
-    }
-    throw py::value_error("law is '" + name + "'; it is one of " + all);
-}
-
-const solid::KnownMaterial& known_by(const std::string& name) {
-    if (const solid::KnownMaterial* known = solid::known_material(name)) return *known;
-    std::string all;
-    for (const solid::KnownMaterial& known : solid::known_materials()) all += (all.empty() ? "'" : ", '") + known.name + "'";
-    throw py::value_error("'" + name + "' is no material that is known by its name; there are " + all);
-}
-
-double material_value(const solid::MaterialNumber& number, const py::handle& value) {
-    try {
-        return number_in(number.limits.unit, value);
-    } catch (const py::cast_error&) {
-        throw py::type_error(std::string(number.name) + " cannot be " + std::string(py::str(py::repr(value))));
-    } catch (const BadInput& error) {
-        throw BadInput(std::string(number.name) + " is " + std::string(py::str(py::repr(value))) + ": " + error.what());
-    }
-}
 
 /// Rows [plastic strain, stress], stresses also as texts with units.
 std::vector<solid::HardeningPoint> hardening_table(const py::handle& rows) {
@@ -73,13 +48,13 @@ std::string hint(const std::string& word) {
 }
 
 solid::Material material_of(const std::optional<std::string>& name, const py::kwargs& values) {
-    const solid::KnownMaterial* known = name ? &known_by(*name) : nullptr;
+    const solid::KnownMaterial* known = name ? &solid::material_called(*name) : nullptr;
     solid::Material material = known ? known->material : solid::Material{};
     for (const auto& [key, value] : values) {
         const auto word = py::cast<std::string>(key);
         const auto number = std::ranges::find(solid::material_numbers, word, &solid::MaterialNumber::name);
         if (word == "law")
-            material.law = material_law(py::cast<std::string>(value));
+            material.law = choice_called(solid::material_law_words, "law", py::cast<std::string>(value));
         else if (word == "hardening_table")
             material.flow.table = hardening_table(value);
         else if (word == "axis_1")
@@ -87,7 +62,7 @@ solid::Material material_of(const std::optional<std::string>& name, const py::kw
         else if (word == "axis_2")
             material.orthotropic.axis_2 = py::cast<std::array<double, 3>>(value);
         else if (number != solid::material_numbers.end())
-            number->at.in(material) = material_value(*number, value);
+            number->at.in(material) = number_of_argument(number->name, number->limits.unit, value);
         else
             throw py::type_error("Material has no value '" + word + "'." + hint(word));
     }
@@ -125,13 +100,15 @@ void add_materials(py::module_& module) {
         of_material.def_property(
             number.name, number.at.of,
             [&number](solid::Material& material, const py::object& value) {
-                number.at.in(material) = material_value(number, value);
+                number.at.in(material) = number_of_argument(number.name, number.limits.unit, value);
             },
             doc.c_str());
     }
     of_material.def_property(
         "law", [](const solid::Material& material) { return word_of(solid::material_law_words, material.law); },
-        [](solid::Material& material, const std::string& law) { material.law = material_law(law); },
+        [](solid::Material& material, const std::string& law) {
+            material.law = choice_called(solid::material_law_words, "law", law);
+        },
         "Law beyond isotropic elasticity of small strains.\n\n"
         "'st_venant_kirchhoff', of finite bodies 'neo_hookean' or 'mooney_rivlin', or 'j2', which yields, or 'orthotropic', "
         "which has other moduli along axes of its own.");

@@ -5,13 +5,16 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <map>
 #include <utility>
 
 #include "abut/base/counted.hpp"
+#include "abut/base/given_value.hpp"
 #include "abut/mesh/io/read_mesh.hpp"
 #include "abut/mesh/io/write_vtu.hpp"
 #include "abut/mesh/mesh.hpp"
+#include "abut/mesh/mesh_words.hpp"
 #include "abut/mesh/shapes/shapes.hpp"
 #include "docstrings.hpp"
 #include "vectors.hpp"
@@ -39,19 +42,15 @@ constexpr std::array<ShapeName, 6> shape_names{{{"triangle", CellShape::triangle
                                                 {"pyramid", CellShape::pyramid, 3, 5}}};
 
 const ShapeName& shape_of(const std::string& name, int dim) {
-    const auto found =
-        std::ranges::find_if(shape_names, [&](const ShapeName& known) { return known.dim == dim && name == known.name; });
-    if (found != shape_names.end()) return *found;
-    std::string known;
-    for (const ShapeName& shape : shape_names)
-        if (shape.dim == dim) known += (known.empty() ? "" : ", ") + std::string(shape.name);
-    throw py::value_error("there are no cells '" + name + "' in " + std::to_string(dim) + "D; there are " + known);
+    std::vector<ShapeName> of_dim;
+    std::ranges::copy_if(shape_names, std::back_inserter(of_dim), [&](const ShapeName& known) { return known.dim == dim; });
+    const ShapeName& found =
+        entry_called(of_dim, &ShapeName::name, "the type of cells in " + std::to_string(dim) + "D", name);
+    return *std::ranges::find(shape_names, found.shape, &ShapeName::shape);
 }
 
 mesh::NonPlanarFaces non_planar_of(const std::string& word) {
-    if (word == "fail") return mesh::NonPlanarFaces::fail;
-    if (word == "split") return mesh::NonPlanarFaces::split;
-    throw py::value_error("non_planar is '" + word + "'; 'fail' and 'split' are allowed");
+    return choice_called(mesh::non_planar_words, "non_planar", word);
 }
 
 Packed<std::int32_t> index_table(const py::handle& given, const std::string& name, int columns) {

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "abut/base/error.hpp"
 #include "abut/base/unit.hpp"
 
 namespace abut::python {
@@ -15,6 +16,17 @@ inline double number_in(const std::string& unit, const pybind11::handle& value) 
     const auto parts = value_with_unit(pybind11::cast<std::string>(value));
     if (!parts || parts->is_formula) throw pybind11::cast_error("no number, nor one with a unit");
     return converted(parts->value, unit_for(parts->unit, unit), unit_of(unit));
+}
+
+/// As `number_in`, of an argument, which what is thrown names: TypeError or BadInput.
+inline double number_of_argument(const std::string& name, const std::string& unit, const pybind11::handle& value) {
+    try {
+        return number_in(unit, value);
+    } catch (const pybind11::cast_error&) {
+        throw pybind11::type_error(name + " cannot be " + std::string(pybind11::str(pybind11::repr(value))));
+    } catch (const BadInput& error) {
+        throw BadInput(name + " is " + std::string(pybind11::str(pybind11::repr(value))) + ": " + error.what());
+    }
 }
 
 /// Numbers of a sequence, which is no text, as `number_in` takes each.

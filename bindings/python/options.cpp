@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "abut/base/error.hpp"
+#include "abut/base/given_value.hpp"
 #include "abut/run/option_table.hpp"
 #include "abut/run/steps/preset.hpp"
 #include "numbers.hpp"
@@ -19,23 +20,17 @@ std::string quoted(const std::vector<std::string>& words) {
     return text;
 }
 
-std::string word_among(const std::vector<std::string>& words, const py::handle& value) {
-    const auto given = py::cast<std::string>(value);
-    for (const std::string& word : words)
-        if (given == word) return given;
-    throw py::value_error("'" + given + "' is not known; there are " + quoted(words));
-}
-
 /// Value of the kind of the option; py::cast_error where it cannot be that.
 OptionValue value_of(const OptionFacts& option, const py::handle& value) {
     switch (option.kind) {
         case OptionKind::truth:
-            if (option.is_switch && py::isinstance<py::str>(value)) return word_among({"on", "off"}, value) == "on";
+            if (option.is_switch && py::isinstance<py::str>(value))
+                return word_among({"off", "on"}, option.name, py::cast<std::string>(value)) == 1;
             return py::cast<bool>(value);
         case OptionKind::count:
             return py::cast<std::int64_t>(value);
         case OptionKind::number:
-            return number_in(option.limits.unit, value);
+            return number_of_argument(option.name, option.limits.unit, value);
         case OptionKind::numbers:
             return numbers_in(option.limits.unit, value);
         case OptionKind::path:
@@ -43,15 +38,7 @@ OptionValue value_of(const OptionFacts& option, const py::handle& value) {
         case OptionKind::word:
             break;
     }
-    return word_among(option.words, value);
-}
-
-void require_allowed(const OptionFacts& option, const OptionValue& value, const OptionValue& by_default) {
-    if (option.name == "cfl" || allows(option, value) || is_same(value, by_default))
-        return;  // the step that it gives is judged
-    if (option.kind == OptionKind::numbers)
-        throw py::value_error(fault_in(option.limits, std::get<std::vector<double>>(value)));
-    throw py::value_error(abut::text_of(value) + "; " + allowed_values(option) + " is allowed");
+    return option.words[word_among(option.words, option.name, py::cast<std::string>(value))];
 }
 
 std::vector<std::string> preset_names() {
@@ -60,23 +47,13 @@ std::vector<std::string> preset_names() {
     return names;
 }
 
-void apply_preset(const py::handle& value, run::RunOptions& options) {
-    const std::string given = word_among(preset_names(), value);
-    for (const auto& [word, preset] : run::preset_words)
-        if (given == word) run::apply(preset, options);
-}
-
-/// Calls with an option by name; what goes wrong names it.
+/// Calls with an option by name; a value of another type is named.
 template <class Call>
 void take(const std::string& name, const py::handle& value, const Call& call) {
     try {
         call();
     } catch (const py::cast_error&) {
         throw py::type_error(name + " cannot be " + std::string(py::str(py::repr(value))));
-    } catch (const py::value_error& error) {
-        throw py::value_error(name + ": " + error.what());
-    } catch (const BadInput& error) {
-        throw BadInput(name + " is " + std::string(py::str(py::repr(value))) + ": " + error.what());
     }
 }
 
@@ -130,14 +107,16 @@ void take_options(const py::dict& given, run::RunOptions& options) {
         options.times.clear();
     }
     if (given.contains("preset"))
-        take("preset", given["preset"], [&] { apply_preset(given["preset"], options); });  // below all others
+        take("preset", given["preset"], [&] {  // below all others
+            run::apply(choice_called(run::preset_words, "preset", py::cast<std::string>(given["preset"])), options);
+        });
     for (const auto& [key, value] : given) {
         const auto name = py::cast<std::string>(key);
         if (name == "preset") continue;
         const Option<run::RunOptions>& option = option_of(name);
         take(name, value, [&, &value = value] {
             const OptionValue taken = value_of(option, value);
-            require_allowed(option, taken, option.get(plain));
+            if (option.name != "cfl") check_value("", option, taken, option.get(plain));  // the step that it gives is judged
             option.set(options, taken);
         });
     }

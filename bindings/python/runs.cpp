@@ -3,6 +3,7 @@
 #include <pybind11/stl/filesystem.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <cmath>
@@ -10,8 +11,10 @@
 #include <memory>
 
 #include "abut/base/error.hpp"
+#include "abut/base/given_value.hpp"
 #include "abut/base/messages.hpp"
 #include "abut/base/throw_again.hpp"
+#include "abut/dynamics/step_options.hpp"
 #include "abut/input/scene_file.hpp"
 #include "abut/mesh/interpenetration.hpp"
 #include "abut/mesh/without_cells.hpp"
@@ -37,6 +40,11 @@ namespace abut::python {
 namespace {
 
 using namespace py::literals;
+
+constexpr std::array<Word<dynamics::StepChange>, 2> step_changes{
+    {{"keep", dynamics::StepChange::keep}, {"restart", dynamics::StepChange::restart}}};
+constexpr std::array<Word<solid::LoadImpulse>, 2> load_impulses{
+    {{"as_given", solid::LoadImpulse::as_given}, {"trapezoid", solid::LoadImpulse::trapezoid}}};
 
 /// Runs a scene. The message of a run that fails ends with what is left of it.
 template <int Dim>
@@ -198,17 +206,13 @@ public:
     }
     void set_step(double dt, const std::string& change) {
         const bindings::Use use(in_use_, run_in_use);
-        if (change != "keep" && change != "restart")
-            throw py::value_error("set_step: change is '" + change + "'; there are 'keep', 'restart'");
-        if (dt > stable_dt_ && !options_.allow_unstable)
-            throw BadInput("set_step: dt is " + number(dt) + " s, above the stable step of " + number(stable_dt_) +
-                               " s (stable_dt), from which on vibrations grow. Give at most that.",
-                           {.value = dt, .allowed = stable_dt_});
+        const dynamics::StepChange how = choice_called(step_changes, "set_step: change", change);
+        if (!options_.allow_unstable)
+            dynamics::require_stable("set_step: dt", dt, stable_dt_, "Give at most that (stable_dt).");
         std::string warning;
         {
             const py::gil_scoped_release release;
-            warning = run_->set_step(dt, change == "keep" ? dynamics::StepChange::keep : dynamics::StepChange::restart,
-                                     "run.clock()");
+            warning = run_->set_step(dt, how, "run.clock()");
         }
         if (!warning.empty() && PyErr_WarnEx(PyExc_RuntimeWarning, ("abut: " + warning).c_str(), 1) < 0)
             throw py::error_already_set();
@@ -276,10 +280,7 @@ public:
     /// A clock of this run, which is kept with it.
     [[nodiscard]] solid::ClockedRun<Dim> clock(const std::string& impulse) {
         const bindings::Use use(in_use_, run_in_use);
-        if (impulse != "as_given" && impulse != "trapezoid")
-            throw py::value_error("clock: impulse is '" + impulse + "'; there are 'as_given', 'trapezoid'");
-        return solid::ClockedRun<Dim>(*run_,
-                                      impulse == "as_given" ? solid::LoadImpulse::as_given : solid::LoadImpulse::trapezoid);
+        return solid::ClockedRun<Dim>(*run_, choice_called(load_impulses, "clock: impulse", impulse));
     }
     [[nodiscard]] std::atomic_flag& in_use() const { return in_use_; }
 

@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "abut/base/counted.hpp"
 #include "abut/mesh/io/file.hpp"
 #include "abut/mesh/io/surface_readers.hpp"
 #include "abut/mesh/io/text_words.hpp"
@@ -21,8 +22,8 @@ public:
         for (std::int64_t i = 0; i < n_vertices_; ++i) read_vertex(i);
         for (std::int64_t i = 0; i < n_faces_; ++i) read_face(i);
         if (!words_.next().empty())
-            mesh_.warnings.push_back("line " + std::to_string(words_.line()) + ": what follows the " +
-                                     std::to_string(n_faces_) + " faces that the head promises is not read");
+            mesh_.warnings.push_back("line " + std::to_string(words_.line()) + ": what follows " +
+                                     counted(n_faces_, "face") + ", as many as the head promises, is not read");
     }
 
 private:
@@ -47,7 +48,7 @@ private:
         // "0 0 0" and the end of its line; "0" and the end of its line.
         if (n_vertices_ > (n_bytes_ + 1) / 6 || n_faces_ > (n_bytes_ + 1) / 2)
             throw MeshError(mesh_.name + ": line " + std::to_string(line) + ": the file is damaged: it promises " +
-                            std::to_string(n_vertices_) + " vertices and " + std::to_string(n_faces_) + " faces in " +
+                            counted(n_vertices_, "vertex", "vertices") + " and " + counted(n_faces_, "face") + " in " +
                             std::to_string(n_bytes_) + " bytes. Write the mesh again.");
     }
     std::int64_t read_count(std::string_view word, const char* what) {

@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 
+#include "abut/base/counted.hpp"
 #include "abut/mesh/io/binary_values.hpp"
 #include "abut/mesh/io/file.hpp"
 #include "abut/mesh/io/surface_readers.hpp"
@@ -40,9 +41,10 @@ void read_binary_stl(const std::string& contents, SurfaceMesh& mesh) {
                         "again.");
     const std::size_t n_triangles = binary_value<std::uint32_t>(contents, 80, ByteOrder::little);
     if (contents.size() < stl_head + stl_triangle * n_triangles)
-        throw MeshError(name + ": the file is truncated: " + std::to_string(n_triangles) + " triangles need " +
-                        std::to_string(stl_head + stl_triangle * n_triangles) + " bytes, it has " +
-                        std::to_string(contents.size()) + ". Write the mesh again.");
+        throw MeshError(
+            name + ": the file is truncated: " + counted(std::int64_t(n_triangles), "triangle needs", "triangles need") +
+            " " + std::to_string(stl_head + stl_triangle * n_triangles) + " bytes, it has " +
+            std::to_string(contents.size()) + ". Write the mesh again.");
     if (3 * n_triangles > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max()))
         throw MeshError(name + ": has " + std::to_string(n_triangles) +
                         " triangles, at most 715827882 are allowed. Coarsen the surface.");

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "abut/base/counted.hpp"
 #include "abut/base/sort_unique.hpp"
 #include "abut/geometry/box.hpp"
 #include "abut/mesh/connected_bodies.hpp"
@@ -234,7 +235,7 @@ void read_cells(CellSoup<Dim>& soup, const VtkGrid& grid) {
         const auto ids = grid.corners_of(cell);
         const auto n_ids = std::ssize(ids);
         if (shape->is_curved ? n_ids < n_vertices(shape->shape) : n_ids != n_vertices(shape->shape))
-            throw MeshError(soup.name + ": cell " + std::to_string(cell) + " has " + std::to_string(n_ids) + " points, a " +
+            throw MeshError(soup.name + ": cell " + std::to_string(cell) + " has " + counted(n_ids, "point") + ", a " +
                             std::string(name(shape->shape)) + " has " + std::to_string(n_vertices(shape->shape)) +
                             ". Write the mesh again.");
         check_points(soup.name, grid, cell);

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <utility>
 
+#include "abut/base/counted.hpp"
 #include "abut/base/messages.hpp"
 #include "abut/base/sort_unique.hpp"
 #include "abut/mesh/io/file.hpp"
@@ -117,8 +118,8 @@ private:
         if (arrays.empty()) file_.refuse(piece, "<Points> holds no array");
         const auto x = file_.values<double>(arrays[0], n_points);
         if (x.size() != 3 * n_points)
-            file_.refuse(arrays[0], std::to_string(n_points) + " points have " + std::to_string(x.size()) +
-                                        " coordinates, 3 of each are needed");
+            file_.refuse(arrays[0], counted(std::int64_t(n_points), "point has", "points have") + " " +
+                                        counted(std::int64_t(x.size()), "coordinate") + ", 3 of each are needed");
         for (std::size_t i = 0; i < n_points; ++i) grid_.points.emplace_back(x[3 * i], x[3 * i + 1], x[3 * i + 2]);
         if (grid_.points.size() > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max()))
             throw MeshError(file_.name() + ": has " + std::to_string(grid_.points.size()) +

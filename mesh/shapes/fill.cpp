@@ -10,12 +10,16 @@
 #include <utility>
 #include <vector>
 
+#include "abut/base/counted.hpp"
+#include "abut/base/index.hpp"
 #include "abut/base/messages.hpp"
+#include "abut/base/sort_unique.hpp"
 #include "abut/geometry/health/surface_health.hpp"
 #include "abut/geometry/triangulate.hpp"
 #include "abut/mesh/io/gmsh_functions.hpp"
 #include "abut/mesh/io/gmsh_session.hpp"
 #include "abut/mesh/quality.hpp"
+#include "abut/mesh/shapes/arguments.hpp"
 #include "abut/mesh/shapes/estimate.hpp"
 
 namespace abut::mesh {
@@ -35,17 +39,18 @@ void refuse(const SurfaceMesh& surface, const std::string& what) {
 
 void check_closed(const SurfaceMesh& surface) {
     const auto health = geometry::check_surface(surface.soup());
-    const auto require_none = [&](std::size_t n, const std::string& of_what) {
-        if (n > 0) refuse(surface, std::to_string(n) + " " + of_what + ", 0 are allowed.");
+    const auto require_none = [&](std::size_t n, const char* one, const char* several, const std::string& of_what) {
+        if (n > 0) refuse(surface, counted(std::int64_t(n), one, several) + " " + of_what + ", 0 are allowed.");
     };
-    require_none(health.unusable_faces.size(), "faces cannot be used");
-    require_none(health.boundary_edges.size(), "edges belong to one face alone");
-    require_none(health.non_manifold_edges.size(), "edges belong to more than two faces");
-    require_none(health.inconsistent_edges.size(), "edges are run along the same way by both of their faces");
-    if (health.components.size() != 1)
-        throw MeshError(surface.name + ": it is in " + std::to_string(health.components.size()) +
-                        " parts, and one closed surface without cavities is filled. Give each part a file and a body of its "
-                        "own, or a mesh of tetrahedra.");
+    require_none(health.unusable_faces.size(), "face", "faces", "cannot be used");
+    require_none(health.boundary_edges.size(), "edge belongs", "edges belong", "to one face alone");
+    require_none(health.non_manifold_edges.size(), "edge belongs", "edges belong", "to more than two faces");
+    require_none(health.inconsistent_edges.size(), "edge is", "edges are", "run along the same way by both faces beside it");
+    const std::vector<bool> cavities = cavities_of(surface, health);
+    if (const std::ptrdiff_t n = std::ranges::count(cavities, false); n != 1)
+        throw MeshError(surface.name + ": it has " + std::to_string(n) +
+                        " outer surfaces, and one with its cavities is filled. Give each a file and a body of its own. A "
+                        "cavity looks the other way than the surface around it: turn its faces around.");
 }
 
 /// Surface whose polygons are cut into triangles; all faces must be usable.
@@ -121,16 +126,31 @@ Frame frame_of(const SurfaceMesh& surface) {
     return {0.5 * (lower + upper), (upper - lower).maxCoeff()};
 }
 
-void add_surface(const SurfaceMesh& surface, const Frame& frame) {
-    std::vector<std::size_t> nodes(surface.vertices.size()), corners;
-    std::iota(nodes.begin(), nodes.end(), std::size_t{1});
-    std::vector<double> coordinates;
-    for (const Vector<3>& x : surface.vertices)
-        for (int i = 0; i < 3; ++i) coordinates.push_back((x[i] - frame.origin[i]) / frame.unit);
-    for (const std::int32_t vertex : surface.faces.values) corners.push_back(static_cast<std::size_t>(vertex) + 1);
-    gmsh().add_discrete_entity(2, surface_tag);
-    gmsh().add_nodes(2, surface_tag, nodes, coordinates);
-    gmsh().add_elements(surface_tag, gmsh_triangle, corners);
+/// Corners of the triangles of each part of a surface, counted from 1.
+std::vector<std::vector<std::size_t>> corners_of_parts(const SurfaceMesh& surface) {
+    const auto health = geometry::check_surface(surface.soup());
+    std::vector<std::vector<std::size_t>> corners(health.components.size());
+    for (std::int32_t face = 0; face < surface.faces.size(); ++face)
+        for (const std::int32_t vertex : surface.faces[face])
+            corners[at(health.face_component[at(face)])].push_back(at(vertex) + 1);
+    return corners;
+}
+
+/// A geometric surface per part: Gmsh leaves the inside of a cavity out by the surfaces that bound it.
+void add_surfaces(const SurfaceMesh& surface, const Frame& frame) {
+    int tag = surface_tag;
+    for (const std::vector<std::size_t>& corners : corners_of_parts(surface)) {
+        std::vector<std::size_t> nodes = corners;
+        sort_unique(nodes);
+        std::vector<double> coordinates;
+        for (const std::size_t node : nodes)
+            for (int i = 0; i < 3; ++i)
+                coordinates.push_back((surface.vertices[node - 1][i] - frame.origin[i]) / frame.unit);
+        gmsh().add_discrete_entity(2, tag);
+        gmsh().add_nodes(2, tag, nodes, coordinates);
+        gmsh().add_elements(tag, gmsh_triangle, corners);
+        ++tag;
+    }
 }
 
 void mesh_inside(const FillOptions& options, const Frame& frame) {
@@ -161,7 +181,7 @@ CellSoup<3> soup_inside(const SurfaceMesh& surface, const FillOptions& options) 
         const GmshSession session;
         session.run(surface.name, "filling failed",
                     "Mend the surface; abut detect --self-intersections finds where it cuts itself.", [&] {
-                        add_surface(surface, frame);
+                        add_surfaces(surface, frame);
                         mesh_inside(options, frame);
                         soup = soup_of_gmsh_model<3>(options.name);
                     });
@@ -205,9 +225,7 @@ Mesh<3> with_triangles(const SurfaceMesh& surface, const Measures& measures, Fil
 }  // namespace
 
 Mesh<3> fill(const SurfaceMesh& given, const FillOptions& options, const MeshOptions& mesh_options) {
-    if (!(options.size > 0.0 && std::isfinite(options.size)))
-        throw MeshError(options.name + ": size is " + number(options.size) +
-                        " m, a finite length above 0 is needed. Change the option.");
+    require_length(options.name, "size", options.size);
     const SurfaceMesh surface = prepared(given);
     const Measures measures = measures_of(surface);
     if (options.keeps_triangles) return with_triangles(surface, measures, options, mesh_options);

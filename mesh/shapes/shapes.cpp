@@ -9,6 +9,7 @@
 #include "abut/mesh/io/gmsh_functions.hpp"
 #include "abut/mesh/io/gmsh_session.hpp"
 #include "abut/mesh/quality.hpp"
+#include "abut/mesh/shapes/arguments.hpp"
 #include "abut/mesh/shapes/estimate.hpp"
 
 namespace abut::mesh {
@@ -20,33 +21,15 @@ constexpr double golden_angle = 2.0 * std::numbers::pi * (2.0 - std::numbers::ph
 constexpr double many_tetrahedra = 4e5;
 constexpr int frontal_delaunay_2d = 6, delaunay_3d = 1, hxt_3d = 10;
 
-void check_positive(const std::string& name, const char* what, double value) {
-    if (value > 0.0 && std::isfinite(value)) return;
-    throw MeshError(name + ": " + what + " is " + number(value) +
-                    " m, a finite length above 0 is needed. Change the option.");
-}
-
-template <int Dim>
-void check_finite(const std::string& name, const char* what, const Vector<Dim>& point) {
-    for (int i = 0; i < Dim; ++i)
-        if (!std::isfinite(point[i]))
-            throw MeshError(name + ": the " + "xyz"[i] + " coordinate of " + what + " is " + number(point[i]) +
-                            ", a finite number is needed. Change the option.");
-}
-
 template <class Options>
 void check_common(const Options& options) {
-    check_positive(options.name, "size", options.size);
-    if (options.variant < 0)
-        throw MeshError(options.name + ": variant is " + std::to_string(options.variant) +
-                        ", 0 or more is needed. Change the option.");
+    require_length(options.name, "size", options.size);
+    require_count(options.name, "variant", options.variant, 0);
     if (!options.refinement) return;
-    check_positive(options.name, "refinement.size", options.refinement->size);
-    check_positive(options.name, "refinement.distance", options.refinement->distance);
-    check_finite(options.name, "refinement.point", options.refinement->point);
-    if (!(options.refinement->uniform >= 0.0 && std::isfinite(options.refinement->uniform)))
-        throw MeshError(options.name + ": refinement.uniform is " + number(options.refinement->uniform) +
-                        " m, 0 or more is needed. Leave it out for cells that grow from the point on.");
+    require_length(options.name, "refinement.size", options.refinement->size);
+    require_length(options.name, "refinement.distance", options.refinement->distance);
+    require_finite(options.name, "refinement.point", options.refinement->point);
+    require_length_or_zero(options.name, "refinement.uniform", options.refinement->uniform);
     if (options.refinement->size > options.size)
         throw MeshError(options.name + ": refinement.size is " + number(options.refinement->size) + " m, at most size = " +
                         number(options.size) + " m is allowed. Lower it, or leave the refinement out.");
@@ -217,8 +200,8 @@ std::string side_of_box(const Vector<3>& centre, const Vector<Dim>& sides) {
 
 Mesh<2> disc(const DiscOptions& options, const MeshOptions& mesh_options) {
     check_common(options);
-    check_finite(options.name, "centre", options.centre);
-    check_positive(options.name, "radius", options.radius);
+    require_finite(options.name, "centre", options.centre);
+    require_length(options.name, "radius", options.radius);
     const Matrix<2> turn = turn_about(Vector<3>::UnitZ(), options.variant).topLeftCorner<2, 2>();
     return placed_part<2>(
         options.name, {options.radius, options.centre, turn}, {options.size, options.refinement},
@@ -227,9 +210,9 @@ Mesh<2> disc(const DiscOptions& options, const MeshOptions& mesh_options) {
 
 Mesh<3> cylinder(const CylinderOptions& options, const MeshOptions& mesh_options) {
     check_common(options);
-    check_finite(options.name, "centre", options.centre);
-    check_positive(options.name, "radius", options.radius);
-    check_positive(options.name, "length", options.length);
+    require_finite(options.name, "centre", options.centre);
+    require_length(options.name, "radius", options.radius);
+    require_length(options.name, "length", options.length);
     const double length = options.length / options.radius, half = 0.5 * length;
     const auto side = [half](const Vector<3>& at) {
         return at.z() < -0.5 * half ? "bottom" : at.z() > 0.5 * half ? "top" : "side";
@@ -241,8 +224,8 @@ Mesh<3> cylinder(const CylinderOptions& options, const MeshOptions& mesh_options
 
 Mesh<3> sphere(const SphereOptions& options, const MeshOptions& mesh_options) {
     check_common(options);
-    check_finite(options.name, "centre", options.centre);
-    check_positive(options.name, "radius", options.radius);
+    require_finite(options.name, "centre", options.centre);
+    require_length(options.name, "radius", options.radius);
     const Vector<3> skew(1.0, std::numbers::sqrt2, std::numbers::pi);
     return placed_part<3>(
         options.name, {options.radius, options.centre, turn_about(skew, options.variant)},
@@ -253,10 +236,10 @@ Mesh<3> sphere(const SphereOptions& options, const MeshOptions& mesh_options) {
 template <int Dim>
 Mesh<Dim> box(const BoxOptions<Dim>& options, const MeshOptions& mesh_options) {
     check_common(options);
-    check_finite(options.name, "lower", options.lower);
-    check_finite(options.name, "upper", options.upper);
+    require_finite(options.name, "lower", options.lower);
+    require_finite(options.name, "upper", options.upper);
     const Vector<Dim> sides = options.upper - options.lower;
-    check_positive(options.name, "shortest side", sides.minCoeff());
+    require_length(options.name, "shortest side", sides.minCoeff());
     const double unit = sides.maxCoeff();
     const Vector<Dim> relative = sides / unit;
     std::optional<Waves<Dim>> waves;

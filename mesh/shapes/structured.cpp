@@ -8,6 +8,7 @@
 #include "abut/mesh/cell_shape.hpp"
 #include "abut/mesh/local_faces.hpp"
 #include "abut/mesh/quality.hpp"
+#include "abut/mesh/shapes/arguments.hpp"
 #include "abut/mesh/shapes/estimate.hpp"
 #include "abut/mesh/shapes/shapes.hpp"
 
@@ -164,9 +165,7 @@ template <int Dim>
 void check_grid(const Vector<Dim>& lower, const Vector<Dim>& upper, const std::array<int, Dim>& counts, CellShape shape,
                 const std::string& name, const MeshOptions& options) {
     for (std::size_t i = 0; i < Dim; ++i) {
-        if (counts[i] < 1)
-            throw MeshError(name + ": counts[" + std::to_string(i) + "] is " + std::to_string(counts[i]) +
-                            ", at least 1 is needed. Change the argument.");
+        require_count(name, ("counts[" + std::to_string(i) + "]").c_str(), counts[i], 1);
         const double side = upper[static_cast<std::ptrdiff_t>(i)] - lower[static_cast<std::ptrdiff_t>(i)];
         if (!(side > 0.0) || !std::isfinite(side))
             throw MeshError(name + ": the box is " + number(side) + " m long along " + "xyz"[i] +
@@ -191,13 +190,9 @@ Mesh<Dim> structured_box(const Vector<Dim>& lower, const Vector<Dim>& upper, con
 
 Mesh<2> fan_disc(const Vector<2>& centre, double radius, int n_sectors, double turn, const std::string& name,
                  const MeshOptions& mesh_options) {
-    if (n_sectors < 3)
-        throw MeshError(name + ": n_sectors is " + std::to_string(n_sectors) +
-                        ", at least 3 are needed. Change the argument.");
+    require_count(name, "n_sectors", n_sectors, 3);
     check_estimate(name, n_sectors, most_structured_cells, mesh_options, "Lower the number of sectors");
-    if (!(radius > 0.0) || !std::isfinite(radius))
-        throw MeshError(name + ": radius is " + number(radius) +
-                        " m, a finite length above 0 is needed. Change the argument.");
+    require_length(name, "radius", radius);
     CellSoup<2> soup;
     soup.name = name;
     soup.body_names = {name};

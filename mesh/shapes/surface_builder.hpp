@@ -6,17 +6,10 @@
 #include <utility>
 #include <vector>
 
+#include "abut/mesh/shapes/arguments.hpp"
 #include "abut/mesh/shapes/surface_shapes.hpp"
 
 namespace abut::mesh {
-
-/// Each throws MeshError naming the argument, its value and what is needed.
-void require_length(const std::string& name, const char* argument, double value);
-void require_less(const std::string& name, const char* small, double less, const char* large, double more);
-void require_count(const std::string& name, const char* argument, int value, int least);
-void require_axis(const std::string& name, int axis);
-void require_finite(const std::string& name, const char* argument, const Vector<3>& value);
-void require_size(const std::string& name, double n_faces);
 
 /// A surface while it is being made, about z and then turned.
 class SurfaceBuilder {

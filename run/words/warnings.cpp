@@ -158,6 +158,142 @@ void add_looks(Counts& counts, const RunResult<Dim>& result) {
                                    looks.nearest.distance, 0.0});
 }
 
+void warn(Counts& counts, WarningKind kind, double value, double threshold, std::string text) {
+    counts.warnings.push_back({kind, Severity::warning, std::move(text), value, threshold});
+}
+
+template <int Dim>
+void add_compression(Counts& counts, const RunResult<Dim>& result) {
+    if (const Compressed& pressed = result.watch.compressed; pressed.steps > 0)
+        warn(counts, WarningKind::compression, pressed.compression, result.options.contact.compression_warning,
+             fmt::format("{} and {} are strongly compressed in {} of {:.0f} steps, at most {:.2g} of D, the depth of their "
+                         "cells, {:g} is safe. A lower speed or load makes it less, "
+                         "a stiffer material too",
+                         pressed.body_1, pressed.body_2, pressed.steps,
+                         static_cast<double>(result.run.steps) * result.run.dt / result.run.finest_dt, pressed.compression,
+                         result.options.contact.compression_warning));
+}
+
+/// Warnings of faces that slide: too stiff, too deep, or with too little friction.
+template <int Dim>
+void add_slip(Counts& counts, const RunResult<Dim>& result) {
+    const contact::ContactReport& contact = result.contact.report;
+    if (contact.sliding_ratio_max > stiff_sliding_ratio)
+        warn(counts, WarningKind::stiff_sliding, contact.sliding_ratio_max, stiff_sliding_ratio,
+             fmt::format("faces are pressed into each other deeper than they are wide ({:.2g} of the width where they slide "
+                         "off each other, {:g} is safe): contact is stiffer than the stable step allows for. Look at H - H~ "
+                         "and |e|/m; a lower --cfl, --filter neutral, or faces as wide as their cells are deep make it "
+                         "better",
+                         contact.sliding_ratio_max, stiff_sliding_ratio));
+    if (contact.slipped_compression_max > deep_slip_compression)
+        warn(
+            counts, WarningKind::deep_slip, contact.slipped_compression_max, deep_slip_compression,
+            fmt::format("{} slid off each other while pressed in, by up to {:.2g} of D, the depth of their "
+                        "cells. At a free edge that is as it should be; elsewhere bodies pass through each other. A lower "
+                        "speed prevents it, and so does --overlap frozen, under which H~ drifts",
+                        counted(contact.slipped_pairs, "pair of faces", "pairs of faces"), contact.slipped_compression_max));
+    if (const double share = result.contact.sliding.least_share(); share < least_sliding_share)
+        warn(counts, WarningKind::alternating_slip, share, least_sliding_share,
+             fmt::format(
+                 "faces that slide feel {:.2g} of the friction that they should for a part of the run, {:g} is safe: their "
+                 "slip alternates from "
+                 "step to step, and dissipation is wrong though the balance of energy holds. Leave --restart out (10 and "
+                 "the filter act with friction), or take a lower --cfl",
+                 share, least_sliding_share));
+}
+
+template <int Dim>
+void add_turns(Counts& counts, const RunResult<Dim>& result) {
+    if (const auto& [name, rotation] = result.watch.turned; rotation > far_rotation)
+        warn(counts, WarningKind::rotation, rotation, far_rotation,
+             fmt::format("{} has turned by {:.2g} rad, {:g} is safe. A body of kinematics \"small\" grows as it turns, by "
+                         "{:.2g} % at this angle, and no energy shows it. kinematics = \"floating\" lets it turn",
+                         name, rotation, far_rotation, 100.0 * (1.0 / std::cos(rotation) - 1.0)));
+    double local_rotation = 0.0;
+    for (std::size_t body = 0; body < result.bodies.local_rotations.size(); ++body)
+        if (result.bodies.all_may_turn || (body < result.bodies.may_turn.size() && result.bodies.may_turn[body]))
+            local_rotation = std::max(local_rotation, result.bodies.local_rotations[body]);
+    if (local_rotation > far_rotation)
+        warn(
+            counts, WarningKind::local_rotation, local_rotation, far_rotation,
+            fmt::format("a cell has turned by {:.2g} rad against the frame of its body, {:g} is safe. Strains are linear in "
+                        "that frame. Parts that turn against each other are to be bodies of their own, joined by springs",
+                        local_rotation, far_rotation));
+}
+
+/// Warnings of finite bodies whose law is not made for their strains.
+template <int Dim>
+void add_strains(Counts& counts, const RunResult<Dim>& result) {
+    if (result.bodies.finite.strain > large_strain)
+        warn(counts, WarningKind::finite_strain, result.bodies.finite.strain, large_strain,
+             fmt::format(
+                 "a cell of a finite body was strained by {:.2g}, {:g} is safe, and the least det F was {:.2g}: St. "
+                 "Venant and Kirchhoff's material is one of small strains, and weak in compression. Look at H - H~: "
+                 "if noise grows, take {}; behind a shock linear_viscosity = 0.25 with quadratic_viscosity = 2 damps it",
+                 result.bodies.finite.strain, large_strain, result.bodies.finite.determinant,
+                 calming_choices(result.options)));
+    if (result.bodies.finite_kinematic_hardening && result.bodies.finite.plastic_strain > large_kinematic_flow)
+        warn(counts, WarningKind::kinematic_flow, result.bodies.finite.plastic_strain, large_kinematic_flow,
+             fmt::format(
+                 "a cell has a plastic strain of {:.2g}, {:g} is safe with kinematic_hardening in a finite body: where "
+                 "axes of strain turn, as in shear, its stress is too low (3 % at 0.6, 20 % at 1.2), and no energy "
+                 "shows it. Metal that has flowed to and fro in small strains is right; metal that flows so far in one "
+                 "direction should have hardening in place of kinematic_hardening",
+                 result.bodies.finite.plastic_strain, large_kinematic_flow));
+}
+
+/// Warnings of plastic flow that is lost where it should not be.
+template <int Dim>
+void add_plastic_losses(Counts& counts, const RunResult<Dim>& result) {
+    const dynamics::Losses& loss = result.energy.dissipated;
+    if (const double share = std::abs(loss.on_faces) / loss.in_cells; share > large_face_loss)
+        warn(counts, WarningKind::face_loss, share, large_face_loss,
+             fmt::format(
+                 "free faces that flow along with their cells take {:.2g} of what plastic flow dissipates out of contact "
+                 "and of jumps between cells, {:g} is safe: cells at the surface are too large for what happens "
+                 "there, though the balance of energy holds. Take smaller cells",
+                 share, large_face_loss));
+    if (const double share = loss.in_jumps / (loss.in_cells + loss.in_jumps); share > large_jump_loss)
+        warn(counts, WarningKind::jump_loss, share, large_jump_loss,
+             fmt::format("jumps between cells dissipate {:.2g} of what plastic flow does in all, {:g} is safe: they yield "
+                         "where cells "
+                         "may be elastic, though the balance of energy holds. Take smaller cells, or a larger jump_cap",
+                         share, large_jump_loss));
+}
+
+/// Warnings of cells that left, and of fragments that came apart.
+template <int Dim>
+void add_lost_parts(Counts& counts, const RunResult<Dim>& result) {
+    if (const ErodedShares shares = eroded_shares(result); shares.larger() > large_eroded_share)
+        warn(
+            counts, WarningKind::erosion, shares.larger(), large_eroded_share,
+            fmt::format("cells that left took {:.2g} of the mass and {:.2g} of the energy in play along, {:g} is safe: what "
+                        "is left depends on the size of cells there. Take smaller cells where they leave, or a higher limit "
+                        "(erosion)",
+                        shares.mass, shares.energy, large_eroded_share));
+    if (const double at_splits = std::abs(result.energy.dissipated.at_splits),
+        share = at_splits / result.energy.accounts.energy_in_play;
+        share > large_split_share)
+        warn(counts, WarningKind::splits, share, large_split_share,
+             fmt::format(
+                 "fragments that came apart or turned against each other changed V by {:.2g} of the energy in play as "
+                 "they took frames of their own, {:g} is safe: strains are linear in a frame. Take larger grains, or "
+                 "finite kinematics",
+                 share, large_split_share));
+}
+
+template <int Dim>
+void add_contacts(Counts& counts, const RunResult<Dim>& result) {
+    const contact::ContactReport& contact = result.contact.report;
+    counts.add(WarningKind::missed_contacts, Severity::warning, contact.missed_contacts,
+               fmt::format("{} missed, 0 are allowed: the energy is not exact",
+                           counted(contact.missed_contacts, "contact was", "contacts were")));
+    counts.add(
+        WarningKind::inadmissible_overlaps, Severity::note, result.contact.inadmissible_overlaps_max,
+        fmt::format("up to {} without being contacts: far sides of bodies",
+                    counted(result.contact.inadmissible_overlaps_max, "pair of faces overlaps", "pairs of faces overlap")));
+}
+
 }  // namespace
 
 template <int Dim>
@@ -178,108 +314,18 @@ std::vector<Warning> warnings_during(std::int64_t step, const RunResult<Dim>& re
 
 template <int Dim>
 std::vector<Warning> warnings_after(const RunResult<Dim>& result) {
-    const contact::ContactReport& contact = result.contact.report;
     Counts counts;
-    const auto add = [&](WarningKind kind, double value, double threshold, std::string text) {
-        counts.warnings.push_back({kind, Severity::warning, std::move(text), value, threshold});
-    };
     add_motion(counts, result);
     add_looks(counts, result);
-    if (const Compressed& pressed = result.watch.compressed; pressed.steps > 0)
-        add(WarningKind::compression, pressed.compression, result.options.contact.compression_warning,
-            fmt::format("{} and {} are strongly compressed in {} of {:.0f} steps, at most {:.2g} of D, the depth of their "
-                        "cells, {:g} is safe. A lower speed or load makes it less, "
-                        "a stiffer material too",
-                        pressed.body_1, pressed.body_2, pressed.steps,
-                        static_cast<double>(result.run.steps) * result.run.dt / result.run.finest_dt, pressed.compression,
-                        result.options.contact.compression_warning));
-    if (contact.sliding_ratio_max > stiff_sliding_ratio)
-        add(WarningKind::stiff_sliding, contact.sliding_ratio_max, stiff_sliding_ratio,
-            fmt::format("faces are pressed into each other deeper than they are wide ({:.2g} of the width where they slide "
-                        "off each other, {:g} is safe): contact is stiffer than the stable step allows for. Look at H - H~ "
-                        "and |e|/m; a lower --cfl, --filter neutral, or faces as wide as their cells are deep make it "
-                        "better",
-                        contact.sliding_ratio_max, stiff_sliding_ratio));
-    if (contact.slipped_compression_max > deep_slip_compression)
-        add(WarningKind::deep_slip, contact.slipped_compression_max, deep_slip_compression,
-            fmt::format("{} slid off each other while pressed in, by up to {:.2g} of D, the depth of their "
-                        "cells. At a free edge that is as it should be; elsewhere bodies pass through each other. A lower "
-                        "speed prevents it, and so does --overlap frozen, under which H~ drifts",
-                        counted(contact.slipped_pairs, "pair of faces", "pairs of faces"), contact.slipped_compression_max));
-    if (const double share = result.contact.sliding.least_share(); share < least_sliding_share)
-        add(WarningKind::alternating_slip, share, least_sliding_share,
-            fmt::format(
-                "faces that slide feel {:.2g} of the friction that they should for a part of the run, {:g} is safe: their "
-                "slip alternates from "
-                "step to step, and dissipation is wrong though the balance of energy holds. Leave --restart out (10 and "
-                "the filter act with friction), or take a lower --cfl",
-                share, least_sliding_share));
-    if (const auto& [name, rotation] = result.watch.turned; rotation > far_rotation)
-        add(WarningKind::rotation, rotation, far_rotation,
-            fmt::format("{} has turned by {:.2g} rad, {:g} is safe. A body of kinematics \"small\" grows as it turns, by "
-                        "{:.2g} % at this angle, and no energy shows it. kinematics = \"floating\" lets it turn",
-                        name, rotation, far_rotation, 100.0 * (1.0 / std::cos(rotation) - 1.0)));
-    double local_rotation = 0.0;
-    for (std::size_t body = 0; body < result.bodies.local_rotations.size(); ++body)
-        if (result.bodies.all_may_turn || (body < result.bodies.may_turn.size() && result.bodies.may_turn[body]))
-            local_rotation = std::max(local_rotation, result.bodies.local_rotations[body]);
-    if (local_rotation > far_rotation)
-        add(WarningKind::local_rotation, local_rotation, far_rotation,
-            fmt::format("a cell has turned by {:.2g} rad against the frame of its body, {:g} is safe. Strains are linear in "
-                        "that frame. Parts that turn against each other are to be bodies of their own, joined by springs",
-                        local_rotation, far_rotation));
+    add_compression(counts, result);
+    add_slip(counts, result);
+    add_turns(counts, result);
     add_weak_friction(counts, result);
-    if (result.bodies.finite.strain > large_strain)
-        add(WarningKind::finite_strain, result.bodies.finite.strain, large_strain,
-            fmt::format(
-                "a cell of a finite body was strained by {:.2g}, {:g} is safe, and the least det F was {:.2g}: St. "
-                "Venant and Kirchhoff's material is one of small strains, and weak in compression. Look at H - H~: "
-                "if noise grows, take {}; behind a shock linear_viscosity = 0.25 with quadratic_viscosity = 2 damps it",
-                result.bodies.finite.strain, large_strain, result.bodies.finite.determinant,
-                calming_choices(result.options)));
-    if (result.bodies.finite_kinematic_hardening && result.bodies.finite.plastic_strain > large_kinematic_flow)
-        add(WarningKind::kinematic_flow, result.bodies.finite.plastic_strain, large_kinematic_flow,
-            fmt::format(
-                "a cell has a plastic strain of {:.2g}, {:g} is safe with kinematic_hardening in a finite body: where "
-                "axes of strain turn, as in shear, its stress is too low (3 % at 0.6, 20 % at 1.2), and no energy "
-                "shows it. Metal that has flowed to and fro in small strains is right; metal that flows so far in one "
-                "direction should have hardening in place of kinematic_hardening",
-                result.bodies.finite.plastic_strain, large_kinematic_flow));
-    const dynamics::Losses& loss = result.energy.dissipated;
-    if (const double share = std::abs(loss.on_faces) / loss.in_cells; share > large_face_loss)
-        add(WarningKind::face_loss, share, large_face_loss,
-            fmt::format(
-                "free faces that flow along with their cells take {:.2g} of what plastic flow dissipates out of contact "
-                "and of jumps between cells, {:g} is safe: cells at the surface are too large for what happens "
-                "there, though the balance of energy holds. Take smaller cells",
-                share, large_face_loss));
-    if (const double share = loss.in_jumps / (loss.in_cells + loss.in_jumps); share > large_jump_loss)
-        add(WarningKind::jump_loss, share, large_jump_loss,
-            fmt::format("jumps between cells dissipate {:.2g} of what plastic flow does in all, {:g} is safe: they yield "
-                        "where cells "
-                        "may be elastic, though the balance of energy holds. Take smaller cells, or a larger jump_cap",
-                        share, large_jump_loss));
-    if (const ErodedShares shares = eroded_shares(result); shares.larger() > large_eroded_share)
-        add(WarningKind::erosion, shares.larger(), large_eroded_share,
-            fmt::format("cells that left took {:.2g} of the mass and {:.2g} of the energy in play along, {:g} is safe: what "
-                        "is left depends on the size of cells there. Take smaller cells where they leave, or a higher limit "
-                        "(erosion)",
-                        shares.mass, shares.energy, large_eroded_share));
-    if (const double share = std::abs(loss.at_splits) / result.energy.accounts.energy_in_play; share > large_split_share)
-        add(WarningKind::splits, share, large_split_share,
-            fmt::format(
-                "fragments that came apart or turned against each other changed V by {:.2g} of the energy in play as "
-                "they took frames of their own, {:g} is safe: strains are linear in a frame. Take larger grains, or "
-                "finite kinematics",
-                share, large_split_share));
+    add_strains(counts, result);
+    add_plastic_losses(counts, result);
+    add_lost_parts(counts, result);
     add_sightings(counts, result);
-    counts.add(WarningKind::missed_contacts, Severity::warning, contact.missed_contacts,
-               fmt::format("{} missed, 0 are allowed: the energy is not exact",
-                           counted(contact.missed_contacts, "contact was", "contacts were")));
-    counts.add(
-        WarningKind::inadmissible_overlaps, Severity::note, result.contact.inadmissible_overlaps_max,
-        fmt::format("up to {} without being contacts: far sides of bodies",
-                    counted(result.contact.inadmissible_overlaps_max, "pair of faces overlaps", "pairs of faces overlap")));
+    add_contacts(counts, result);
     return in_user_words(std::move(counts.warnings));
 }
 

@@ -31,7 +31,8 @@ void add_mesh(Counts& counts, const mesh::BuildReport& report, bool with_contact
         counts.warnings.push_back({WarningKind::mesh_file, Severity::warning, fmt::format("mesh file: {}", warning),
                                    std::numeric_limits<double>::quiet_NaN(), 0.0});
     counts.add(WarningKind::unused_vertices, Severity::note, report.n_unused_vertices,
-               fmt::format("{} vertices belong to no cell and are left out", report.n_unused_vertices));
+               fmt::format("{} left out: no cell has such a corner",
+                           counted(report.n_unused_vertices, "vertex is", "vertices are")));
     counts.add(WarningKind::ignored_elements, Severity::note, report.n_ignored_elements,
                fmt::format("{} left out: neither cells nor faces of a named group",
                            counted(report.n_ignored_elements, "element is", "elements are")));
@@ -176,10 +177,11 @@ void add_scattered_grains(Counts& counts, const Scene<Dim>& scene, const RunResu
     }
     if (n == 0) return;
     counts.add(WarningKind::scattered_grains, Severity::warning, static_cast<std::int64_t>(n),
-               fmt::format("springs hold the grains {} and {} together, and those of {} bonds more: stress of cells beside "
+               fmt::format("springs hold the grains {} and {} together, and those of {} more: stress of cells beside "
                            "them is off by a fifth while they hold, its mean is right. Grains of elastic bodies that are "
                            "floating have it right",
-                           quoted_side(scene, first->sides[0]), quoted_side(scene, first->sides[1]), n - 1));
+                           quoted_side(scene, first->sides[0]), quoted_side(scene, first->sides[1]),
+                           counted(static_cast<std::int64_t>(n) - 1, "bond")));
 }
 
 /// Warns that the mass of cells at their centroids leaves out a part of the inertia of bodies that turn: of the one that

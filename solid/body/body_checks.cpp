@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <string>
 
+#include "abut/base/counted.hpp"
 #include "abut/base/error.hpp"
 #include "abut/contact/interference.hpp"
 #include "abut/solid/body/bodies.hpp"
@@ -14,8 +15,8 @@ void Bodies<Dim>::check() const {
     const auto n_bodies = static_cast<std::size_t>(mesh_.n_bodies());
     const auto require_one_each = [&](std::size_t given, const std::string& what) {
         if (given != n_bodies)
-            throw BadInput(mesh_.name + ": " + std::to_string(given) + " " + what + " are given for " +
-                               std::to_string(n_bodies) + " bodies. Give one per body" +
+            throw BadInput(mesh_.name + ": " + what + ": " + std::to_string(given) + " given for " +
+                               counted(std::int64_t(n_bodies), "body") + ". Give one per body" +
                                (what == "materials" ? "." : ", or none."),
                            {.value = static_cast<double>(given), .allowed = static_cast<double>(n_bodies)});
     };

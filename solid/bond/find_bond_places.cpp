@@ -12,6 +12,7 @@
 #include "abut/base/sort_unique.hpp"
 #include "abut/contact/overlap/overlaps.hpp"
 #include "abut/geometry/polygon.hpp"
+#include "abut/solid/options/number_tables.hpp"
 #include "abut/solid/part/value_reader.hpp"
 
 namespace abut::solid {
@@ -161,24 +162,13 @@ void check_bond(const mesh::Mesh<Dim>& mesh, const Bond& bond, std::size_t n_obs
     if (bond.sides[0] == bond.sides[1])
         throw BadInput(mesh.name + ": both sides of a bond are " + side_in_words(mesh, bond.sides[0], n_obstacles) +
                        ". Give two, in SolidOptions::bonds.");
-    if (!(bond.strength > 0.0))
-        throw BadInput(mesh.name + ": the bond of " + side_in_words(mesh, bond.sides[0], n_obstacles) + " and " +
-                           side_in_words(mesh, bond.sides[1], n_obstacles) + " has a strength of " + number(bond.strength) +
-                           " Pa; > 0 is needed. Correct SolidOptions::bonds.",
-                       {.value = bond.strength, .allowed = 0.0});
-    if (!(bond.weibull_modulus > 0.0))
-        throw BadInput(mesh.name + ": the bond of " + side_in_words(mesh, bond.sides[0], n_obstacles) + " and " +
-                           side_in_words(mesh, bond.sides[1], n_obstacles) + " has a Weibull modulus of " +
-                           number(bond.weibull_modulus) + "; > 0 is needed. Correct SolidOptions::bonds.",
-                       {.value = bond.weibull_modulus, .allowed = 0.0});
-    if (!(bond.fracture_energy >= 0.0 && std::isfinite(bond.fracture_energy)) ||
-        (bond.fracture_energy > 0.0 && std::isinf(bond.strength)))
-        throw BadInput(
-            mesh.name + ": the bond of " + side_in_words(mesh, bond.sides[0], n_obstacles) + " and " +
-                side_in_words(mesh, bond.sides[1], n_obstacles) + " has a fracture energy of " +
-                number(bond.fracture_energy) +
-                " J/m^2; it is finite and >= 0, and 0 where the strength is infinite. Correct SolidOptions::bonds.",
-            {.value = bond.fracture_energy, .allowed = 0.0});
+    const std::string who = mesh.name + ": the bond of " + side_in_words(mesh, bond.sides[0], n_obstacles) + " and " +
+                            side_in_words(mesh, bond.sides[1], n_obstacles) + " in SolidOptions::bonds: its ";
+    require_allowed(who, bond_numbers, bond);
+    if (bond.fracture_energy > 0.0 && std::isinf(bond.strength))
+        throw BadInput(who + "fracture_energy is " + number(bond.fracture_energy) +
+                           " J/m^2, but it never opens. Give its strength, or leave fracture_energy out.",
+                       {.value = bond.fracture_energy, .allowed = 0.0});
 }
 
 /// Bits that look random, and depend on those of `bits` alone (splitmix64).

@@ -4,6 +4,7 @@
 #include <string>
 #include <utility>
 
+#include "abut/base/counted.hpp"
 #include "abut/base/error.hpp"
 #include "abut/base/parallel.hpp"
 #include "abut/base/rotation.hpp"
@@ -21,8 +22,8 @@ template <int Dim>
 std::span<const Material> checked(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials) {
     const auto n_bodies = static_cast<std::size_t>(mesh.n_bodies());
     if (materials.size() != n_bodies)
-        throw BadInput(mesh.name + ": " + std::to_string(materials.size()) + " materials are given for " +
-                           std::to_string(n_bodies) + " bodies. Give one per body.",
+        throw BadInput(mesh.name + ": " + counted(std::ssize(materials), "material is", "materials are") + " given for " +
+                           counted(std::int64_t(n_bodies), "body") + ". Give one per body.",
                        {.value = static_cast<double>(materials.size()), .allowed = static_cast<double>(n_bodies)});
     for (std::size_t body = 0; body < n_bodies; ++body) check(materials[body], static_cast<int>(body));
     return materials;

@@ -37,6 +37,7 @@ enum class Feature {
     interference,            ///< bodies that overlap at the start on purpose
     friction,                ///< bodies that rub
     varying_load,            ///< a condition or a temperature that varies, or a load from outside
+    outside_work,            ///< dashpots, moments, tractions on bodies that turn, and obstacles that move
     reconstruction,          ///< ContactLaw::reconstruction
     pair_potential,          ///< ContactLaw::pair_potential
     single_precision,        ///< steps of the bulk in it
@@ -104,6 +105,8 @@ inline constexpr std::array<FeatureWords, n_features> feature_words{{
     {Feature::friction, "friction", "bodies rub"},
     {Feature::varying_load, "load, support or temperature that varies or is set from outside",
      "a boundary condition has a history or is set from outside, or a temperature varies"},
+    {Feature::outside_work, "dashpot, moment, traction on a body that turns, obstacle that moves",
+     "a dashpot, a moment, a traction on a body that turns or an obstacle that moves does work"},
     {Feature::reconstruction, "law \"reconstruction\"", "contact is by ContactLaw::reconstruction"},
     {Feature::pair_potential, "law \"pair_potential\"", "contact is by ContactLaw::pair_potential"},
     {Feature::single_precision, "single precision", "steps of the bulk are made in single precision"},

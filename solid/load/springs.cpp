@@ -8,6 +8,7 @@
 #include "abut/base/error.hpp"
 #include "abut/base/messages.hpp"
 #include "abut/base/state_fields.hpp"
+#include "abut/solid/options/number_tables.hpp"
 
 namespace abut::solid {
 namespace {
@@ -26,11 +27,7 @@ template <int Dim>
 Springs<Dim>::Springs(const Bodies<Dim>& bodies, HeldPlaces<Dim>& places, const HeldPoints<Dim>& held)
     : bodies_(bodies), held_(held) {
     for (const Spring<Dim>& law : bodies.options().springs) {
-        for (const double value : {law.stiffness, law.length, law.damping})
-            if (!(value >= 0.0) || !std::isfinite(value))
-                throw BadInput(bodies.mesh().name + ": a spring has the value " + number(value) +
-                                   "; stiffness, length and damping must be finite and >= 0. Correct SolidOptions::springs.",
-                               {.value = value, .allowed = 0.0});
+        require_allowed(bodies.mesh().name + ": a spring of SolidOptions::springs: its ", spring_numbers<Dim>, law);
         HeldPlace<Dim> first = places.of(law.first), second = places.of(law.second);
         springs_.push_back({std::move(first), std::move(second), law});
     }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "abut/base/given_value.hpp"
+
 namespace abut::solid {
 namespace {
 
@@ -68,6 +70,10 @@ const std::vector<KnownMaterial>& known_materials() {
 const KnownMaterial* known_material(const std::string& name) {
     const auto found = std::ranges::find(known_materials(), name, &KnownMaterial::name);
     return found == known_materials().end() ? nullptr : &*found;
+}
+
+const KnownMaterial& material_called(const std::string& name) {
+    return entry_called(known_materials(), &KnownMaterial::name, "material", name);
 }
 
 void take_flow(Material& material, const KnownMaterial& known) {

@@ -21,5 +21,7 @@ void take_flow(Material& material, const KnownMaterial& known);
 [[nodiscard]] const std::vector<KnownMaterial>& known_materials();
 /// Null if none has this name.
 [[nodiscard]] const KnownMaterial* known_material(const std::string& name);
+/// Throws BadInput, with all names, if none has this one.
+[[nodiscard]] const KnownMaterial& material_called(const std::string& name);
 
 }  // namespace abut::solid

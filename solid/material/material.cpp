@@ -8,31 +8,24 @@
 #include <utility>
 
 #include "abut/base/error.hpp"
+#include "abut/base/given_value.hpp"
 #include "abut/base/messages.hpp"
 #include "abut/solid/material/j2_plasticity.hpp"
 #include "abut/solid/material/logarithmic_plasticity.hpp"
 #include "abut/solid/material/material_numbers.hpp"
 #include "abut/solid/material/mooney_rivlin.hpp"
 #include "abut/solid/material/orthotropic.hpp"
+#include "abut/solid/material/refuse_material.hpp"
 
 namespace abut::solid {
 namespace {
-
-[[noreturn]] void refuse_material(int body, const std::string& name, double value, const std::string& limit) {
-    throw BadInput("material of body " + std::to_string(body) + ": " + name + " is " + number(value) + "; " + limit,
-                   {.value = value});
-}
 
 void check_number(const MaterialNumber& of, const Material& material, int body) {
     const double value = of.at.of(material);
     if (of.law && *of.law != material.law && value != 0.0)
         refuse_material(body, of.name, value,
                         "it must be 0, as its law is not " + word_of(material_law_words, *of.law) + ".");
-    if (!of.limits.allow(value)) {
-        const std::string remedy = of.limits.remedy;
-        refuse_material(body, of.name, value,
-                        "it must be " + text_of(of.limits) + "." + (remedy.empty() ? "" : " " + remedy));
-    }
+    require_allowed("material of body " + std::to_string(body) + ": " + of.name, of.limits, value);
 }
 
 struct NamedNumber {
@@ -119,6 +112,11 @@ void check(const Material& material, int body) {
     if (material.second_share > most_share)
         refuse_material(body, "second_share", material.second_share,
                         "it must be at most " + number(most_share) + ", the lesser of 1 and lambda/(2 mu).");
+}
+
+void refuse_material(int body, const std::string& name, double value, const std::string& limit) {
+    throw BadInput("material of body " + std::to_string(body) + ": " + name + " is " + number(value) + "; " + limit,
+                   {.value = value});
 }
 
 double Material::damping_ratio(double omega, double size) const {

@@ -11,6 +11,7 @@
 #include "abut/base/error.hpp"
 #include "abut/base/messages.hpp"
 #include "abut/base/rotation.hpp"
+#include "abut/solid/material/refuse_material.hpp"
 
 namespace abut::solid {
 namespace {
@@ -83,16 +84,11 @@ constexpr auto components = [] {
 }();
 constexpr int out_of_plane = 2;
 
-[[noreturn]] void refuse_constant(int body, const std::string& name, double value, const std::string& limit) {
-    throw BadInput("material of body " + std::to_string(body) + ": " + name + " is " + number(value) + "; " + limit,
-                   {.value = value});
-}
-
 void check_ratio(int body, const char* name, double ratio, const char* along, double young, const char* across,
                  double young_across) {
     const double limit = std::sqrt(young / young_across);
     if (!(std::abs(ratio) < limit))
-        refuse_constant(body, name, ratio,
+        refuse_material(body, name, ratio,
                         "it must be between -r and r, r = sqrt(" + std::string(along) + "/" + across +
                             ") = " + number(limit) +
                             ", or stretching would release energy. It is the contraction along the "
@@ -125,22 +121,22 @@ void check_orthotropic(const Material& material, int body) {
     for (const auto& [name, value] :
          {std::pair{"young_2", of.young_2}, std::pair{"young_3", of.young_3}, std::pair{"shear_12", of.shear_12},
           std::pair{"shear_13", of.shear_13}, std::pair{"shear_23", of.shear_23}})
-        if (!(value > 0.0)) refuse_constant(body, name, value, "it must be above 0 Pa: orthotropic needs it.");
+        if (!(value > 0.0)) refuse_material(body, name, value, "it must be above 0 Pa: orthotropic needs it.");
     check_ratio(body, "poisson", material.poisson, "young", material.young, "young_2", of.young_2);
     check_ratio(body, "poisson_13", of.poisson_13, "young", material.young, "young_3", of.young_3);
     check_ratio(body, "poisson_23", of.poisson_23, "young_2", of.young_2, "young_3", of.young_3);
     const double determinant = compliance_of_tension(material).determinant() * material.young * of.young_2 * of.young_3;
     if (!(determinant > least_determinant))
-        refuse_constant(body, "1 - nu_12 nu_21 - nu_13 nu_31 - nu_23 nu_32 - 2 nu_21 nu_32 nu_13", determinant,
+        refuse_material(body, "1 - nu_12 nu_21 - nu_13 nu_31 - nu_23 nu_32 - 2 nu_21 nu_32 nu_13", determinant,
                         "it must be above " + number(least_determinant) +
                             ", or some stretch would cost no energy. Make poisson, poisson_13 or poisson_23 smaller.");
     const Vector<3> first = Vector<3>(of.axis_1.data()), second = Vector<3>(of.axis_2.data());
     for (const auto& [name, axis] : {std::pair{"axis_1", first}, std::pair{"axis_2", second}})
         if (!(axis.norm() > 0.0) || !axis.allFinite())
-            refuse_constant(body, std::string("the length of ") + name, axis.norm(), "it must be finite and above 0.");
+            refuse_material(body, std::string("the length of ") + name, axis.norm(), "it must be finite and above 0.");
     const double cosine = first.normalized().dot(second.normalized());
     if (!(std::abs(cosine) <= right_angle))
-        refuse_constant(body, "the cosine between axis_1 and axis_2", cosine,
+        refuse_material(body, "the cosine between axis_1 and axis_2", cosine,
                         "they must be at right angles, to " + number(right_angle) + ".");
 }
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "abut/base/error.hpp"
-#include "abut/base/messages.hpp"
+#include "abut/solid/options/number_tables.hpp"
 
 namespace abut::solid {
 
@@ -15,11 +15,7 @@ void check_erosion(const std::string& mesh, std::span<const ErosionLimits> limit
                            std::to_string(bodies.size()) + ". Give one set per body, or none.",
                        {.value = static_cast<double>(limits.size()), .allowed = static_cast<double>(bodies.size())});
     for (std::size_t body = 0; body < limits.size(); ++body)
-        for (const double limit : {limits[body].strain, limits[body].plastic_strain, limits[body].stress})
-            if (!(limit > 0.0))
-                throw BadInput(mesh + ": a limit of erosion of body '" + bodies[body] + "' is " + number(limit) +
-                                   "; above 0 is allowed. Leave it out where cells stay.",
-                               {.value = limit, .allowed = 0.0});
+        require_allowed(mesh + ": erosion of body '" + bodies[body] + "': ", erosion_numbers, limits[body]);
 }
 
 }  // namespace abut::solid

@@ -24,6 +24,15 @@ bool varies(const SolidOptions<Dim>& options) {
            std::ranges::any_of(options.temperature_rise, [](const auto& rise) { return rise.value && rise.varies; });
 }
 
+/// Whether springs, moments or obstacles do work.
+template <int Dim>
+bool gives_work(const SolidOptions<Dim>& options) {
+    const auto damps = [](const Spring<Dim>& spring) { return spring.damping > 0.0; };
+    const auto moves = [](const contact::RigidObstacle<Dim>& obstacle) { return obstacle.path || obstacle.placement; };
+    return std::ranges::any_of(options.springs, damps) || !options.moments.empty() ||
+           (options.contact && std::ranges::any_of(options.obstacles, moves));
+}
+
 /// Bodies of the faces of a group: calls of_body(body) for each, of neighbours in the list once.
 template <int Dim, class OfBody>
 void for_bodies_of(const mesh::Mesh<Dim>& mesh, const std::string& group, const OfBody& of_body) {
@@ -33,15 +42,16 @@ void for_bodies_of(const mesh::Mesh<Dim>& mesh, const std::string& group, const 
 }
 
 template <int Dim>
-FeatureSet features_of(const DirichletCondition<Dim>& condition) {
+FeatureSet features_of(const DirichletCondition<Dim>& condition, Kinematics) {
     FeatureSet features{Feature::clamp};
     features.add(Feature::guide, condition.constraint != Constraint::full || condition.history);
     return features;
 }
 
 template <int Dim>
-FeatureSet features_of(const TractionCondition<Dim>& condition) {
+FeatureSet features_of(const TractionCondition<Dim>& condition, Kinematics kinematics) {
     FeatureSet features;
+    features.add(Feature::outside_work, properties_of(kinematics).turns);
     features.add(Feature::following_from_outside, condition.follows && condition.from_outside);
     return features;
 }
@@ -66,8 +76,10 @@ private:
     template <class Condition>
     void require_of(const std::vector<Condition>& conditions) const {
         for (const Condition& condition : conditions)
-            if (const FeatureSet features = features_of(condition); !features.is_empty())
-                for_bodies_of(mesh_, condition.group, [&](std::int32_t body) { require(body, condition.group, features); });
+            for_bodies_of(mesh_, condition.group, [&](std::int32_t body) {
+                const Kinematics kinematics = kinematics_of(options_.kinematics, static_cast<std::size_t>(body));
+                require(body, condition.group, features_of(condition, kinematics));
+            });
     }
     void require(std::int32_t body, const std::string& group, FeatureSet features) const {
         const auto b = static_cast<std::size_t>(body);
@@ -99,6 +111,7 @@ FeatureSet features_of(const SolidOptions<Dim>& options) {
     features.add(Feature::interference, !options.interference.empty());
     features.add(Feature::friction, options.contact && options.has_friction());
     features.add(Feature::varying_load, is_from_outside || varies(options));
+    features.add(Feature::outside_work, gives_work(options));
     features.add(Feature::single_precision, options.precision == Precision::single_precision);
     features.add(Feature::device, options.device != StepDevice::host);
     features.add(Feature::erosion, any_erosion(options.erosion));

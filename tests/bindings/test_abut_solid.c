@@ -373,6 +373,35 @@ static void what_cannot_break_is_refused(void) {
     abut_solid_destroy(solid);
 }
 
+static void a_bond_takes_no_body_in_grains_but_one_of_its_grains(void) {
+    abut_error error = ABUT_ERROR_INIT;
+    abut_solid* solid = struck_bar("floating");
+    CHECK(abut_solid_bond(solid, "striker", "bar", INFINITY, 0.0, &error) == ABUT_OK);
+    CHECK(abut_solid_begin(solid, NULL, &error) == ABUT_BAD_INPUT && strstr(error.message, "Give one of these, or a group"));
+    abut_solid_destroy(solid);
+}
+
+/* Their bodies have numbers, which the error of a name that is none of them tells. */
+static void boxes_of_one_name_are_not_mistaken_for_each_other(void) {
+    abut_error error = ABUT_ERROR_INIT;
+    abut_solid* solid = NULL;
+    const double lower[2] = {0.0, 0.0}, upper[2] = {1.0, 1.0}, above[2] = {0.0, 2.0}, top[2] = {1.0, 3.0};
+    const int32_t bricks[2] = {4, 4};
+    CHECK(abut_solid_create(2, &solid, &error) == ABUT_OK);
+    CHECK(abut_solid_add_box(solid, "block", lower, upper, bricks, material, NULL, &error) == ABUT_OK);
+    CHECK(abut_solid_add_box(solid, "block", above, top, bricks, material, NULL, &error) == ABUT_OK);
+    abut_fracture fracture = ABUT_FRACTURE_INIT;
+    fracture.grain = 0.3, fracture.strength = 1.0;
+    CHECK(abut_solid_set_fracture(solid, "block", &fracture, &error) == ABUT_BAD_INPUT &&
+          strstr(error.message, "several bodies are called 'block'"));
+    CHECK(abut_solid_begin(solid, NULL, &error) == ABUT_OK);
+    int64_t n = 0;
+    CHECK(abut_solid_n_cells(solid, "block", &n, &error) == ABUT_BAD_INPUT &&
+          strstr(error.message, "There are 'block_1.block', 'block_2.block'."));
+    CHECK(abut_solid_n_cells(solid, "block_2.block", &n, &error) == ABUT_OK && n == 16);
+    abut_solid_destroy(solid);
+}
+
 static void a_file_brings_bodies_and_groups(const char* folder) {
     char path[4096];
     snprintf(path, sizeof(path), "%s/abut_solid_square.msh", folder);
@@ -412,6 +441,8 @@ int main(int argc, char** argv) {
     glued_pieces_are_one_until_they_part();
     a_bar_breaks_into_fragments();
     what_cannot_break_is_refused();
+    a_bond_takes_no_body_in_grains_but_one_of_its_grains();
+    boxes_of_one_name_are_not_mistaken_for_each_other();
     what_cannot_be_is_refused();
     a_file_brings_bodies_and_groups(argc > 1 ? argv[1] : ".");
     return failures == 0 ? EXIT_SUCCESS : EXIT_FAILURE;

@@ -160,7 +160,8 @@ class Detection(unittest.TestCase):
                 (lambda: manager.add_object("c", (SQUARE, [])), ValueError, "no faces"),
                 (lambda: abut.detect([(SQUARE, UP)] * 2, transforms=[None]), ValueError, "1 transforms for 2 meshes"),
                 (lambda: abut.detect([(SQUARE, UP), (SQUARE, [[0, 1, 9]])]), ValueError, "names vertex 9, but there are 4"),
-                (lambda: abut.detect([(SQUARE, UP), (SQUARE * np.nan, UP)]), ValueError, "not finite")):
+                (lambda: abut.detect([(SQUARE, UP), (SQUARE * np.nan, UP)]), ValueError, "vertex 0 is not finite"),
+                (lambda: abut.detect([(SQUARE, UP), (SQUARE, UP)], distance=-1.0), ValueError, "distance is -1.0; 0 m or more")):
             with self.assertRaises(error) as caught:
                 call()
             self.assertIn(words, str(caught.exception))

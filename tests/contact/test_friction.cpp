@@ -191,8 +191,8 @@ TEST_CASE("laws of friction that cannot be are refused by name", "[contact][fric
     const auto refused = [](const Friction& law, const std::string& name) {
         CHECK_THROWS_WITH(check(contact::FrictionOptions{.laws = {law}}), Contains(name));
     };
-    refused({.coefficient = -0.1}, "coefficient is -0.1");
-    refused({.coefficient = std::nan("")}, "coefficient");
+    refused({.coefficient = -0.1}, "friction is -0.1; 0 or above is needed");
+    refused({.coefficient = std::nan("")}, "friction is nan");
     refused({.coefficient = 0.5, .sliding_coefficient = 0.2}, "decay_speed");
     refused({.coefficient = 0.5, .decay_speed = 0.0}, "decay_speed is 0");
     refused({.strength = -1.0}, "strength");

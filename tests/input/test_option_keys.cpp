@@ -73,7 +73,7 @@ TEST_CASE("keys of options reach their members", "[input][options]") {
 
 TEST_CASE("a key of an option refuses what the table does not allow", "[input][options]") {
     const auto fault = [](const std::string& line) { return read(line).faults.at(0).text; };
-    CHECK(fault("soil_stiffness=0") == "soil.soil_stiffness is 0 Pa, above 0 Pa is needed.");
+    CHECK(fault("soil_stiffness=0") == "soil.soil_stiffness is 0 Pa; above 0 Pa is needed.");
     CHECK(fault("depths=[2, 1]") == "soil.depths, number 2 is 1 m, after 2 m. Give them in increasing order, each once.");
     CHECK(fault("layers=10") == "soil.layers is 10, 1 to 9 is needed.");
     CHECK(fault("grain='fien'").find("'fine'") != std::string::npos);

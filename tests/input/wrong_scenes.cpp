@@ -75,7 +75,7 @@ const std::vector<WrongScene>& wrong_scenes() {
         {"[[patterns]]\nbody = \"left\"\ncount = 2", {}, ".toml:19:", {"patterns[0] has none of step", "centre", "places"}},
         {"[[patterns]]\nbody = \"left\"\nstep = [0, 2]", {}, ".toml:19:", {"patterns[0].count is missing"}},
         {"[[patterns]]\nbody = \"left\"\ncount = 2\nstep = [0, 2]\nangle = 1", {}, ".toml:19:", {"angle without centre"}},
-        {"[[patterns]]\nbody = \"left\"\nplaces = [[0, 0], [0, 2]]\nturns = [1]", {}, ".toml:19:", {"1 turns for 2 places"}},
+        {"[[patterns]]\nbody = \"left\"\nplaces = [[0, 0], [0, 2]]\nturns = [1]", {}, ".toml:19:", {"1 turn for 2 places"}},
         {"[[patterns]]\nbody = \"left\"\ncount = 2\nstep = [0, 0.7]",
          {},
          ".toml:19:",

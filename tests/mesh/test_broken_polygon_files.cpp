@@ -128,7 +128,7 @@ TEST_CASE("OFF comes in with colours, normals, weights and comments", "[mesh][su
     CHECK(mesh.faces.values == std::vector<std::int32_t>{0, 1, 2});
     CHECK(read_text("a.off", "4OFF\n3 1 0\n0 0 0 1\n2 0 0 2\n0 1 0 1\n3 0 1 2\n").vertices[1] == Vector<3>(1, 0, 0));
     CHECK(read_text("a.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n3 2 1 0\n").warnings ==
-          std::vector<std::string>{"line 7: what follows the 1 faces that the head promises is not read"});
+          std::vector<std::string>{"line 7: what follows 1 face, as many as the head promises, is not read"});
 }
 
 TEST_CASE("a PLY header that makes no sense is refused with its line", "[mesh][surface][broken]") {

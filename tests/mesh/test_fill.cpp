@@ -118,6 +118,24 @@ TEST_CASE("a surface in another unit is refused before it is filled, and the est
     }
 }
 
+TEST_CASE("the cavities of a surface are left out, whether it is remeshed or keeps its triangles", "[mesh][fill]") {
+    SurfaceMesh hollow = boundary_of(
+        structured_box<3>({100.25, 0.5, 1.0}, {100.75, 1.5, 2.0}, {2, 3, 3}, CellShape::tetrahedron));  // 0.5 m^3, 4 m^2
+    for (std::size_t i = 0; i < hollow.faces.values.size(); i += 3)
+        std::swap(hollow.faces.values[i], hollow.faces.values[i + 1]);
+    const std::vector<SurfaceMesh> both{box_of_triangles(), hollow};
+    for (const bool keeps : {false, true}) {
+        CAPTURE(keeps);
+        const Mesh<3> mesh = fill(combine(both), {.size = 0.25, .name = "shell", .keeps_triangles = keeps});
+        CHECK(volume_of(mesh) == Approx(5.5).epsilon(1e-9));
+        double area = 0.0;
+        for (const std::int32_t face : mesh.group("boundary").faces)
+            area += mesh.face_measure[static_cast<std::size_t>(face)];
+        CHECK(area == Approx(26.0).epsilon(1e-9));
+        test::check_closed_cells(mesh);
+    }
+}
+
 TEST_CASE("what is not one closed surface is refused", "[mesh][fill]") {
     SurfaceMesh open = box_of_triangles();
     open.faces.values.resize(open.faces.values.size() - 3);
@@ -128,7 +146,7 @@ TEST_CASE("what is not one closed surface is refused", "[mesh][fill]") {
     CHECK_THROWS_AS(fill(flipped, {}), MeshError);
     const std::vector<SurfaceMesh> two{
         box_of_triangles(), boundary_of(structured_box<3>({0, 0, 0}, {1, 1, 1}, {1, 1, 1}, CellShape::tetrahedron))};
-    CHECK_THROWS_AS(fill(combine(two), {}), MeshError);
+    CHECK_THROWS_WITH(fill(combine(two), {}), Catch::Contains("it has 2 outer surfaces"));
     CHECK_THROWS_AS(fill(box_of_triangles(), {.size = 0.0}), MeshError);
 }
 

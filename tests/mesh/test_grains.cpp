@@ -114,6 +114,6 @@ TEST_CASE("a grain lies within one body", "[mesh][grains]") {
 TEST_CASE("grains that leave a body whole, or of no size, are refused with what there is room for", "[mesh][grains]") {
     const auto mesh = box<2>(1.0, 0.2);
     CHECK_THROWS_WITH((mesh::grains_of<2>(mesh, {.size = 5.0})), Contains("leave each body whole"));
-    CHECK_THROWS_WITH((mesh::grains_of<2>(mesh, {.size = 0.0})), Contains("> 0 is needed"));
+    CHECK_THROWS_WITH((mesh::grains_of<2>(mesh, {.size = 0.0})), Contains("the size of grains is 0 m; above 0 m is needed"));
     CHECK_THROWS_AS((mesh::grains_of<2>(mesh, {.size = std::nan("")})), BadInput);
 }

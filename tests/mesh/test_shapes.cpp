@@ -208,7 +208,7 @@ TEST_CASE("impossible shapes are refused by name, value and limit", "[mesh][shap
                       Contains("a prism cannot fill a box of dimension 2"));
     CHECK_THROWS_WITH((structured_box<2>({0, 0}, {1, -1}, {2, 2}, CellShape::triangle)),
                       Contains("the box is -1 m long along y"));
-    CHECK_THROWS_WITH(fan_disc({0, 0}, 1, 2), Contains("n_sectors is 2, at least 3 are needed."));
+    CHECK_THROWS_WITH(fan_disc({0, 0}, 1, 2), Contains("n_sectors is 2, at least 3 is needed."));
     CHECK_THROWS_WITH(fan_disc({0, 0}, 1, 268435456),
                       Contains("disc: its sizes make about 2.68435e+08 cells, at most 50000000 are made."));
     CHECK_THROWS_WITH(fan_disc({0, 0}, 0, 5), Contains("radius is 0 m"));
@@ -224,7 +224,7 @@ TEST_CASE("sizes and places that make no mesh are refused before Gmsh tries", "[
     CHECK_THROWS_WITH(disc({.size = 0.1, .refinement = Refinement<2>{{0, -1}, 0.2, 0.5}}),
                       Contains("disc: refinement.size is 0.2 m, at most size = 0.1 m is allowed. Lower it"));
     CHECK_THROWS_WITH(disc({.size = 0.1, .refinement = Refinement<2>{{0, -1}, 0.01, 0.5, -0.1}}),
-                      Contains("disc: refinement.uniform is -0.1 m, 0 or more is needed"));
+                      Contains("disc: refinement.uniform is -0.1 m, a finite length of 0 or more is needed"));
     CHECK_THROWS_WITH(cylinder({.size = 1e-4}),
                       Contains("cylinder: its sizes make about 1.44513e+13 cells, at most 10000000 are made. Raise size"));
     CHECK_THROWS_WITH(disc({.size = 1e-6}), Contains("at most 10000000 are made."));

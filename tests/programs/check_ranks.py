@@ -96,7 +96,9 @@ def check_pieces(program, scene, folder, expected):
     assert "frames/bodies_000002.pvtu" in (pieces / "bodies.pvd").read_text()
     for name in ("energy.csv", "frames/bodies_pairs_000002.vtp"):
         assert (pieces / name).read_bytes() == expected[name], name
-    subprocess.run(command(program, scene, pieces, "--ranks", "2"), check=True)
+    loud = [word for word in command(program, scene, pieces, "--ranks", "2") if word != "--quiet"]
+    told = subprocess.run(loud, check=True, capture_output=True, text=True).stdout
+    assert "step" in told and not set("\r\033") & set(told), "what goes to a file has lines, and no colours"
     require_same(expected, files_of(pieces), "after frames in pieces")
 
 

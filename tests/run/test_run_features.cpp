@@ -21,13 +21,30 @@ struct Asked {
 };
 
 std::vector<Asked> all_asked() {
-    return {{Feature::erosion, [](run::Scene<2>& scene) { scene.solid.erosion = {{.strain = 0.5}}; }},
-            {Feature::damping, [](run::Scene<2>& scene) { scene.solid.materials[0].damping.mass = 0.1; }},
-            {Feature::friction,
-             [](run::Scene<2>& scene) {
-                 scene.solid.body_friction = {{{0, 1}, {.coefficient = 0.3}}};
-             }},
-            {Feature::rigid, [](run::Scene<2>& scene) { scene.solid.kinematics = {solid::Kinematics::rigid}; }}};
+    return {
+        {Feature::erosion, [](run::Scene<2>& scene) { scene.solid.erosion = {{.strain = 0.5}}; }},
+        {Feature::damping, [](run::Scene<2>& scene) { scene.solid.materials[0].damping.mass = 0.1; }},
+        {Feature::friction,
+         [](run::Scene<2>& scene) {
+             scene.solid.body_friction = {{{0, 1}, {.coefficient = 0.3}}};
+         }},
+        {Feature::rigid, [](run::Scene<2>& scene) { scene.solid.kinematics = {solid::Kinematics::rigid}; }},
+        {Feature::interference,
+         [](run::Scene<2>& scene) {
+             scene.solid.interference = {{.bodies = {0, 1}, .time = 0.1}};
+         }},
+        {Feature::varying_load,
+         [](run::Scene<2>& scene) {
+             scene.solid.boundary.traction = {
+                 {.group = "xmin", .history = [](double t, const Vector<2>&) { return Vector<2>(1e-3 * t, 0.0); }}};
+         }},
+        {Feature::outside_work,
+         [](run::Scene<2>& scene) { scene.solid.obstacles[0].path = [](double t) { return Vector<2>(0.0, -1e-3 * t); }; }},
+        {Feature::outside_work, [](run::Scene<2>& scene) {
+             scene.solid.springs = {{.first = {.body = 0, .position = {0.5, 0.5}, .radius = 1.0},
+                                     .second = {.position = {0.5, 2.0}},
+                                     .damping = 1e-3}};
+         }}};
 }
 
 /// "": the run went well.

@@ -520,7 +520,8 @@ TEST_CASE("bonds that cannot be made are refused with the reason", "[solid][bond
                }),
                Contains("both sides of a bond are body 'left'"));
     CHECK_THAT(message([](auto& options) { options.bonds = {{.sides = {0, 99}}}; }), Contains("side 99"));
-    CHECK_THAT(message([](auto& options) { options.bonds.front().strength = 0.0; }), Contains("a strength of 0 Pa"));
+    CHECK_THAT(message([](auto& options) { options.bonds.front().strength = 0.0; }),
+               Contains("its strength is 0 Pa; above 0 Pa is needed"));
     CHECK_THAT(message([](auto& options) {
                    options.kinematics = {Kinematics::small, Kinematics::rigid};
                }),

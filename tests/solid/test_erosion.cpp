@@ -204,7 +204,7 @@ TEST_CASE("limits of erosion are refused by name where they are none, and of bod
     options.erosion = {{.strain = 0.1}, {}};
     CHECK_THAT(said(options), Catch::Contains("are given for 2 bodies of 1"));
     options.erosion = {{.stress = -1.0}};
-    CHECK_THAT(said(options), Catch::Contains("of body 'block' is -1; above 0 is allowed"));
+    CHECK_THAT(said(options), Catch::Contains("of body 'block': stress is -1 Pa; above 0 Pa is needed"));
     options.erosion = {{.strain = 0.1}};
     options.kinematics = {Kinematics::rigid};
     CHECK_THAT(said(options), Catch::Contains("is rigid and has limits of erosion"));

@@ -458,7 +458,7 @@ TEMPLATE_TEST_CASE_SIG(
     const auto mesh = box_of_grains<Dim>();
     const double strength = GENERATE(std::numeric_limits<double>::infinity(), 0.02);
     auto options = of_grains<Dim>(mesh, {.sides = {}, .strength = strength});
-    for (auto& material : options.materials) material.stiffness_damping = 0.01;
+    for (auto& material : options.materials) material.damping.stiffness = 0.01;
     options.obstacles = {contact::plane_obstacle<Dim>(-1e-3 * Vector<Dim>::Unit(0), Vector<Dim>::Unit(0), 5.0)};
     const std::vector<Motion<Dim>> motions(options.materials.size(),
                                            moving<Dim>(-0.05 * Vector<Dim>::Unit(0), some_spin<Dim>(0.02)));
@@ -525,7 +525,7 @@ TEST_CASE("strengths are drawn from the Weibull distribution that is asked for",
         CHECK(n > 300);
         CHECK(farthest < 1.95 / std::sqrt(n));
     }
-    CHECK_THROWS_WITH(strengths_of(0.0, 0), Catch::Contains("Weibull modulus of 0; > 0 is needed"));
+    CHECK_THROWS_WITH(strengths_of(0.0, 0), Catch::Contains("its weibull is 0; above 0 is needed"));
 }
 
 }  // namespace abut::test

@@ -278,5 +278,5 @@ TEST_CASE("a temperature that a body cannot have is refused by name", "[solid][m
     refused(options, "a thermal strain of");
     options = warm<2>(steel());
     options.temperature_rise.push_back(constant<2>(1.0));
-    refused(options, "2 temperatures");
+    refused(options, "temperatures: 2 given");
 }

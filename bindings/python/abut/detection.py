@@ -254,6 +254,9 @@ class _Surface:
         self.vertices = numpy.array(vertices, dtype=float)
         if self.vertices.ndim != 2 or self.vertices.shape[1] not in (2, 3):
             raise ValueError(f"vertices must have the shape (n, 3); this is {self.vertices.shape}")
+        unknown = numpy.flatnonzero(~numpy.isfinite(self.vertices).all(axis=1))
+        if unknown.size > 0:
+            raise ValueError(f"vertex {unknown[0]} is not finite: {self.vertices[unknown[0]]}")
         if self.vertices.shape[1] == 2:
             self.vertices = numpy.hstack([self.vertices, numpy.zeros((len(self.vertices), 1))])
         sizes = [len(face) for face in faces]
@@ -523,6 +526,8 @@ class CollisionManager:
             return []
         if distance is None:
             distance = self._default_distance()
+        if not distance >= 0.0:
+            raise ValueError(f"distance is {distance}; 0 m or more is needed")
         surfaces = [self._surfaces[name] for name in names]
         first_face = numpy.concatenate([[0], numpy.cumsum([len(one.offsets) - 1 for one in surfaces])])
         first_node = numpy.concatenate([[0], numpy.cumsum([len(one.vertices) for one in surfaces])])
