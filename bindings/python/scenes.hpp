@@ -14,6 +14,7 @@
 
 #include "abut/base/error.hpp"
 #include "abut/input/given_meshes.hpp"
+#include "abut/input/scene_file.hpp"
 #include "abut/run/options.hpp"
 #include "abut/run/scene.hpp"
 #include "vectors.hpp"
@@ -55,6 +56,10 @@ struct SceneSource {
         return meshes;
     }
 };
+
+/// A scene in TOML with the options of Python above its own. Without `out` it writes nothing, whatever the scene says.
+/// `least_steps`: of one that does not say when it ends.
+[[nodiscard]] input::SceneFile scene_file(const SceneSource& source, const py::dict& given, int least_steps);
 
 /// An object that may be copied and dropped without the interpreter's lock.
 inline std::shared_ptr<py::object> kept(const py::object& object) {

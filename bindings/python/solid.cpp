@@ -82,4 +82,5 @@ PYBIND11_MODULE(_solid, module) {
     abut::python::add_meshes(module);
     abut::python::add_materials(module);
     abut::python::add_runs(module);
+    abut::python::add_memm(module);
 }
