@@ -105,7 +105,7 @@ TEST_CASE("a disc that shatters on a floor keeps its energy with what breaks, ru
     check_balance(result, mass);
     CHECK(mass == Approx(std::numbers::pi * radius * radius * 2500.0).epsilon(0.01));  // its rim is a polygon
     CHECK(result.fragments.size() >= 20);
-    CHECK(result.dissipated.by_friction > 0.0);
+    CHECK(result.ledger.entries().back().losses.by_friction > 0.0);
 }
 
 TEST_CASE("a wall whose mortar breaks is bitwise the same on one thread, and after a start from its state",
