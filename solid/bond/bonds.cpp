@@ -112,7 +112,7 @@ template <int Dim>
 void Bonds<Dim>::leave_out_broken() {
     make_springs();
     const std::vector<std::size_t> of_joints = held_joints();
-    if (of_joints.size() == joints_.size()) return;
+    if (std::ranges::equal(of_joints, joints_, {}, {}, &Joint::place)) return;
     faces_.emplace(mesh_, part_, places_, of_joints);
     make_joints(of_joints);
 }

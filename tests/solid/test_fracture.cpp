@@ -378,6 +378,34 @@ TEST_CASE("a run whose body has broken in part goes on from its state, bit by bi
     CHECK(other.dissipated().total() == scene.solid.dissipated().total());
 }
 
+TEST_CASE("a solid that takes a state has the bonds of that state, though as many others broke in it", "[solid][fracture]") {
+    const auto bar = mesh::structured_box<2>({0.0, 0.0}, {3.0, 1.0}, {12, 4}, CellShape::triangle);
+    std::vector<std::int32_t> grains;
+    for (const Vector<2>& x : bar.cell_centroid) grains.push_back(static_cast<std::int32_t>(x[0]));
+    const auto mesh = mesh::split_body<2>(bar, grains, {"1", "2", "3"});
+    REQUIRE(mesh.report.joined_bodies.size() == 2);
+    auto options = of_grains<2>(mesh, {.sides = {}, .strength = 1e-3});
+    options.bonds[1].strength = 1e3;
+    std::vector<Motion<2>> motions(3);
+    motions[0].velocity[0] = -0.05;
+    TurningScene<2> left(mesh, options, motions, 0.9, Kinematics::small);
+    std::swap(options.bonds[0].strength, options.bonds[1].strength);
+    std::swap(motions[0], motions[2]);
+    motions[2].velocity[0] = 0.05;
+    TurningScene<2> right(mesh, options, motions, 0.9, Kinematics::small);
+    left.run(30);
+    right.run(30);
+    REQUIRE(solid::fragment_of_bodies<2>(left.solid) == std::vector{0, 1, 1});
+    REQUIRE(solid::fragment_of_bodies<2>(right.solid) == std::vector{0, 0, 1});
+    right.solid.restore(left.solid.state(), left.memm.q());
+    CHECK(solid::fragment_of_bodies<2>(right.solid) == std::vector{0, 1, 1});
+    std::vector<double> expected(left.solid.size()), found(expected);
+    left.solid.force(left.memm.q(), expected);
+    right.solid.force(left.memm.q(), found);
+    CHECK(largest(expected) > 0.0);
+    CHECK(found == expected);
+}
+
 TEMPLATE_TEST_CASE_SIG("a body that is flung apart takes its fracture energy per broken area and keeps all that it should",
                        "[solid][fracture]", ((int Dim), Dim), 2, 3) {
     const double energy = Dim == 2 ? 1.5e-4 : 3e-4;
