@@ -27,7 +27,7 @@ Outcome solve_bar(const run::RunOptions& run, int cells, const Reference&, doubl
     };
     const TimedRun<2> timed = run_for<2>(scene, run, limit);
     Outcome outcome = outcome_of<2>(scene, timed, ExactBounce::speed);
-    outcome.restitution = std::abs(timed.result.end.front().velocity.y() / ExactBounce::speed - 1.0);
+    outcome.restitution = std::abs(timed.result.bodies.end.front().velocity.y() / ExactBounce::speed - 1.0);
     outcome.pressure =
         middle_pressure(history, exact.hit(), bar.contact_time(), [&](double) { return exact.pressure(0.0); }).rms /
         exact.pressure(0.0);
