@@ -39,7 +39,7 @@ TEST_CASE("cells that are shared out again and again change no bit of a run", "[
     options.rebalance = 7;
     options.rebalance_above = 1.0;
     const auto found = check_same_run<2>(all, scene, options, test::odd(all, scene.mesh));
-    CHECK(found.contact.active_pairs_max > 0);
+    CHECK(found.contact.report.active_pairs_max > 0);
     REQUIRE(found.rebalancing.done.size() == 8);
     CHECK(found.rebalancing.looks == 9);
     CHECK(found.rebalancing.done[0].step == 7);
@@ -58,7 +58,7 @@ TEST_CASE("a run with filter and neutral restarts changes no bit where its cells
     options.rebalance = GENERATE(0, 7);
     options.rebalance_above = 1.0;
     const auto found = check_same_run<2>(all, scene, options, test::odd(all, scene.mesh));
-    CHECK(found.contact.active_pairs_max > 0);
+    CHECK(found.contact.report.active_pairs_max > 0);
     CHECK(found.ledger.entries().back().restarts.restarts == 6);
 }
 
@@ -70,7 +70,7 @@ TEST_CASE("cells of loaded bodies that are shared out again change no bit, with 
     options.rebalance = GENERATE(0, 9);
     options.rebalance_above = 1.0;
     const auto found = check_same_run<2>(all, scene, options, test::odd(all, scene.mesh));
-    CHECK(found.contact.active_pairs_max > 0);
+    CHECK(found.contact.report.active_pairs_max > 0);
     CHECK(found.rebalancing.done.size() == (options.rebalance == 0 ? 0 : 4));
 }
 
@@ -81,7 +81,7 @@ TEST_CASE("the same in space", "[ranks][run]") {
     options.rebalance = 8;
     options.rebalance_above = 1.0;
     const auto found = check_same_run<3>(all, scene, options, test::odd(all, scene.mesh));
-    CHECK(found.contact.events > 0);
+    CHECK(found.contact.report.events > 0);
 }
 
 TEST_CASE("rigid bodies whose parts change, among others or alone, have the bits of one rank, and go on from a checkpoint",
@@ -103,7 +103,7 @@ TEST_CASE("rigid bodies whose parts change, among others or alone, have the bits
     const SharedMesh<2> mesh(all, scene.mesh, test::odd(all, scene.mesh), scene.solid.kinematics);
     const auto found = run::simulate<2>(scene, options, together, nullptr, mesh.share());
     test::require_same(all, expected, alone, found, together);
-    CHECK(found.contact.active_pairs_max > 0);
+    CHECK(found.contact.report.active_pairs_max > 0);
 
     Watch<2> rest;
     const SharedMesh<2> other(all, scene.mesh, test::odd(all, scene.mesh), scene.solid.kinematics);

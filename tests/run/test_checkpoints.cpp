@@ -97,17 +97,17 @@ TEST_CASE("a run that was stopped and goes on leaves the files of the run that w
     const Folder folder;
     options.out = folder.path() / "whole";
     const run::RunResult<2> whole = run_block(options);
-    REQUIRE(whole.contact.active_pairs_max > 0);
+    REQUIRE(whole.contact.report.active_pairs_max > 0);
     const auto expected = contents(options.out);
     CHECK_FALSE(fs::exists(options.out / "checkpoints"));
 
     options.out = folder.path() / "in_parts";
-    CHECK_FALSE(run_block(options, 13).complete);
+    CHECK_FALSE(run_block(options, 13).run.complete);
     options.resume = true;
-    CHECK_FALSE(run_block(options, 29).complete);
+    CHECK_FALSE(run_block(options, 29).run.complete);
     options.threads = 1;
     const run::RunResult<2> rest = run_block(options);
-    CHECK(rest.complete);
+    CHECK(rest.run.complete);
     CHECK(rest.run.resumed_after == 29);
     const auto found = contents(options.out);
     CHECK(found.size() == expected.size());
@@ -198,7 +198,7 @@ TEST_CASE("what was being written when a run was killed goes with the next check
     static_cast<void>(run_block(options, 20));
     CHECK_FALSE(fs::exists(half));
     test::write_text(half, "half");
-    CHECK(run_block(options).complete);
+    CHECK(run_block(options).run.complete);
     CHECK_FALSE(fs::exists(checkpoints));
 }
 
@@ -225,7 +225,7 @@ TEST_CASE("checkpoints of another format, version or run are refused by name", "
     options.steps = 50;
     CHECK_THROWS_WITH(run_block(options), Catch::Contains("steps") && Catch::Contains("50"));
     options.steps = 40;
-    CHECK(run_block(options).complete);
+    CHECK(run_block(options).run.complete);
 }
 
 TEST_CASE("HDF5 opens a checkpoint, and finds the positions in it", "[run][checkpoint]") {

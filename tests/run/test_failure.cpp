@@ -55,7 +55,7 @@ run::Scene<2> coarse_and_fine() {
 
 run::RunOptions unstable_options(const run::Scene<2>& scene) {
     run::RunOptions options{.steps = 10'000, .allow_unstable = true, .interval = 1};
-    options.dt = 2.0 * run::simulate<2>(scene, {.steps = 1}).stable.dt;
+    options.dt = 2.0 * run::simulate<2>(scene, {.steps = 1}).run.stable.dt;
     return options;
 }
 

@@ -169,7 +169,7 @@ TEST_CASE("contact within a body keeps its parts apart where it is asked for, un
     options.law = GENERATE(solid::ContactLaw::reconstruction, solid::ContactLaw::pair_potential);
     options.contact.search.self_contact = true;
     const auto result = run::simulate<2>(scene, options);
-    CHECK(result.watch.watch.sightings.near_themselves.empty());
+    CHECK(result.watch.sightings.near_themselves.empty());
     CHECK(result.contact.report.active_pairs_max > 0);
     CHECK(result.ledger.pseudo_energy_drift() < 1e-11 * result.ledger.largest_energy());
 }
