@@ -22,7 +22,7 @@ enum class MaterialUse {
     temperature,  ///< of one with a temperature
 };
 
-/// Where a number lies in a Material.
+/// Access to a number of a Material.
 struct MaterialAccess {
     double (*of)(const Material&);
     double& (*in)(Material&);

@@ -9,7 +9,7 @@ struct HardeningPoint {
     double stress;          ///< at which metal flows there [Pa]
 };
 
-/// Where a metal of MaterialLaw::j2 flows. With alpha the equivalent plastic strain, slow flow takes the stress
+/// Flow of a metal of MaterialLaw::j2. With alpha the equivalent plastic strain, slow flow takes the stress
 ///
 ///     sigma(alpha) = yield_stress + hardening alpha + saturation (1 - exp(-saturation_rate alpha))
 ///                    + power_hardening alpha^power_exponent,

@@ -95,5 +95,5 @@ TEST_CASE("cleaning cuts what is not flat and says where each face came from", "
     CHECK(health.repeated_corner_faces.empty());
     mesh.faces = {};
     mesh.faces.append(std::array{0, 0, 0});
-    CHECK_THROWS_WITH(clean(mesh, health_of(mesh), UnusableFaces::skip), Contains("bent: 1 of 1 faces cannot be used"));
+    CHECK_THROWS_WITH(clean(mesh, health_of(mesh), UnusableFaces::skip), Contains("bent: 1 of 1 face cannot be used"));
 }
