@@ -13,8 +13,8 @@ struct StepOptions {
     int restart = 0;                                       ///< steps between neutral restarts; 0: none
 };
 
-/// Throws BadInput for a step above the stable one: "<what> is 2 s, above the stable step of 1 s, from which on vibrations
-/// grow. <remedy>".
+/// Throws BadInput for a step above the stable one: "dt is 2 s, above the stable step of 1 s, from which on vibrations
+/// grow", with `what` in the place of dt and `remedy` behind.
 void require_stable(const std::string& what, double dt, double stable_dt, const std::string& remedy);
 
 [[nodiscard]] const OptionList<StepOptions>& step_options();
