@@ -5,6 +5,7 @@
 #include <string>
 
 #include "abut/base/error.hpp"
+#include "abut/base/sort_unique.hpp"
 #include "abut/solid/body/bodies.hpp"
 #include "abut/solid/body/body_rotation.hpp"
 #include "abut/solid/body/thick_parts.hpp"

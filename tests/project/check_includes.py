@@ -1,6 +1,7 @@
-"""check_includes.py SOURCE: every source includes, by itself or through what it includes, the header of each type of ours that it names.
+"""check_includes.py SOURCE: every source includes, by itself or through what it includes, the header of each type and of each function in
+a namespace of ours that it names.
 Sources that are compiled together (ABUT_JOIN_SOURCES) see the includes of each other, so that one which lacks its own fails
-only where it is compiled alone. A name that two headers give to something, in a class or outside, is not looked at."""
+only where it is compiled alone. A name that headers give to two things, in a class or outside, is not looked at."""
 import functools
 import pathlib
 import re
@@ -13,6 +14,10 @@ KIND = r"(?:struct|class|enum class)\s+(?:\[\[[^\]]*\]\]\s*)?"
 DEFINED = re.compile(rf"^{KIND}(\w+)(?:\s+final)?\s*(?::[^;{{]*)?\{{", re.MULTILINE)
 DECLARED = re.compile(rf"^{KIND}(\w+);", re.MULTILINE)
 NAMED = re.compile(rf"\b(?:typename|{KIND}|using)\s*(\w+)\b(?!;)")
+RETURNS = r"(?!return\b|using\b|friend\b|else\b|case\b|throw\b|delete\b|new\b)[\w:<>,&*\[\]]+"
+FUNCTION = re.compile(rf"^(?:{RETURNS} )*{RETURNS}[ &*]+(\w+)\(", re.MULTILINE)
+MEMBER = re.compile(rf"^ +(?:{RETURNS} )*{RETURNS}[ &*]+(\w+)\(|::(\w+)\([^;]*?\{{|\b(\w+) ?= ?\[|\[(\w+) =", re.MULTILINE)
+CALLED = re.compile(r"(?:\b(\w+)::)?(?<![\w.>:])(\w+)(?:<[^<>()]*>)?\(|\b(\w+)::(\w+)(?:<[^<>()]*>)?\(")
 NOT_CODE = re.compile(r'R"(\w*)\(.*?\)\1"|"(?:[^"\\\n]|\\.)*"|//[^\n]*', re.DOTALL)
 TYPE = re.compile(rf"(?:(\w+)(?:<[^<>]*>)?::)?(?<![\w.>:])([A-Z]\w*)\b|\b(\w+)::([A-Z]\w*)\b")
 
@@ -38,6 +43,16 @@ class Sources:
                 left.append(other)
         return seen
 
+    def declaring_headers(self):
+        """{function: header} of what one header alone declares in a namespace, and nothing else has the name."""
+        headers = [name for name in self.paths if name.endswith(".hpp")]
+        declaring = defaultdict(set)
+        for name in headers:
+            for found in FUNCTION.findall(self.code(name)):
+                declaring[found].add(name)
+        others = {found for name in self.paths for member in MEMBER.findall(self.code(name)) for found in member}
+        return {found: min(names) for found, names in declaring.items() if len(names) == 1 and found not in others}
+
     def defining_headers(self):
         """{type: header} of what one header defines in a namespace, and no other header gives its name to anything."""
         headers = [name for name in self.paths if name.endswith(".hpp")]
@@ -56,7 +71,14 @@ def types_named(code):
             yield name
 
 
-def missing_in(sources, headers):
+def functions_called(code):
+    for found in CALLED.finditer(code):
+        scope, name = (found[1], found[2]) if found[2] else (found[3], found[4])
+        if scope is None or scope in LAYERS + ("abut",):
+            yield name
+
+
+def missing_in(sources, headers, functions):
     for name in sources.paths:
         if not name.endswith(".cpp"):
             continue
@@ -66,15 +88,20 @@ def missing_in(sources, headers):
         for found in sorted(set(types_named(sources.code(name))) - known):
             if found in headers and headers[found] not in reached:
                 yield f"{name} names {found} and does not include abut/{headers[found]}"
+        known = set(FUNCTION.findall(sources.code(name)))
+        for found in sorted(set(functions_called(sources.code(name))) - known):
+            if found in functions and functions[found] not in reached:
+                yield f"{name} calls {found} and does not include abut/{functions[found]}"
 
 
 def main():
     sources = Sources(pathlib.Path(sys.argv[1]))
     headers = sources.defining_headers()
+    functions = sources.declaring_headers()
     assert headers, f"no header below {sys.argv[1]} defines a type: nothing was looked at"
-    if wrong := list(missing_in(sources, headers)):
+    if wrong := list(missing_in(sources, headers, functions)):
         sys.exit("\n".join(wrong))
-    print(f"{len(sources.paths)} sources include the headers of the {len(headers)} types that they name")
+    print(f"{len(sources.paths)} sources include the headers of the {len(headers)} types and {len(functions)} functions that they name")
 
 
 main()
