@@ -8,7 +8,7 @@
 namespace abut::mesh {
 namespace {
 
-enum class Tool { gmsh, gmsh_mesher, meshio, none };
+enum class Tool { gmsh, gmsh_mesher, gmsh_in_metres, meshio, none };
 
 struct Format {
     const char* extension;
@@ -30,8 +30,8 @@ constexpr std::array<Format, 20> formats = {{{".inp", "an input file of Abaqus",
                                              {".key", "an input file of LS-DYNA", Tool::none},
                                              {".k", "an input file of LS-DYNA", Tool::none},
                                              {".geo", "a geometry of Gmsh, not meshed yet", Tool::gmsh_mesher},
-                                             {".step", "a geometry, not meshed yet", Tool::gmsh_mesher},
-                                             {".stp", "a geometry, not meshed yet", Tool::gmsh_mesher},
+                                             {".step", "a geometry, not meshed yet", Tool::gmsh_in_metres},
+                                             {".stp", "a geometry, not meshed yet", Tool::gmsh_in_metres},
                                              {".iges", "a geometry, not meshed yet", Tool::gmsh_mesher},
                                              {".brep", "a geometry, not meshed yet", Tool::gmsh_mesher},
                                              {".igs", "a geometry, not meshed yet", Tool::gmsh_mesher}}};
@@ -44,6 +44,9 @@ std::string remedy(const Format& format, const std::filesystem::path& path, cons
             return "No converter is known. Write the mesh as .unv, .inp or .bdf where it was made, and convert that.";
         case Tool::gmsh_mesher:
             return "Convert it: gmsh " + from + " -3 -o " + stem + ".msh (-2 for a mesh in the plane)";
+        case Tool::gmsh_in_metres:  // it meshes them in millimetres, whatever the unit of the file is (4.8.4)
+            return "Convert it: gmsh " + from + " -setstring Geometry.OCCTargetUnit M -3 -o " + stem +
+                   ".msh (-2 for a mesh in the plane; without -setstring lengths are in millimetres)";
         case Tool::gmsh:
             return "Convert it: gmsh " + from + " -save -o " + stem + ".msh" +
                    (std::string_view(format.extension) == ".cgns" ? " (that of Debian is built without CGNS)" : "");
