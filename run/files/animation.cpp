@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "abut/contact/surface/obstacle_side.hpp"
+#include "abut/dynamics/ledger.hpp"
 #include "abut/run/body_names.hpp"
 #include "abut/run/drawing/animation_page.hpp"
 #include "abut/run/drawing/animation_script.hpp"
@@ -20,6 +21,7 @@
 #include "abut/run/drawing/colours.hpp"
 #include "abut/run/drawing/markup.hpp"
 #include "abut/run/files/json.hpp"
+#include "abut/run/result.hpp"
 
 namespace abut::run {
 namespace {

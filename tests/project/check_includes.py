@@ -78,18 +78,25 @@ def functions_called(code):
             yield name
 
 
+def opened(code, name):
+    """Whether the code looks into an object of this type: a declaration of the type alone does not allow that."""
+    objects = re.findall(rf"\b{name}\b(?:<[^<>]*>)?(?: const)? ?[&*]? ?(\w+)\b", code)
+    return any(re.search(rf"(?<![\w.>]){found}(?:\.|->)\w", code) for found in set(objects))
+
+
 def missing_in(sources, headers, functions):
     for name in sources.paths:
         if not name.endswith(".cpp"):
             continue
         reached = sources.reached(name)
-        known = set(NAMED.findall(sources.code(name)))
-        known.update(found for other in reached for found in DECLARED.findall(sources.code(other)))
-        for found in sorted(set(types_named(sources.code(name))) - known):
-            if found in headers and headers[found] not in reached:
+        code = sources.code(name)
+        known = set(NAMED.findall(code))
+        declared = {found for other in reached for found in DECLARED.findall(sources.code(other))}
+        for found in sorted(set(types_named(code)) - known):
+            if found in headers and headers[found] not in reached and (found not in declared or opened(code, found)):
                 yield f"{name} names {found} and does not include abut/{headers[found]}"
-        known = set(FUNCTION.findall(sources.code(name)))
-        for found in sorted(set(functions_called(sources.code(name))) - known):
+        known = set(FUNCTION.findall(code))
+        for found in sorted(set(functions_called(code)) - known):
             if found in functions and functions[found] not in reached:
                 yield f"{name} calls {found} and does not include abut/{functions[found]}"
 
