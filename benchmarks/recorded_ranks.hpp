@@ -66,6 +66,9 @@ public:
     [[nodiscard]] std::vector<double> collect(std::span<const double> values, int width) const override {
         return is_replay_ ? next() : values_.emplace_back(ranks_.collect(values, width));
     }
+    [[nodiscard]] std::vector<double> gather_to_first(std::span<const double> values) const override {
+        return is_replay_ ? next() : values_.emplace_back(ranks_.gather_to_first(values));
+    }
     [[nodiscard]] std::vector<double> gather(std::span<const double> values) const override {
         return is_replay_ ? next() : values_.emplace_back(ranks_.gather(values));
     }

@@ -30,6 +30,14 @@ template <int Dim>
     return state;
 }
 
+/// A state with the points of all ranks on rank 0 alone; without points on the others. A call of all ranks.
+template <int Dim>
+[[nodiscard]] IntegratorState collected(const Ranks& ranks, IntegratorState state) {
+    if (ranks.is_one()) return state;
+    for (auto* values : arrays_of(state)) *values = ranks.collect(*values, Dim);
+    return state;
+}
+
 /// The other way round: the points of this rank, of a state of all of them. One with another number of points stays as it
 /// is: whoever restores it says so.
 template <int Dim>

@@ -60,6 +60,8 @@ public:
                                       std::span<const double> terms) const = 0;
     /// Values by point (n_owned, width) of all ranks in the order of the points, on rank 0; nothing on the others.
     [[nodiscard]] virtual std::vector<double> collect(std::span<const double> values, int width) const = 0;
+    /// The values of all ranks, rank after rank, on rank 0; nothing on the others.
+    [[nodiscard]] virtual std::vector<double> gather_to_first(std::span<const double> values) const = 0;
     /// The values of all ranks on all of them, rank after rank.
     [[nodiscard]] virtual std::vector<double> gather(std::span<const double> values) const = 0;
     /// The bytes of all ranks on all of them, rank after rank; they stay until the next call.
@@ -93,6 +95,9 @@ public:
     [[nodiscard]] double fold(double start, std::span<const std::int64_t> numbers,
                               std::span<const double> terms) const override;
     [[nodiscard]] std::vector<double> collect(std::span<const double> values, int) const override { return gather(values); }
+    [[nodiscard]] std::vector<double> gather_to_first(std::span<const double> values) const override {
+        return gather(values);
+    }
     [[nodiscard]] std::vector<double> gather(std::span<const double> values) const override {
         return {values.begin(), values.end()};
     }

@@ -167,6 +167,31 @@ void append_cells_and_faces(Mesh<Dim>& to, const Mesh<Dim>& from) {
     append(to.vertex_label, from.vertex_label);
 }
 
+/// Makes room for the cells and faces of all meshes: arrays that grow by themselves take up to twice as much.
+template <int Dim>
+void reserve_all(Mesh<Dim>& result, std::span<const Mesh<Dim>> meshes) {
+    const auto reserve = [&](const auto& array_of) {
+        std::size_t n = 0;
+        for (const Mesh<Dim>& mesh : meshes) n += array_of(mesh).size();
+        array_of(result).reserve(n);
+    };
+    reserve([](auto& mesh) -> auto& { return mesh.vertices; });
+    reserve([](auto& mesh) -> auto& { return mesh.vertex_label; });
+    reserve([](auto& mesh) -> auto& { return mesh.cell_shape; });
+    reserve([](auto& mesh) -> auto& { return mesh.cell_body; });
+    reserve([](auto& mesh) -> auto& { return mesh.cell_measure; });
+    reserve([](auto& mesh) -> auto& { return mesh.cell_centroid; });
+    reserve([](auto& mesh) -> auto& { return mesh.cell_label; });
+    reserve([](auto& mesh) -> auto& { return mesh.face_cells; });
+    reserve([](auto& mesh) -> auto& { return mesh.face_measure; });
+    reserve([](auto& mesh) -> auto& { return mesh.face_centroid; });
+    reserve([](auto& mesh) -> auto& { return mesh.face_normal; });
+    for (Rows Mesh<Dim>::*rows : {&Mesh<Dim>::cell_vertices, &Mesh<Dim>::cell_faces, &Mesh<Dim>::face_vertices}) {
+        reserve([=](auto& mesh) -> auto& { return (mesh.*rows).offsets; });
+        reserve([=](auto& mesh) -> auto& { return (mesh.*rows).values; });
+    }
+}
+
 /// `bodies`: how many there are before those of `from`.
 void append_report(BuildReport& to, const BuildReport& from, std::int32_t bodies) {
     to.n_unused_vertices += from.n_unused_vertices;
@@ -338,6 +363,7 @@ Mesh<Dim> build_mesh(CellSoup<Dim> soup, const MeshOptions& options) {
 template <int Dim>
 Mesh<Dim> combine(std::span<const Mesh<Dim>> meshes) {
     Mesh<Dim> result;
+    reserve_all(result, meshes);
     append_names(result, meshes);
     std::vector<std::string> names;
     std::swap(names, result.body_names);  // bodies are counted while the meshes come in

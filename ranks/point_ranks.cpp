@@ -160,8 +160,8 @@ void PointRanks::sum(const dynamics::Summands& summands, std::span<const double>
 
 double PointRanks::fold(double start, std::span<const std::int64_t> numbers, std::span<const double> terms) const {
     ++impl_->traffic.sums;
-    const auto all_numbers = gather_to_first<std::int64_t>(impl_->communicator, numbers).values;
-    const auto all_terms = gather_to_first<double>(impl_->communicator, terms).values;
+    const auto all_numbers = ranks::gather_to_first<std::int64_t>(impl_->communicator, numbers).values;
+    const auto all_terms = ranks::gather_to_first<double>(impl_->communicator, terms).values;
     std::vector<std::pair<std::int64_t, double>> by_number;
     for (std::size_t i = 0; i < all_numbers.size(); ++i) by_number.emplace_back(all_numbers[i], all_terms[i]);
     std::ranges::sort(by_number, {}, &std::pair<std::int64_t, double>::first);
@@ -172,14 +172,19 @@ double PointRanks::fold(double start, std::span<const std::int64_t> numbers, std
 
 std::vector<double> PointRanks::collect(std::span<const double> values, int width) const {
     ++impl_->traffic.gathers;
-    const auto numbers = gather_to_first<std::int32_t>(impl_->communicator, impl_->points.numbers).values;
-    const auto all = gather_to_first<double>(impl_->communicator, values).values;
+    const auto numbers = ranks::gather_to_first<std::int32_t>(impl_->communicator, impl_->points.numbers).values;
+    const auto all = ranks::gather_to_first<double>(impl_->communicator, values).values;
     std::vector<double> ordered(all.size());
     const auto n = static_cast<std::size_t>(width);
     for (std::size_t i = 0; i < numbers.size(); ++i)
         std::copy_n(all.begin() + static_cast<std::ptrdiff_t>(i * n), n,
                     ordered.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(numbers[i]) * n));
     return ordered;
+}
+
+std::vector<double> PointRanks::gather_to_first(std::span<const double> values) const {
+    ++impl_->traffic.gathers;
+    return ranks::gather_to_first<double>(impl_->communicator, values).values;
 }
 
 std::vector<double> PointRanks::gather(std::span<const double> values) const {

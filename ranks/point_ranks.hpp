@@ -54,6 +54,7 @@ public:
     [[nodiscard]] double fold(double start, std::span<const std::int64_t> numbers,
                               std::span<const double> terms) const override;
     [[nodiscard]] std::vector<double> collect(std::span<const double> values, int width) const override;
+    [[nodiscard]] std::vector<double> gather_to_first(std::span<const double> values) const override;
     [[nodiscard]] std::vector<double> gather(std::span<const double> values) const override;
     [[nodiscard]] std::span<const std::byte> gather_bytes(std::span<const std::byte> mine) const override;
     [[nodiscard]] double largest(double value) const override;

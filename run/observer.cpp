@@ -7,6 +7,7 @@
 #include "abut/run/values/checkpoint.hpp"
 #include "abut/run/values/failure.hpp"
 #include "abut/run/values/frame_piece.hpp"
+#include "abut/run/values/sight.hpp"
 
 namespace abut::run {
 
@@ -23,6 +24,27 @@ void Observers<Dim>::begin(const Scene<Dim>& scene, const RunResult<Dim>& result
 template <int Dim>
 void Observers<Dim>::record(const dynamics::LedgerEntry<Dim>& entry, const RunResult<Dim>& result) {
     for (Observer<Dim>& observer : observers_) observer.record(entry, result);
+}
+
+template <int Dim>
+void Observers<Dim>::note(const Moment<Dim>& moment) {
+    for (Observer<Dim>& observer : observers_) observer.note(moment);
+}
+
+template <int Dim>
+bool Observers<Dim>::wants_sight(std::int64_t step) const {
+    return std::ranges::any_of(observers_, [&](const Observer<Dim>& observer) { return observer.wants_sight(step); });
+}
+
+template <int Dim>
+void Observers<Dim>::see(const Sight<Dim>& sight) {
+    for (Observer<Dim>& observer : observers_)
+        if (observer.wants_sight(sight.moment.steps)) observer.see(sight);
+}
+
+template <int Dim>
+void Observers<Dim>::see_at_time(const Sight<Dim>& sight) {
+    for (Observer<Dim>& observer : observers_) observer.see_at_time(sight);
 }
 
 template <int Dim>
@@ -46,8 +68,8 @@ void Observers<Dim>::cells_left(const solid::Solid<Dim>& solid, std::span<const 
 }
 
 template <int Dim>
-void Observers<Dim>::end(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) {
-    for (Observer<Dim>& observer : observers_) observer.end(run, solid);
+void Observers<Dim>::end(const Sight<Dim>& sight) {
+    for (Observer<Dim>& observer : observers_) observer.end(sight);
 }
 
 template <int Dim>
@@ -61,10 +83,10 @@ bool Observers<Dim>::asks_to_stop() const {
 }
 
 template <int Dim>
-void Observers<Dim>::fail(const Failure& failure, solid::Solid<Dim>& solid) {
+void Observers<Dim>::fail(const Failure& failure, const Sight<Dim>& sound) {
     for (Observer<Dim>& observer : observers_) {
         try {
-            observer.fail(failure, solid);
+            observer.fail(failure, sound);
         } catch (...) {  // the others are told all the same, and what the run throws follows
         }
     }

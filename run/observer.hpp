@@ -11,8 +11,9 @@
 namespace abut::run {
 
 /// Looks on while a scene is run; by itself nothing. An exception that it throws ends the run; a run that it asks to stop
-/// ends well, earlier. Where several ranks run a scene, that of rank 0 is called, and sees all of it; it is asked once
-/// per step what it wants, `asks_to_stop` and all that begins with `wants_`. Of the others `piece` alone is called.
+/// ends well, earlier. Where several ranks run a scene, that of rank 0 is called, and sees all of it, but no solid: `look`
+/// and `look_at_time` are left out. It is asked once per step what it wants, `asks_to_stop` and all that begins with
+/// `wants_`. Of the others `piece` alone is called.
 template <int Dim>
 class Observer {
 public:
@@ -25,38 +26,47 @@ public:
     virtual void begin(const Scene<Dim>&, const RunResult<Dim>&) {}
     /// An entry of the ledger: at the start, every `interval` steps and at the end. It is in `result.ledger` already.
     virtual void record(const dynamics::LedgerEntry<Dim>&, const RunResult<Dim>&) {}
+    /// State after each step, and at the start, before anything else is asked or shown of it.
+    virtual void note(const Moment<Dim>&) {}
+    /// True if `see` has something to do at the start (0) or after this step: else it is not called. On several ranks the
+    /// values of all cells are brought together for it, on rank 0.
+    [[nodiscard]] virtual bool wants_sight(std::int64_t /*step*/) const { return false; }
+    virtual void see(const Sight<Dim>&) {}
+    /// At each of RunOptions::times, before `see` and `look` at the node after it: bodies are on the path of the step, with
+    /// its velocity. Loads, obstacles and what materials and friction remember are those of the time.
+    virtual void see_at_time(const Sight<Dim>&) {}
+
+    // The solid itself: where one rank has all of it
+
     virtual void look(const dynamics::RunView<Dim>&, solid::Solid<Dim>&) {}  ///< at the start and after each step
-    /// True if `look` has something to do at the start (0) or after this step: else it is not called. On several ranks the
-    /// whole of the run is brought together for it; it knows no forces on obstacles then, and its contact lists are new.
+    /// True if `look` has something to do at the start (0) or after this step: else it is not called.
     [[nodiscard]] virtual bool wants_look(std::int64_t /*step*/) const { return true; }
-    /// At each of RunOptions::times, before `look` at the node after it: bodies are on the path of the step, and momenta
-    /// those of its velocity. Loads, obstacles and what materials and friction remember are those of the time: inside of
-    /// a step the solid is another one than that of the run, which went there from the node before.
+    /// As `see_at_time`. Inside of a step the solid is another one than that of the run, which went there from the node
+    /// before.
     virtual void look_at_time(const dynamics::RunView<Dim>&, solid::Solid<Dim>&) {}
     /// Cells have left after this step, before its record: from now on the solid is another one, whose cell i is cell
     /// first_cells[i] of the scene's mesh, increasing, whose cells have their vertices and faces in the same order
     /// (mesh::old_vertices, mesh::old_faces). After `resume` where some had left before.
     virtual void cells_left(const solid::Solid<Dim>&, std::span<const std::int32_t> /*first_cells*/) {}
-    /// All steps are taken, or it was asked to stop: the last state, evaluated, after `look`, if that was called.
-    virtual void end(const dynamics::RunView<Dim>&, solid::Solid<Dim>&) {}
-    virtual void progress(std::int64_t /*step*/, double /*time*/) {}  ///< at the start and after each step, before `look`
+    virtual void end(const Sight<Dim>&) {}  ///< the last state: all steps are taken, or it was asked to stop
+    virtual void progress(std::int64_t /*step*/, double /*time*/) {}  ///< at the start and after each step, before `see`
     /// Asked at the start and after each step but the last: true makes it the last one, which is recorded in any case.
     [[nodiscard]] virtual bool asks_to_stop() const { return false; }
-    /// A step could not be ended, or the run has diverged: nothing follows but the error, whatever is thrown here. The
-    /// solid may be evaluated.
-    virtual void fail(const Failure&, solid::Solid<Dim>&) {}
+    /// A step could not be ended, or the run has diverged: nothing follows but the error, whatever is thrown here. The last
+    /// sound state is shown.
+    virtual void fail(const Failure&, const Sight<Dim>& /*sound*/) {}
 
     // Frames in pieces: each rank looks at its own cells, and nothing is brought together
 
     /// The number of the frame of which each rank is to have its piece at the start (0) or after this step; -1: of
-    /// none. Asked as `wants_look`, of the observer of rank 0 alone.
+    /// none. Asked of the observer of rank 0 alone.
     [[nodiscard]] virtual std::int64_t wants_piece(std::int64_t /*step*/) const { return -1; }
     virtual void piece(const FramePiece<Dim>&) {}  ///< of this rank, on each; must not call what all ranks call together
     virtual void all_pieces(const FramePiece<Dim>&) {}  ///< on rank 0, with its own, once `piece` has ended on all of them
 
     // Runs that survive: docs/checkpoints.md
 
-    /// Asked after each step, before `look`: whether somebody keeps a checkpoint of it; `stops`: it is the last one for now.
+    /// Asked after each step, before `see`: whether somebody keeps a checkpoint of it; `stops`: it is the last one for now.
     [[nodiscard]] virtual bool wants_checkpoint(std::int64_t /*step*/, bool /*stops*/) const { return false; }
     virtual void keep(const Checkpoint&) {}  ///< a checkpoint, wherever one is wanted
     /// Writes all that `resume` needs, for a checkpoint.
@@ -78,14 +88,18 @@ public:
     void settling(std::int64_t step, double speed) override;
     void begin(const Scene<Dim>& scene, const RunResult<Dim>& result) override;
     void record(const dynamics::LedgerEntry<Dim>& entry, const RunResult<Dim>& result) override;
+    void note(const Moment<Dim>& moment) override;
+    [[nodiscard]] bool wants_sight(std::int64_t step) const override;
+    void see(const Sight<Dim>& sight) override;
+    void see_at_time(const Sight<Dim>& sight) override;
     void look(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) override;
     [[nodiscard]] bool wants_look(std::int64_t step) const override;
     void look_at_time(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) override;
     void cells_left(const solid::Solid<Dim>& solid, std::span<const std::int32_t> first_cells) override;
-    void end(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) override;
+    void end(const Sight<Dim>& sight) override;
     void progress(std::int64_t step, double time) override;
     [[nodiscard]] bool asks_to_stop() const override;
-    void fail(const Failure& failure, solid::Solid<Dim>& solid) override;
+    void fail(const Failure& failure, const Sight<Dim>& sound) override;
     [[nodiscard]] std::int64_t wants_piece(std::int64_t step) const override;  ///< one of them may want pieces
     void piece(const FramePiece<Dim>& piece) override;
     void all_pieces(const FramePiece<Dim>& piece) override;

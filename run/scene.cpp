@@ -28,9 +28,9 @@ Vector<Dim> cross(const AxialVector<Dim>& spin, const Vector<Dim>& arm) {
                 spin.x() * arm.y() - spin.y() * arm.x()};
 }
 
-/// By body [m].
+/// By body, (n_bodies, Dim) [m].
 template <int Dim>
-std::vector<Vector<Dim>> centroids(const mesh::Mesh<Dim>& mesh) {
+std::vector<double> centroids(const mesh::Mesh<Dim>& mesh) {
     std::vector<Vector<Dim>> sums(mesh.body_names.size(), Vector<Dim>::Zero());
     std::vector<double> measures(mesh.body_names.size(), 0.0);
     for (std::size_t cell = 0; cell < mesh.cell_measure.size(); ++cell) {
@@ -38,15 +38,20 @@ std::vector<Vector<Dim>> centroids(const mesh::Mesh<Dim>& mesh) {
         sums[body] += mesh.cell_measure[cell] * mesh.cell_centroid[cell];
         measures[body] += mesh.cell_measure[cell];
     }
-    for (std::size_t body = 0; body < sums.size(); ++body) sums[body] /= measures[body];
-    return sums;
+    std::vector<double> middles;
+    for (std::size_t body = 0; body < sums.size(); ++body) {
+        const Vector<Dim> middle = sums[body] / measures[body];
+        middles.insert(middles.end(), middle.begin(), middle.end());
+    }
+    return middles;
 }
 
-/// Velocities of the cells of `mesh`, the scene's or a part of it, beside that of their body [m/s].
+/// Velocities of the cells of `mesh`, the scene's or a part of it, beside that of their body [m/s]. `middles`: of bodies
+/// that may spin.
 template <int Dim>
-std::vector<Vector<Dim>> added_velocities(const Scene<Dim>& scene, const mesh::Mesh<Dim>& mesh) {
+std::vector<Vector<Dim>> added_velocities(const Scene<Dim>& scene, const mesh::Mesh<Dim>& mesh,
+                                          std::span<const Vector<Dim>> middles) {
     std::vector<Vector<Dim>> added(mesh.cell_centroid.size(), Vector<Dim>::Zero());
-    const auto middles = scene.spin.empty() ? std::vector<Vector<Dim>>() : centroids(scene.mesh);
     for (std::size_t cell = 0; cell < added.size(); ++cell) {
         const Vector<Dim>& x = mesh.cell_centroid[cell];
         const auto body = static_cast<std::size_t>(mesh.cell_body[cell]);
@@ -175,8 +180,13 @@ std::vector<double> momentum_at_start(const Scene<Dim>& scene, const solid::Soli
         throw BadInput(fmt::format("Scene::spin: {} are given, the scene has {} bodies. Give one for each, or none.",
                                    scene.spin.size(), scene.mesh.n_bodies()));
     solid::require_together(scene.mesh.name, "", features_of(scene, {}, solid.options(), solid.ranks()));
+    std::vector<double> middles;  // rank 0 has the whole mesh
+    if (!scene.spin.empty() && solid.ranks().rank() == 0) middles = centroids(scene.mesh);
+    middles = solid.ranks().gather(middles);
     std::vector<Vector<Dim>> added_to_cells;
-    dynamics::agreed(solid.ranks(), [&] { added_to_cells = added_velocities(scene, solid.mesh()); });
+    dynamics::agreed(solid.ranks(), [&] {
+        added_to_cells = added_velocities(scene, solid.mesh(), as_vectors<Dim>(std::span<const double>(middles)));
+    });
     const std::vector<double> added = solid.cells().to_p(added_to_cells);
     for (std::size_t i = 0; i < momentum.size(); ++i) momentum[i] += added[i];
     return momentum;

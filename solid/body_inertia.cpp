@@ -1,6 +1,7 @@
 #include "abut/solid/body_inertia.hpp"
 
 #include "abut/base/decompositions.hpp"
+#include "abut/solid/all_points.hpp"
 #include "abut/solid/body/cell_points.hpp"
 #include "abut/solid/solid.hpp"
 
@@ -25,8 +26,9 @@ struct InertiaSums {
 }  // namespace
 
 template <int Dim>
-std::vector<BodyInertia<Dim>> inertia_of_bodies(const Solid<Dim>& solid) {
-    const mesh::Mesh<Dim>& mesh = solid.mesh();
+std::vector<BodyInertia<Dim>> inertia_of_bodies(const Solid<Dim>& solid, const mesh::Mesh<Dim>& mesh) {
+    const AllPoints<Dim> points(solid);
+    if (solid.ranks().rank() > 0) return {};
     const auto n = static_cast<std::size_t>(mesh.n_bodies());
     std::vector<Vector<Dim>> origin(n, Vector<Dim>::Zero());
     std::vector<InertiaSums<Dim>> exact(n), of_points(n);
@@ -37,9 +39,9 @@ std::vector<BodyInertia<Dim>> inertia_of_bodies(const Solid<Dim>& solid) {
         exact[body].add(density * mesh.cell_measure[c], mesh.cell_centroid[c] - origin[body]);
         exact[body].second += density * own_second_moment(mesh, c);
     }
-    for (std::size_t i = 0; i < solid.masses().size(); ++i) {
-        const std::int32_t body = solid.body_of_points()[i];
-        of_points[body].add(solid.masses()[i], solid.rest_positions()[i] - origin[body]);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const std::int32_t body = points.body()[i];
+        of_points[body].add(points.mass()[i], points.rest()[i] - origin[body]);
     }
     std::vector<BodyInertia<Dim>> bodies(n);
     for (std::size_t body = 0; body < n; ++body) {
@@ -60,7 +62,7 @@ std::vector<BodyInertia<Dim>> inertia_of_bodies(const Solid<Dim>& solid) {
     return bodies;
 }
 
-template std::vector<BodyInertia<2>> inertia_of_bodies(const Solid<2>&);
-template std::vector<BodyInertia<3>> inertia_of_bodies(const Solid<3>&);
+template std::vector<BodyInertia<2>> inertia_of_bodies(const Solid<2>&, const mesh::Mesh<2>&);
+template std::vector<BodyInertia<3>> inertia_of_bodies(const Solid<3>&, const mesh::Mesh<3>&);
 
 }  // namespace abut::solid

@@ -2,6 +2,7 @@
 #include <vector>
 
 #include "abut/base/vector.hpp"
+#include "abut/mesh/mesh.hpp"
 
 namespace abut::solid {
 
@@ -19,8 +20,9 @@ struct BodyInertia {
     [[nodiscard]] double least() const { return share.minCoeff(); }
 };
 
-/// Inertia of each body of a solid that runs on one rank (n_bodies).
+/// Inertia of each body of a solid (n_bodies), whose cells of all ranks are in `whole`. A call of all ranks: rank 0 has the
+/// result, the others nothing, and of them `whole` is not looked at.
 template <int Dim>
-[[nodiscard]] std::vector<BodyInertia<Dim>> inertia_of_bodies(const Solid<Dim>& solid);
+[[nodiscard]] std::vector<BodyInertia<Dim>> inertia_of_bodies(const Solid<Dim>& solid, const mesh::Mesh<Dim>& whole);
 
 }  // namespace abut::solid

@@ -16,7 +16,9 @@ std::vector<BodyMotion<Dim>> body_motions(const dynamics::RunView<Dim>& run, con
     std::iota(itself.begin(), itself.end(), 0);
     const std::vector<double> rotations = solid.rotations(run.q);
     std::vector<BodyMotion<Dim>> motions;
-    for (const GroupMotion<Dim>& motion : group_motions<Dim>(run, solid, itself, itself.size()))
+    const AllPoints<Dim> points(run, solid);
+    if (solid.ranks().rank() > 0) return motions;
+    for (const GroupMotion<Dim>& motion : group_motions<Dim>(points, itself, itself.size()))
         motions.push_back({motion.mass, motion.velocity, rotations[motions.size()], motion.spin});
     return motions;
 }

@@ -23,7 +23,8 @@ struct BodyMotion {
     AxialVector<Dim> spin =
         AxialVector<Dim>::Zero();  ///< angular velocity as of a rigid body with its angular momentum [rad/s]
 };
-/// Motion of each body, at the node of `run`; `solid` is that of the run.
+/// Motion of each body, at the node of `run`; `solid` is that of the run. A call of all ranks: rank 0 has the result, the
+/// others nothing.
 template <int Dim>
 [[nodiscard]] std::vector<BodyMotion<Dim>> body_motions(const dynamics::RunView<Dim>& run, const Solid<Dim>& solid);
 

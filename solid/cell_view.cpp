@@ -2,7 +2,9 @@
 #include "abut/solid/cell_view.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <string>
+#include <utility>
 
 #include "abut/base/error.hpp"
 #include "abut/solid/body/bodies.hpp"
@@ -19,6 +21,28 @@ std::vector<double> as_numbers(const std::vector<Vector<Dim>>& vectors) {
     std::vector<double> numbers;
     for (const Vector<Dim>& vector : vectors) numbers.insert(numbers.end(), vector.begin(), vector.end());
     return numbers;
+}
+
+/// Sums of counts and the lowest weight, of all ranks.
+StencilReport of_all(const dynamics::Ranks& ranks, StencilReport own) {
+    const std::vector<double> all =
+        ranks.gather(std::vector<double>{static_cast<double>(own.faces), static_cast<double>(own.extrapolated),
+                                         static_cast<double>(own.lowered_floor), own.worst_weight});
+    own.faces = own.extrapolated = own.lowered_floor = 0;
+    for (std::size_t i = 0; i < all.size(); i += 4) {
+        own.faces += static_cast<std::int64_t>(all[i]);
+        own.extrapolated += static_cast<std::int64_t>(all[i + 1]);
+        own.lowered_floor += static_cast<std::int64_t>(all[i + 2]);
+        own.worst_weight = std::min(own.worst_weight, all[i + 3]);
+    }
+    return own;
+}
+
+/// Adds the faces of a list that count.
+template <class Counts>
+void add_lowered(const std::vector<std::int32_t>& faces, const Counts& counts, StencilReport& report) {
+    std::ranges::copy_if(faces, std::back_inserter(report.lowered_faces), counts);
+    report.lowered_floor = std::ssize(report.lowered_faces);
 }
 
 }  // namespace
@@ -140,6 +164,28 @@ std::vector<double> CellView<Dim>::to_q(std::span<const Vector<Dim>> of_cells) c
 template <int Dim>
 std::vector<double> CellView<Dim>::to_p(std::span<const Vector<Dim>> cell_velocity) const {
     return as_numbers<Dim>(solid_.part_->own(solid_.bodies_->momenta(cell_velocity)));
+}
+
+template <int Dim>
+StencilReports CellView<Dim>::stencils() const {
+    const Ccg<Dim>& ccg = solid_.ccg_;
+    StencilReports reports{ccg.stencil_report(), ccg.boundary().report};
+    if (solid_.ranks().is_one()) return reports;
+    const mesh::Mesh<Dim>& mesh = solid_.bodies_->deformable();
+    std::vector<bool> is_own(mesh.cell_measure.size(), false);
+    for (const std::int32_t cell : solid_.part_->own_cells()) is_own[static_cast<std::size_t>(cell)] = true;
+    const auto counts = [&](std::int32_t face) {
+        return is_own[static_cast<std::size_t>(mesh.face_cells[static_cast<std::size_t>(face)][0])];
+    };
+    StencilReport interior, boundary;
+    for (std::int32_t face = 0; face < mesh.n_faces(); ++face)
+        if (!mesh.is_boundary(face) && counts(face))
+            interior.add(face, std::ranges::min(ccg.stencils()[static_cast<std::size_t>(face)].weights));
+    for (const auto& [face, lowest] : ccg.boundary().lowest_weights)
+        if (counts(mesh_face(mesh, face))) boundary.add(mesh_face(mesh, face), lowest);
+    add_lowered(reports.interior.lowered_faces, counts, interior);
+    add_lowered(reports.boundary.lowered_faces, counts, boundary);
+    return {of_all(solid_.ranks(), std::move(interior)), of_all(solid_.ranks(), std::move(boundary))};
 }
 
 template <int Dim>

@@ -86,10 +86,9 @@ double ContactView<Dim>::skin() const {
 }
 
 template <int Dim>
-std::int32_t ContactView<Dim>::cell_of_face(std::int64_t face) const {
-    if (!solid_.contact_ || face < 0 || face > std::numeric_limits<std::int32_t>::max()) return -1;
-    const BoundaryFace boundary = solid_.contact_->mesh_boundary(contact::Face{static_cast<std::int32_t>(face)});
-    return boundary == no_face ? -1 : cell_of(solid_.mesh_, boundary);
+BoundaryFace ContactView<Dim>::boundary_of_face(std::int64_t face) const {
+    if (!solid_.contact_ || face < 0 || face > std::numeric_limits<std::int32_t>::max()) return no_face;
+    return solid_.contact_->mesh_boundary(contact::Face{static_cast<std::int32_t>(face)});
 }
 
 template <int Dim>

@@ -48,8 +48,9 @@ public:
     [[nodiscard]] const contact::Contact<Dim>* reconstruction() const;
     [[nodiscard]] const contact::NodalContact<Dim>* pair_potential() const;  ///< the same
     [[nodiscard]] double skin() const;                                       ///< of the last candidate list [m]
-    /// Cell of the mesh that has a face which an error of contact names (ErrorFacts::face_1, face_2); -1: none has.
-    [[nodiscard]] std::int32_t cell_of_face(std::int64_t face) const;
+    /// Boundary face of the mesh that an error of contact names (ErrorFacts::face_1, face_2); `no_face`: it is none, one of
+    /// an obstacle, or on other ranks alone.
+    [[nodiscard]] BoundaryFace boundary_of_face(std::int64_t face) const;
     /// Corners that are too sharp for contact to see them coming, by the law that acts. Bodies are those of the mesh, then
     /// obstacles. contact/surface/blind_corners.hpp, contact::NodalContact::blind_corners.
     [[nodiscard]] std::vector<contact::BlindCorner<Dim>> blind_corners() const;

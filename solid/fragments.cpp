@@ -5,10 +5,27 @@
 
 #include "abut/base/disjoint_sets.hpp"
 #include "abut/solid/bond_view.hpp"
+#include "abut/solid/cell_view.hpp"
 #include "abut/solid/group_motions.hpp"
 #include "abut/solid/solid.hpp"
 
 namespace abut::solid {
+namespace {
+
+/// Cells of each body, of all ranks (n_bodies).
+template <int Dim>
+std::vector<std::int64_t> cells_of_bodies(const Solid<Dim>& solid) {
+    const mesh::Mesh<Dim>& mesh = solid.mesh();
+    std::vector<double> own(mesh.body_names.size(), 0.0);
+    for (const std::int32_t cell : solid.cells().own().position)
+        ++own[static_cast<std::size_t>(mesh.cell_body[static_cast<std::size_t>(cell)])];
+    const std::vector<double> of_ranks = solid.ranks().gather(own);
+    std::vector<std::int64_t> n_cells(own.size(), 0);
+    for (std::size_t i = 0; i < of_ranks.size(); ++i) n_cells[i % own.size()] += static_cast<std::int64_t>(of_ranks[i]);
+    return n_cells;
+}
+
+}  // namespace
 
 template <int Dim>
 std::vector<std::int32_t> fragment_of_bodies(const Solid<Dim>& solid) {
@@ -37,9 +54,12 @@ std::vector<Fragment<Dim>> fragments(const dynamics::RunView<Dim>& run, const So
     const std::int32_t n = *std::ranges::max_element(of_bodies) + 1;
     std::vector<std::int32_t> group = of_bodies;  // bodies without bonds are one more group
     std::ranges::replace(group, -1, n);
-    std::vector<GroupMotion<Dim>> motions = group_motions<Dim>(run, solid, group, static_cast<std::size_t>(n) + 1);
-    motions.pop_back();
+    const AllPoints<Dim> points(run, solid);
+    const std::vector<std::int64_t> n_cells = cells_of_bodies(solid);
     std::vector<Fragment<Dim>> fragments;
+    if (solid.ranks().rank() > 0) return fragments;
+    std::vector<GroupMotion<Dim>> motions = group_motions<Dim>(points, group, static_cast<std::size_t>(n) + 1);
+    motions.pop_back();
     for (const GroupMotion<Dim>& motion : motions)
         fragments.push_back(
             {.mass = motion.mass, .centre = motion.centre, .velocity = motion.velocity, .spin = motion.spin});
@@ -48,9 +68,10 @@ std::vector<Fragment<Dim>> fragments(const dynamics::RunView<Dim>& run, const So
         if (fragment >= 0) visit(fragments[static_cast<std::size_t>(fragment)]);
     };
     for (std::int32_t body = 0; body < solid.mesh().n_bodies(); ++body)
-        visit_fragment_of(body, [&](Fragment<Dim>& fragment) { fragment.bodies.push_back(body); });
-    for (const std::int32_t body : solid.mesh().cell_body)
-        visit_fragment_of(body, [](Fragment<Dim>& fragment) { ++fragment.n_cells; });
+        visit_fragment_of(body, [&](Fragment<Dim>& fragment) {
+            fragment.bodies.push_back(body);
+            fragment.n_cells += n_cells[static_cast<std::size_t>(body)];
+        });
     return fragments;
 }
 

@@ -30,7 +30,8 @@ struct Fragment {
 template <int Dim>
 [[nodiscard]] std::vector<std::int32_t> fragment_of_bodies(const Solid<Dim>& solid);
 
-/// The fragments at the node of `run`, by the numbers of `fragment_of_bodies`; `solid` is that of the run.
+/// The fragments at the node of `run`, by the numbers of `fragment_of_bodies`; `solid` is that of the run. A call of all
+/// ranks: rank 0 has the result, the others nothing.
 template <int Dim>
 [[nodiscard]] std::vector<Fragment<Dim>> fragments(const dynamics::RunView<Dim>& run, const Solid<Dim>& solid);
 

@@ -1,6 +1,7 @@
 #include "apps/support/run_scene.hpp"
 
 #include <fmt/format.h>
+#include <malloc.h>
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/task_arena.h>
 #include <spdlog/spdlog.h>
@@ -15,6 +16,7 @@
 #include "abut/base/error.hpp"
 #include "abut/base/stopwatch.hpp"
 #include "abut/base/throw_again.hpp"
+#include "abut/mesh/outline.hpp"
 #include "abut/run/files/checkpoint_folder.hpp"
 #include "abut/run/files/frames.hpp"
 #include "abut/run/report/result_files.hpp"
@@ -137,6 +139,16 @@ void run_and_write(const Program& program, const run::RunOptions& options,
     say(run::closing_table(program.name, *scene, result) + files->table());
 }
 
+/// Whether ranks other than 0 go on with the whole mesh: they write their cells of it, or make other parts.
+bool needs_whole_mesh(const run::RunOptions& options) { return options.pieces || options.rebalance > 0; }
+
+/// The C library keeps what has been freed, as long as nobody asks.
+void give_memory_back() {
+#ifdef __GLIBC__
+    malloc_trim(0);
+#endif
+}
+
 /// On the other ranks: the run, and their pieces of frames. Each reads the checkpoint that rank 0 has found for itself.
 template <int Dim>
 void run_beside(const Program& program, const run::RunOptions& options, const std::function<run::Scene<Dim>()>& make_scene) {
@@ -150,6 +162,10 @@ void run_beside(const Program& program, const run::RunOptions& options, const st
     on_all([&] { scene = make_scene(); });
     const StopSignals signals;  // rank 0 decides
     const SceneShare<Dim> share(scene->mesh, kinematics_of(*scene, options));
+    if (!needs_whole_mesh(options)) {
+        scene->mesh = mesh::outline_of(scene->mesh);
+        give_memory_back();
+    }
     run::PieceFiles<Dim> files(options.out, program.series, scene->outputs.fields);
     static_cast<void>(run::simulate<Dim>(*scene, options, files, from ? &*from : nullptr, share.get()));
 }

@@ -15,6 +15,7 @@
 #include "abut/run/observer.hpp"
 #include "abut/run/result.hpp"
 #include "abut/run/scene.hpp"
+#include "abut/run/values/sight.hpp"
 #include "states.hpp"
 #include "vectors.hpp"
 
@@ -60,7 +61,9 @@ public:
     void look(const dynamics::RunView<Dim>& view, solid::Solid<Dim>& solid) override {
         if (has_probes_ && probes_.wants_look(view.steps)) add_probes(view, solid);
         if (forces_.wants_look(view.steps))
-            for (const run::ForceRow<Dim>& row : forces_.rows(view, solid)) force_rows_.push_back(row);
+            for (const run::ForceRow<Dim>& row :
+                 forces_.rows(run::Moment<Dim>{view.steps, view.time, solid.contact().impulses()}))
+                force_rows_.push_back(row);
         if (wants_frame(view.steps)) add_frame(view, solid);
     }
 
@@ -129,7 +132,7 @@ private:
     void add_probes(const dynamics::RunView<Dim>& view, solid::Solid<Dim>& solid) {
         probe_steps_.push_back(view.steps);
         probe_times_.push_back(view.time);
-        const auto rows = probes_.values(view, solid);
+        const auto rows = probes_.values(run::sight_of<Dim>(view, solid));
         for (std::size_t probe = 0; probe < rows.size(); ++probe) probe_values_[probe].push_back(rows[probe]);
     }
     void add_frame(const dynamics::RunView<Dim>& view, solid::Solid<Dim>& solid) {

@@ -22,6 +22,8 @@
 #include "abut/run/drawing/markup.hpp"
 #include "abut/run/files/json.hpp"
 #include "abut/run/result.hpp"
+#include "abut/run/scene.hpp"
+#include "abut/run/values/sight.hpp"
 
 namespace abut::run {
 namespace {
@@ -197,17 +199,15 @@ void Animation<Dim>::begin(const Scene<Dim>& scene, const RunResult<Dim>& result
 }
 
 template <int Dim>
-bool Animation<Dim>::wants_look(std::int64_t step) const {
+bool Animation<Dim>::wants_sight(std::int64_t step) const {
     const std::int64_t intervals = std::max<std::int64_t>(1, n_kept_ - 1);
     const bool more = n_written_ < n_kept_ || n_steps_ > n_spread_;
     return more && step * intervals >= n_written_ * n_spread_;
 }
 
 template <int Dim>
-void Animation<Dim>::look(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) {
-    if (!wants_look(run.steps)) return;
-    static_cast<void>(solid.potential(run.q));  // leaves the stresses of this state behind
-    file_.write(frame_of<Dim>(maker_->taken("", run, solid), obstacles_));
+void Animation<Dim>::see(const Sight<Dim>& sight) {
+    file_.write(frame_of<Dim>(maker_->taken("", sight), obstacles_));
     ++n_written_;
 }
 

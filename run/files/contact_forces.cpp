@@ -3,11 +3,9 @@
 #include <cmath>
 #include <utility>
 
-#include "abut/dynamics/ledger.hpp"
 #include "abut/run/result.hpp"
 #include "abut/run/scene.hpp"
-#include "abut/solid/contact_view.hpp"
-#include "abut/solid/solid.hpp"
+#include "abut/run/values/moment.hpp"
 
 namespace abut::run {
 namespace {
@@ -29,17 +27,17 @@ bool ContactForces<Dim>::wants_look(std::int64_t step) const {
 }
 
 template <int Dim>
-std::vector<ForceRow<Dim>> ContactForces<Dim>::rows(const dynamics::RunView<Dim>& run, const solid::Solid<Dim>& solid) {
+std::vector<ForceRow<Dim>> ContactForces<Dim>::rows(const Moment<Dim>& now) {
     const bool is_start = std::isnan(time_);
-    const double seconds = run.time - time_;
-    time_ = run.time;
+    const double seconds = now.time - time_;
+    time_ = now.time;
     std::vector<ForceRow<Dim>> rows;
-    for (const solid::BodyImpulse<Dim>& pair : solid.contact().impulses()) {
+    for (const solid::BodyImpulse<Dim>& pair : now.impulses) {
         solid::BodyImpulse<Dim>& last = last_.try_emplace({pair.body_1, pair.body_2}, none_yet(pair)).first->second;
         const solid::BodyImpulse<Dim> before = std::exchange(last, pair);
         if (is_start) continue;
         if (pair.impulse == before.impulse && pair.normal_impulse == before.normal_impulse) continue;
-        ForceRow<Dim> row{.step = run.steps, .time = run.time, .body_1 = pair.body_1, .body_2 = pair.body_2};
+        ForceRow<Dim> row{.step = now.steps, .time = now.time, .body_1 = pair.body_1, .body_2 = pair.body_2};
         for (int i = 0; i < Dim; ++i) row.force[i] = (pair.impulse[i] - before.impulse[i]) / seconds;
         row.normal_force = (pair.normal_impulse - before.normal_impulse) / seconds;
         row.friction = (pair.friction - before.friction) / seconds;

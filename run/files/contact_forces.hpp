@@ -39,7 +39,7 @@ public:
 
     [[nodiscard]] bool wants_look(std::int64_t step) const;
     /// To be called at the start, too, where there are no rows.
-    [[nodiscard]] std::vector<ForceRow<Dim>> rows(const dynamics::RunView<Dim>& run, const solid::Solid<Dim>& solid);
+    [[nodiscard]] std::vector<ForceRow<Dim>> rows(const Moment<Dim>& now);
     /// Memory of a checkpoint.
     static auto fields(auto& self) { return std::tie(self.time_, self.last_); }
 

@@ -8,21 +8,23 @@
 #include <utility>
 #include <vector>
 
+#include "abut/dynamics/integrator.hpp"
 #include "abut/mesh/io/write_vtu.hpp"
 #include "abut/run/drawing/cell_map.hpp"
 #include "abut/run/files/files.hpp"
-#include "abut/run/values/cell_velocity.hpp"
-#include "abut/solid/cell_view.hpp"
+#include "abut/run/values/sight.hpp"
 
 namespace abut::run {
 namespace {
 
 constexpr std::array<std::string_view, 3> axis_names{"x", "y", "z"};
 
+/// By which the state is shown: in the lost one, else in the sound one.
 template <int Dim>
-std::vector<double> speeds(const dynamics::IntegratorState& state, const solid::Solid<Dim>& solid) {
+std::vector<double> speeds(const Failure& failure, const Sight<Dim>& sound) {
+    if (failure.lost) return failure.lost_speed;
     std::vector<double> speed;
-    for (const Vector<Dim>& v : cell_velocity<Dim>(state.p_before, state.p_after, solid)) speed.push_back(v.norm());
+    for (const Vector<Dim>& v : sound.velocity) speed.push_back(v.norm());
     return speed;
 }
 
@@ -60,16 +62,14 @@ void write_table(const std::filesystem::path& path, const mesh::Mesh<Dim>& mesh,
 
 template <int Dim>
 void write_frame(const std::filesystem::path& directory, const std::string& series, const Failure& failure,
-                 const std::vector<double>& speed, const solid::Solid<Dim>& solid) {
-    const auto displacement = solid.cells().displacement(failure.sound.q);
-    const auto velocity = cell_velocity<Dim>(failure.sound.p_before, failure.sound.p_after, solid);
+                 const std::vector<double>& speed, const Sight<Dim>& sound) {
     mesh::Frame<Dim> frame{.time = failure.sound.time,
-                           .displacement = displacement,
+                           .displacement = sound.displacement,
                            .vertex_displacement = {},
-                           .cell_fields = {{"velocity [m/s]", velocity}},
+                           .cell_fields = {{"velocity [m/s]", sound.velocity}},
                            .boundary_fields = {}};
     if (failure.lost) frame.cell_fields.push_back({"speed when lost [m/s]", speed});
-    mesh::VtuSeries<Dim>(directory, failure_series(series), solid.mesh()).write(frame);
+    mesh::VtuSeries<Dim>(directory, failure_series(series), *sound.mesh).write(frame);
 }
 
 /// Range of the colours: at most six decades; where all are about as fast, one colour in the middle.
@@ -117,23 +117,22 @@ CellMap cell_map(const mesh::Mesh<Dim>& mesh, const std::vector<Vector<Dim>>& po
 
 template <int Dim>
 std::string write_failure(const std::filesystem::path& directory, const std::string& series, const Failure& failure,
-                          const solid::Solid<Dim>& solid) {
-    const std::vector<double> speed = speeds(failure.lost ? *failure.lost : failure.sound, solid);
+                          const Sight<Dim>& sound) {
+    const mesh::Mesh<Dim>& mesh = *sound.mesh;
+    const std::vector<double> speed = speeds(failure, sound);
     std::vector<std::int32_t> cells = failure.cells;
-    if (cells.empty()) cells = {worst_cell(failure.sound, solid).cell};
-    std::vector<Vector<Dim>> position = solid.cells().displacement(failure.sound.q);
-    for (std::size_t c = 0; c < position.size(); ++c) position[c] += solid.mesh().cell_centroid[c];
-    write_frame(directory, series, failure, speed, solid);
-    write_table(directory / (std::string(failure_name) + ".csv"), solid.mesh(), position, speed);
+    if (cells.empty()) cells = {worst_cell<Dim>(sound.displacement, sound.velocity).cell};
+    std::vector<Vector<Dim>> position = sound.displacement;
+    for (std::size_t c = 0; c < position.size(); ++c) position[c] += mesh.cell_centroid[c];
+    write_frame(directory, series, failure, speed, sound);
+    write_table(directory / (std::string(failure_name) + ".csv"), mesh, position, speed);
     const std::string picture = std::string(failure_name) + ".svg";
-    write_whole(directory / picture, drawing_file(cell_map<Dim>(solid.mesh(), position, speed, failure, cells)));
+    write_whole(directory / picture, drawing_file(cell_map<Dim>(mesh, position, speed, failure, cells)));
     return picture + " shows where it failed, " + failure_series(series) + ".pvd holds the last sound state, step " +
            std::to_string(failure.sound.steps) + ".";
 }
 
-template std::string write_failure<2>(const std::filesystem::path&, const std::string&, const Failure&,
-                                      const solid::Solid<2>&);
-template std::string write_failure<3>(const std::filesystem::path&, const std::string&, const Failure&,
-                                      const solid::Solid<3>&);
+template std::string write_failure<2>(const std::filesystem::path&, const std::string&, const Failure&, const Sight<2>&);
+template std::string write_failure<3>(const std::filesystem::path&, const std::string&, const Failure&, const Sight<3>&);
 
 }  // namespace abut::run

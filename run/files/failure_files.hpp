@@ -21,6 +21,6 @@ inline constexpr std::string_view failure_page = "failed.html";
 /// BadInput or MeshError if one cannot be written.
 template <int Dim>
 [[nodiscard]] std::string write_failure(const std::filesystem::path& directory, const std::string& series,
-                                        const Failure& failure, const solid::Solid<Dim>& solid);
+                                        const Failure& failure, const Sight<Dim>& sound);
 
 }  // namespace abut::run

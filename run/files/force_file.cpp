@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "abut/base/state_fields.hpp"
-#include "abut/dynamics/ledger.hpp"
 #include "abut/run/body_names.hpp"
 #include "abut/run/files/column_units.hpp"
 #include "abut/run/files/files.hpp"
+#include "abut/run/values/moment.hpp"
 
 namespace abut::run {
 
@@ -43,14 +43,9 @@ void ForceFile<Dim>::begin(const Scene<Dim>& scene, const RunResult<Dim>& result
 }
 
 template <int Dim>
-bool ForceFile<Dim>::wants_look(std::int64_t step) const {
-    return forces_.wants_look(step);
-}
-
-template <int Dim>
-void ForceFile<Dim>::look(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) {
-    if (!wants_look(run.steps)) return;
-    for (const ForceRow<Dim>& row : forces_.rows(run, solid)) {
+void ForceFile<Dim>::note(const Moment<Dim>& moment) {
+    if (!forces_.wants_look(moment.steps)) return;
+    for (const ForceRow<Dim>& row : forces_.rows(moment)) {
         std::string text = fmt::format("{},{:.17g},{},{}", row.step, row.time, names_[static_cast<std::size_t>(row.body_1)],
                                        names_[static_cast<std::size_t>(row.body_2)]);
         const auto add = [&](double value) { text += fmt::format(",{:.17g}", value); };

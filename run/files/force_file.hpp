@@ -24,8 +24,7 @@ public:
     /// Opens the file. Throws BadInput if it cannot be written.
     void begin(const Scene<Dim>& scene, const RunResult<Dim>& result) override;
     /// Throws BadInput if rows cannot be written.
-    void look(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) override;
-    [[nodiscard]] bool wants_look(std::int64_t step) const override;
+    void note(const Moment<Dim>& moment) override;
     void save(StateWriter& state) override;
     /// Throws BadInput if rows that were written are gone.
     void resume(const Scene<Dim>& scene, const RunResult<Dim>& result, StateReader& state) override;

@@ -12,11 +12,10 @@
 #include "abut/run/files/xdmf_series.hpp"
 #include "abut/run/result.hpp"
 #include "abut/run/scene.hpp"
-#include "abut/run/values/cell_velocity.hpp"
 #include "abut/run/values/frame_piece.hpp"
+#include "abut/run/values/sight.hpp"
 #include "abut/solid/boundary/boundary_face.hpp"
-#include "abut/solid/cell_view.hpp"
-#include "abut/solid/contact_view.hpp"
+#include "abut/solid/solid.hpp"
 
 namespace abut::run {
 namespace {
@@ -29,12 +28,9 @@ std::vector<double> in_contact(std::vector<double> gaps) {
 /// Stresses of some cells, and what follows from them.
 template <int Dim>
 struct Stresses {
-    /// Stresses of all cells, as the last evaluation of the solid left them.
-    explicit Stresses(solid::Solid<Dim>& solid) {
-        for (std::int32_t c = 0; c < solid.mesh().n_cells(); ++c) {
-            add(solid.cells().stress(c), solid.cells().out_of_plane_stress(c));
-            if (solid.ccg().any_inelastic()) plastic_strain.push_back(solid.cells().plastic_strain(c));
-        }
+    explicit Stresses(const Sight<Dim>& sight) {
+        for (std::size_t c = 0; c < sight.stress.size(); ++c) add(sight.stress[c], sight.out_of_plane_stress[c]);
+        plastic_strain = sight.plastic_strain;
     }
     explicit Stresses(const FramePiece<Dim>& piece) {
         for (std::size_t i = 0; i < piece.cells.size(); ++i) add(piece.stress[i], piece.out_of_plane_stress[i]);
@@ -117,18 +113,17 @@ Vector<Dim> middle_of(solid::BoundaryFace boundary, const mesh::Mesh<Dim>& mesh,
 template <int Dim>
 class PairPoints {
 public:
-    PairPoints(const std::vector<solid::ActingPair<Dim>>& pairs, const solid::Solid<Dim>& solid,
-               std::span<const Vector<Dim>> of_cells, std::span<const Vector<Dim>> of_vertices) {
-        const mesh::Mesh<Dim>& mesh = solid.mesh();
+    PairPoints(const Sight<Dim>& sight, std::span<const Vector<Dim>> of_vertices) {
+        const mesh::Mesh<Dim>& mesh = *sight.mesh;
         const auto body_of = [&](solid::BoundaryFace face) {
             return face == solid::no_face ? -1 : mesh.cell_body[static_cast<std::size_t>(solid::cell_of(mesh, face))];
         };
-        for (const solid::ActingPair<Dim>& pair : pairs) {
+        for (const solid::ActingPair<Dim>& pair : sight.pairs) {
             Vector<Dim> sum = Vector<Dim>::Zero();
             int n_faces = 0;
             for (const solid::BoundaryFace face : {pair.face_1, pair.face_2})
                 if (face != solid::no_face) {
-                    sum += middle_of(face, mesh, of_cells, of_vertices);
+                    sum += middle_of<Dim>(face, mesh, sight.displacement, of_vertices);
                     ++n_faces;
                 }
             position_.push_back(sum / n_faces);
@@ -215,13 +210,13 @@ void Frames<Dim>::cells_left(const solid::Solid<Dim>& solid, std::span<const std
 }
 
 template <int Dim>
-void Frames<Dim>::look(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) {
-    if (wants_look(run.steps)) write(run, solid);
+void Frames<Dim>::see(const Sight<Dim>& sight) {
+    write(sight);
 }
 
 template <int Dim>
-void Frames<Dim>::look_at_time(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) {
-    write(run, solid);
+void Frames<Dim>::see_at_time(const Sight<Dim>& sight) {
+    write(sight);
 }
 
 /// The number of the frame that is due at this step, where so many are written; -1: none.
@@ -234,7 +229,7 @@ std::int64_t Frames<Dim>::due(std::int64_t step, std::int64_t n_written) const {
 }
 
 template <int Dim>
-bool Frames<Dim>::wants_look(std::int64_t step) const {
+bool Frames<Dim>::wants_sight(std::int64_t step) const {
     if (!in_pieces_) return due(step, std::ssize(times())) >= 0;
     return pairs_ && due(step, static_cast<std::int64_t>(pairs_->times().size())) >= 0;
 }
@@ -280,35 +275,26 @@ void Frames<Dim>::resume(const Scene<Dim>& scene, const RunResult<Dim>& result, 
 }
 
 template <int Dim>
-void Frames<Dim>::write(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) {
-    const auto contact = solid.contact_at(run.q).field();
-    const auto gap = in_contact(contact.gap);
-    static_cast<void>(solid.potential(run.q));  // leaves the stresses of this state behind
-    const auto displacement = solid.cells().displacement(run.q);
+void Frames<Dim>::write(const Sight<Dim>& sight) {
     std::vector<Vector<Dim>> of_vertices;  // a body that turns is not where the mean displacement of its cells takes it
-    if (solid.moment_arms() == dynamics::MomentArms::mid_step) of_vertices = solid.cells().vertex_displacement(run.q);
-    if (!in_pieces_) {
-        const Stresses<Dim> stresses(solid);
-        const auto velocity = cell_velocity(run, solid);
-        mesh::Frame<Dim> frame{.time = run.time, .displacement = displacement, .vertex_displacement = of_vertices};
-        const std::vector<double> fragment = fragment_of_cells(solid);
-        frame.cell_fields = cell_fields<Dim>(fields_, velocity, stresses, fragment);
-        if (!first_cells_.empty()) frame.cell_fields.push_back({"cell of the scene", std::span<const double>(first_cells_)});
-        const std::vector<double> bonds = left_of_bonds(solid);
-        frame.boundary_fields = boundary_fields<Dim>(fields_, gap, contact, bonds);
-        if (pairs_) write_pairs(run, solid, displacement, of_vertices);
-        if (obstacles_) obstacles_->write(run.time);
-        write_whole_frame(frame);
-    } else {
-        write_pairs(run, solid, displacement, of_vertices);
-    }
+    if (sight.any_turns) of_vertices = sight.vertex_displacement();
+    if (pairs_) write_pairs(sight, of_vertices);
+    if (in_pieces_) return;
+    const auto gap = in_contact(sight.contact.gap);
+    const Stresses<Dim> stresses(sight);
+    mesh::Frame<Dim> frame{
+        .time = sight.moment.time, .displacement = sight.displacement, .vertex_displacement = of_vertices};
+    frame.cell_fields = cell_fields<Dim>(fields_, sight.velocity, stresses, sight.fragment);
+    if (!first_cells_.empty()) frame.cell_fields.push_back({"cell of the scene", std::span<const double>(first_cells_)});
+    frame.boundary_fields = boundary_fields<Dim>(fields_, gap, sight.contact, sight.bond);
+    if (obstacles_) obstacles_->write(sight.moment.time);
+    write_whole_frame(frame);
 }
 
 template <int Dim>
-void Frames<Dim>::write_pairs(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid,
-                              std::span<const Vector<Dim>> displacement, std::span<const Vector<Dim>> of_vertices) {
-    const PairPoints<Dim> points(solid.contact_at(run.q).acting_pairs(), solid, displacement, of_vertices);
-    mesh::PointFrame<Dim> frame = points.frame(run.time, fields_.friction && solid.options().has_friction());
+void Frames<Dim>::write_pairs(const Sight<Dim>& sight, std::span<const Vector<Dim>> of_vertices) {
+    const PairPoints<Dim> points(sight, of_vertices);
+    mesh::PointFrame<Dim> frame = points.frame(sight.moment.time, fields_.friction && sight.options->has_friction());
     frame.numbers = bodies_;
     pairs_->write(frame);
 }

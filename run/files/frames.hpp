@@ -52,10 +52,10 @@ public:
 
     void begin(const Scene<Dim>& scene, const RunResult<Dim>& result) override;
     /// Writes a frame if one is due at this step.
-    void look(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) override;
-    void look_at_time(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) override;
+    void see(const Sight<Dim>& sight) override;
+    void see_at_time(const Sight<Dim>& sight) override;
     void cells_left(const solid::Solid<Dim>& solid, std::span<const std::int32_t> first_cells) override;
-    [[nodiscard]] bool wants_look(std::int64_t step) const override;
+    [[nodiscard]] bool wants_sight(std::int64_t step) const override;
     [[nodiscard]] std::int64_t wants_piece(std::int64_t step) const override;
     void piece(const FramePiece<Dim>& piece) override;
     void all_pieces(const FramePiece<Dim>& piece) override;
@@ -68,9 +68,8 @@ public:
     void resume(const Scene<Dim>& scene, const RunResult<Dim>& result, StateReader& state) override;
 
 private:
-    void write(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid);
-    void write_pairs(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid, std::span<const Vector<Dim>> displacement,
-                     std::span<const Vector<Dim>> of_vertices);
+    void write(const Sight<Dim>& sight);
+    void write_pairs(const Sight<Dim>& sight, std::span<const Vector<Dim>> of_vertices);
     [[nodiscard]] std::int64_t due(std::int64_t step, std::int64_t n_written) const;
 
     [[nodiscard]] const std::vector<double>& times() const;

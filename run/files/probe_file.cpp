@@ -11,6 +11,7 @@
 #include "abut/run/files/files.hpp"
 #include "abut/run/result.hpp"
 #include "abut/run/scene.hpp"
+#include "abut/run/values/sight.hpp"
 
 namespace abut::run {
 
@@ -28,15 +29,14 @@ void ProbeFile<Dim>::begin(const Scene<Dim>& scene, const RunResult<Dim>& result
 }
 
 template <int Dim>
-bool ProbeFile<Dim>::wants_look(std::int64_t step) const {
+bool ProbeFile<Dim>::wants_sight(std::int64_t step) const {
     return probes_.wants_look(step);
 }
 
 template <int Dim>
-void ProbeFile<Dim>::look(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) {
-    if (!wants_look(run.steps)) return;
-    std::string row = fmt::format("{},{:.17g}", run.steps, run.time);
-    for (const std::vector<double>& values : probes_.values(run, solid))
+void ProbeFile<Dim>::see(const Sight<Dim>& sight) {
+    std::string row = fmt::format("{},{:.17g}", sight.moment.steps, sight.moment.time);
+    for (const std::vector<double>& values : probes_.values(sight))
         for (const double value : values) row += fmt::format(",{:.17g}", value);
     file_.write(row + "\n");
 }

@@ -21,9 +21,9 @@ public:
     /// beside its body, with the distance.
     void begin(const Scene<Dim>& scene, const RunResult<Dim>& result) override;
     /// Throws BadInput if a row cannot be written.
-    void look(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) override;
+    void see(const Sight<Dim>& sight) override;
     void cells_left(const solid::Solid<Dim>& solid, std::span<const std::int32_t> first_cells) override;
-    [[nodiscard]] bool wants_look(std::int64_t step) const override;
+    [[nodiscard]] bool wants_sight(std::int64_t step) const override;
     void save(StateWriter& state) override;
     /// Throws BadInput if rows that were written are gone.
     void resume(const Scene<Dim>& scene, const RunResult<Dim>& result, StateReader& state) override;

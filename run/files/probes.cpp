@@ -13,8 +13,7 @@
 #include "abut/run/files/frames.hpp"
 #include "abut/run/result.hpp"
 #include "abut/run/scene.hpp"
-#include "abut/run/values/cell_velocity.hpp"
-#include "abut/solid/cell_view.hpp"
+#include "abut/run/values/sight.hpp"
 
 namespace abut::run {
 namespace {
@@ -166,11 +165,8 @@ bool Probes<Dim>::wants_look(std::int64_t step) const {
 }
 
 template <int Dim>
-std::vector<std::vector<double>> Probes<Dim>::values(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) {
-    const std::vector<ForceRow<Dim>> forces = forces_.rows(run, solid);
-    static_cast<void>(solid.potential(run.q));  // leaves the stresses of this state behind
-    const auto displacement = solid.cells().displacement(run.q);
-    const auto velocity = cell_velocity(run, solid);
+std::vector<std::vector<double>> Probes<Dim>::values(const Sight<Dim>& sight) {
+    const std::vector<ForceRow<Dim>> forces = forces_.rows(sight.moment);
     std::vector<std::vector<double>> rows;
     for (const Watched& probe : probes_) {
         Vector<Dim> u = Vector<Dim>::Zero(), v = Vector<Dim>::Zero();
@@ -182,13 +178,12 @@ std::vector<std::vector<double>> Probes<Dim>::values(const dynamics::RunView<Dim
             out_of_plane = gone;
         }
         for (std::size_t i = 0; i < probe.cells.size(); ++i) {
-            const std::int32_t cell = probe.cells[i];
+            const auto cell = static_cast<std::size_t>(probe.cells[i]);
             const double weight = probe.weights[i];
-            u += weight * (displacement[static_cast<std::size_t>(cell)] +
-                           solid.cells().displacement_gradient(cell, run.q) * probe.arms[i]);
-            v += weight * velocity[static_cast<std::size_t>(cell)];
-            stress += weight * solid.cells().stress(cell);
-            out_of_plane += weight * solid.cells().out_of_plane_stress(cell);
+            u += weight * (sight.displacement[cell] + sight.displacement_gradient[cell] * probe.arms[i]);
+            v += weight * sight.velocity[cell];
+            stress += weight * sight.stress[cell];
+            out_of_plane += weight * sight.out_of_plane_stress[cell];
         }
         std::vector<double> values(u.begin(), u.end());
         values.insert(values.end(), v.begin(), v.end());

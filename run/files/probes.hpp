@@ -29,9 +29,8 @@ public:
     [[nodiscard]] static std::vector<std::string> columns(const Probe<Dim>& probe);
     /// At the start, every `Outputs::interval` steps, and at the end.
     [[nodiscard]] bool wants_look(std::int64_t step) const;
-    /// The columns of each probe; evaluates the solid. Called at each look, the start included: forces of contact are
-    /// those since the last one.
-    [[nodiscard]] std::vector<std::vector<double>> values(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid);
+    /// The columns of each probe. Called at each look, the start included: forces of contact are those since the last one.
+    [[nodiscard]] std::vector<std::vector<double>> values(const Sight<Dim>& sight);
     /// Numbers that the cells have in the scene's mesh, of a run that some have left: means are those of cells that are
     /// there, and a place whose cell has left is at rest no more: all that is seen there is NaN.
     void take_cells(std::span<const std::int32_t> first_cells);

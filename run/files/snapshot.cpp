@@ -12,8 +12,7 @@
 #include "abut/run/files/frames.hpp"
 #include "abut/run/result.hpp"
 #include "abut/run/scene.hpp"
-#include "abut/run/values/cell_velocity.hpp"
-#include "abut/solid/cell_view.hpp"
+#include "abut/run/values/sight.hpp"
 #include "abut/solid/kinematics/properties.hpp"
 
 namespace abut::run {
@@ -176,10 +175,9 @@ std::int32_t SnapshotMaker<Dim>::shown_cell(std::size_t polygon) const {
 }
 
 template <int Dim>
-Snapshot SnapshotMaker<Dim>::taken(std::string what, const dynamics::RunView<Dim>& run,
-                                   const solid::Solid<Dim>& solid) const {
-    Snapshot snapshot{.what = std::move(what), .time = run.time};
-    const std::vector<Vector<Dim>> displacement = solid.cells().vertex_displacement(run.q);
+Snapshot SnapshotMaker<Dim>::taken(std::string what, const Sight<Dim>& sight) const {
+    Snapshot snapshot{.what = std::move(what), .time = sight.moment.time};
+    const std::vector<Vector<Dim>> displacement = sight.vertex_displacement();
     constexpr double none = std::numeric_limits<double>::quiet_NaN();
     for (std::size_t i = 0; i < polygons_.vertex.size(); ++i) {
         const auto v = static_cast<std::size_t>(polygons_.vertex[i]);
@@ -190,14 +188,13 @@ Snapshot SnapshotMaker<Dim>::taken(std::string what, const dynamics::RunView<Dim
             snapshot.position.push_back(
                 in_space<Dim>(scene_.mesh.vertices[v] + displacement[static_cast<std::size_t>(now)]));
     }
-    snapshot.value = values(run, solid);
-    snapshot.obstacles = faces_of_obstacles<Dim>(solid.options().obstacles, run.time);
+    snapshot.value = values(sight);
+    snapshot.obstacles = faces_of_obstacles<Dim>(sight.options->obstacles, sight.moment.time);
     return snapshot;
 }
 
 template <int Dim>
-std::vector<double> SnapshotMaker<Dim>::values(const dynamics::RunView<Dim>& run, const solid::Solid<Dim>& solid) const {
-    const std::vector<Vector<Dim>> velocity = all_rigid_ ? cell_velocity(run, solid) : std::vector<Vector<Dim>>();
+std::vector<double> SnapshotMaker<Dim>::values(const Sight<Dim>& sight) const {
     std::vector<double> result;
     for (std::size_t polygon = 0; polygon < polygons_.cell.size(); ++polygon) {
         const std::int32_t cell = shown_cell(polygon);
@@ -205,9 +202,10 @@ std::vector<double> SnapshotMaker<Dim>::values(const dynamics::RunView<Dim>& run
         if (cell < 0 || (!all_rigid_ && is_rigid_[body] != 0))
             result.push_back(std::numeric_limits<double>::quiet_NaN());
         else if (all_rigid_)
-            result.push_back(velocity[static_cast<std::size_t>(cell)].norm());
+            result.push_back(sight.velocity[static_cast<std::size_t>(cell)].norm());
         else
-            result.push_back(von_mises<Dim>(solid.cells().stress(cell), solid.cells().out_of_plane_stress(cell)));
+            result.push_back(von_mises<Dim>(sight.stress[static_cast<std::size_t>(cell)],
+                                            sight.out_of_plane_stress[static_cast<std::size_t>(cell)]));
     }
     return result;
 }

@@ -64,11 +64,10 @@ public:
     [[nodiscard]] const BodyPolygons& polygons() const { return polygons_; }
     /// Goes on with the rest of the scene's mesh, once cells have left; `first_cells`: the numbers of its cells there.
     void take_cells(const mesh::Mesh<Dim>& left, std::span<const std::int32_t> first_cells);
-    /// Snapshot of a state that the solid has evaluated. Its cost is proportional to the cells in 2D, to the boundary in 3D.
-    [[nodiscard]] Snapshot taken(std::string what, const dynamics::RunView<Dim>& run, const solid::Solid<Dim>& solid) const;
+    [[nodiscard]] Snapshot taken(std::string what, const Sight<Dim>& sight) const;
 
 private:
-    [[nodiscard]] std::vector<double> values(const dynamics::RunView<Dim>& run, const solid::Solid<Dim>& solid) const;
+    [[nodiscard]] std::vector<double> values(const Sight<Dim>& sight) const;
     /// Present number of the cell that a polygon shows; -1: it is not to be seen.
     [[nodiscard]] std::int32_t shown_cell(std::size_t polygon) const;
 

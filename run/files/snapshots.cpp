@@ -6,8 +6,7 @@
 
 #include "abut/run/result.hpp"
 #include "abut/run/scene.hpp"
-#include "abut/run/values/failure.hpp"
-#include "abut/solid/contact_view.hpp"
+#include "abut/run/values/sight.hpp"
 
 namespace abut::run {
 namespace {
@@ -16,9 +15,9 @@ constexpr std::int64_t looks_per_run = 60;
 constexpr double worth_another = 1.05;  // times the force of the snapshot before
 
 template <int Dim>
-double normal_impulse(const solid::Solid<Dim>& solid) {
+double normal_impulse(const Moment<Dim>& now) {
     double sum = 0.0;
-    for (const solid::BodyImpulse<Dim>& pair : solid.contact().impulses()) sum += pair.normal_impulse;
+    for (const solid::BodyImpulse<Dim>& pair : now.impulses) sum += pair.normal_impulse;
     return sum;
 }
 
@@ -38,29 +37,27 @@ void Snapshots<Dim>::record(const dynamics::LedgerEntry<Dim>& entry) {
 }
 
 template <int Dim>
-bool Snapshots<Dim>::wants_look(std::int64_t step) const {
-    return step == 0 || step == middle_step_ || (in_contact_ && step % every_ == 0);
+void Snapshots<Dim>::note(const Moment<Dim>& now) {
+    const bool is_start = now.steps == 0, is_middle = now.steps == middle_step_;
+    force_ = 0.0;
+    if (is_start || ((in_contact_ || is_middle) && now.steps % every_ == 0)) {
+        const double impulse = normal_impulse(now);
+        if (!is_start) force_ = (impulse - last_impulse_) / (now.time - last_time_);
+        last_impulse_ = impulse;
+        last_time_ = now.time;
+    }
+    is_largest_ = force_ > (largest_ ? worth_another * largest_->force : 0.0);
+    if (is_start || is_middle || is_largest_) wanted_step_ = now.steps;
 }
 
 template <int Dim>
-void Snapshots<Dim>::look(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) {
-    if (!wants_look(run.steps)) return;
-    const bool is_start = run.steps == 0, is_middle = run.steps == middle_step_;
-    double force = 0.0;
-    if (is_start || run.steps % every_ == 0) {
-        const double impulse = normal_impulse(solid);
-        if (!is_start) force = (impulse - last_impulse_) / (run.time - last_time_);
-        last_impulse_ = impulse;
-        last_time_ = run.time;
-    }
-    const bool is_largest = force > (largest_ ? worth_another * largest_->force : 0.0);
-    if (!is_start && !is_middle && !is_largest) return;
-    static_cast<void>(solid.potential(run.q));  // leaves the stresses of this state behind
-    if (is_start) start_ = maker_->taken("At the start", run, solid);
-    if (is_middle && !is_start) middle_ = maker_->taken("In the middle", run, solid);
-    if (!is_largest) return;
-    largest_ = maker_->taken("Near the largest contact force", run, solid);
-    largest_->force = force;
+void Snapshots<Dim>::see(const Sight<Dim>& sight) {
+    const bool is_start = sight.moment.steps == 0;
+    if (is_start) start_ = maker_->taken("At the start", sight);
+    if (sight.moment.steps == middle_step_ && !is_start) middle_ = maker_->taken("In the middle", sight);
+    if (!is_largest_) return;
+    largest_ = maker_->taken("Near the largest contact force", sight);
+    largest_->force = force_;
 }
 
 template <int Dim>
@@ -69,15 +66,13 @@ void Snapshots<Dim>::cells_left(const solid::Solid<Dim>& solid, std::span<const 
 }
 
 template <int Dim>
-void Snapshots<Dim>::end(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) {
-    end_ = maker_->taken("At the end", run, solid);
+void Snapshots<Dim>::end(const Sight<Dim>& sight) {
+    end_ = maker_->taken("At the end", sight);
 }
 
 template <int Dim>
-void Snapshots<Dim>::fail(const Failure& failure, solid::Solid<Dim>& solid) {
-    solid.restore(solid.state(), failure.sound.q);  // contact was last searched where the run was lost
-    static_cast<void>(solid.potential(failure.sound.q));
-    end_ = maker_->taken("The last sound state", dynamics::RunView<Dim>(failure.sound), solid);
+void Snapshots<Dim>::fail(const Sight<Dim>& sound) {
+    end_ = maker_->taken("The last sound state", sound);
 }
 
 template <int Dim>

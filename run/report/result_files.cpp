@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <stdexcept>
 #include <utility>
 
 #include "abut/base/counted.hpp"
@@ -15,6 +16,7 @@
 #include "abut/run/result.hpp"
 #include "abut/run/scene.hpp"
 #include "abut/run/values/frame_piece.hpp"
+#include "abut/run/values/sight.hpp"
 #include "abut/run/words/summary.hpp"
 #include "abut/run/words/table_line.hpp"
 
@@ -73,19 +75,26 @@ void ResultFiles<Dim>::record(const dynamics::LedgerEntry<Dim>& entry, const Run
 }
 
 template <int Dim>
-void ResultFiles<Dim>::look(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) {
+void ResultFiles<Dim>::note(const Moment<Dim>& moment) {
     const Stopwatch watch(seconds_);
-    if (probes_) probes_->look(run, solid);
-    if (forces_) forces_->look(run, solid);
-    if (frames_) frames_->look(run, solid);
-    if (animation_) animation_->look(run, solid);
-    snapshots_.look(run, solid);
+    if (forces_) forces_->note(moment);
+    snapshots_.note(moment);
 }
 
 template <int Dim>
-void ResultFiles<Dim>::look_at_time(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) {
+void ResultFiles<Dim>::see(const Sight<Dim>& sight) {
     const Stopwatch watch(seconds_);
-    if (frames_) frames_->look_at_time(run, solid);
+    const std::int64_t step = sight.moment.steps;
+    if (probes_ && probes_->wants_sight(step)) probes_->see(sight);
+    if (frames_ && frames_->wants_sight(step)) frames_->see(sight);
+    if (animation_ && animation_->wants_sight(step)) animation_->see(sight);
+    if (snapshots_.wants_sight(step)) snapshots_.see(sight);
+}
+
+template <int Dim>
+void ResultFiles<Dim>::see_at_time(const Sight<Dim>& sight) {
+    const Stopwatch watch(seconds_);
+    if (frames_) frames_->see_at_time(sight);
 }
 
 template <int Dim>
@@ -98,16 +107,15 @@ void ResultFiles<Dim>::cells_left(const solid::Solid<Dim>& solid, std::span<cons
 }
 
 template <int Dim>
-void ResultFiles<Dim>::end(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) {
+void ResultFiles<Dim>::end(const Sight<Dim>& sight) {
     const Stopwatch watch(seconds_);
-    snapshots_.end(run, solid);
+    snapshots_.end(sight);
 }
 
 template <int Dim>
-bool ResultFiles<Dim>::wants_look(std::int64_t step) const {
-    return (probes_ && probes_->wants_look(step)) || (forces_ && forces_->wants_look(step)) ||
-           (frames_ && frames_->wants_look(step)) || (animation_ && animation_->wants_look(step)) ||
-           snapshots_.wants_look(step);
+bool ResultFiles<Dim>::wants_sight(std::int64_t step) const {
+    return (probes_ && probes_->wants_sight(step)) || (frames_ && frames_->wants_sight(step)) ||
+           (animation_ && animation_->wants_sight(step)) || snapshots_.wants_sight(step);
 }
 
 template <int Dim>
@@ -128,18 +136,19 @@ void ResultFiles<Dim>::all_pieces(const FramePiece<Dim>& piece) {
 }
 
 template <int Dim>
-void ResultFiles<Dim>::fail(const Failure& failure, solid::Solid<Dim>& solid) {
+void ResultFiles<Dim>::fail(const Failure& failure, const Sight<Dim>& sound) {
     try {
-        failed_ = " In the same folder " + write_failure(out_, name_, failure, solid);
-        draw_failure(failure, solid);
+        failed_ = " In the same folder " + write_failure(out_, name_, failure, sound);
+        if (!failure.not_evaluated.empty()) throw std::runtime_error(failure.not_evaluated);
+        draw_failure(sound);
     } catch (const std::exception& error) {
         failed_ += std::string(" Where it failed could not be written: ") + error.what();
     }
 }
 
 template <int Dim>
-void ResultFiles<Dim>::draw_failure(const Failure& failure, solid::Solid<Dim>& solid) {
-    snapshots_.fail(failure, solid);
+void ResultFiles<Dim>::draw_failure(const Sight<Dim>& sound) {
+    snapshots_.fail(sound);
     write_whole(out_ / failure_page, failure_html(program_, snapshots_.pictures()));
     failed_ += fmt::format(" {} shows the bodies until then.", failure_page);
 }

@@ -41,15 +41,16 @@ public:
 
     void begin(const Scene<Dim>& scene, const RunResult<Dim>& result) override;
     void record(const dynamics::LedgerEntry<Dim>& entry, const RunResult<Dim>& result) override;
-    void look(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) override;
+    void note(const Moment<Dim>& moment) override;
+    void see(const Sight<Dim>& sight) override;
     void cells_left(const solid::Solid<Dim>& solid, std::span<const std::int32_t> first_cells) override;
-    void end(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) override;
-    void look_at_time(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) override;
-    [[nodiscard]] bool wants_look(std::int64_t step) const override;
+    void end(const Sight<Dim>& sight) override;
+    void see_at_time(const Sight<Dim>& sight) override;
+    [[nodiscard]] bool wants_sight(std::int64_t step) const override;
     [[nodiscard]] std::int64_t wants_piece(std::int64_t step) const override;
     void piece(const FramePiece<Dim>& piece) override;
     void all_pieces(const FramePiece<Dim>& piece) override;
-    void fail(const Failure& failure, solid::Solid<Dim>& solid) override;
+    void fail(const Failure& failure, const Sight<Dim>& sound) override;
     [[nodiscard]] bool wants_checkpoint(std::int64_t step, bool stops) const override;
     void keep(const Checkpoint& checkpoint) override;
     void save(StateWriter& state) override;
@@ -70,7 +71,7 @@ public:
     [[nodiscard]] std::string table() const;
 
 private:
-    void draw_failure(const Failure& failure, solid::Solid<Dim>& solid);
+    void draw_failure(const Sight<Dim>& sound);
     [[nodiscard]] std::vector<ReportFile> files_of_report() const;
 
     std::filesystem::path out_;

@@ -2,9 +2,8 @@
 // Private to the layer.
 #include <cstdint>
 #include <exception>
+#include <vector>
 
-#include "abut/dynamics/gathered_state.hpp"
-#include "abut/dynamics/integrator.hpp"
 #include "abut/dynamics/ranks.hpp"
 
 /// What a run on several ranks brings together; on one rank all of it is here already.
@@ -16,6 +15,14 @@ void on_first(const dynamics::Ranks& ranks, const Body& body) {
     dynamics::agreed(ranks, [&] {
         if (ranks.rank() == 0) body();
     });
+}
+
+/// Values that make() gives on rank 0, on all ranks; what it throws there is thrown on all.
+template <class Make>
+[[nodiscard]] std::vector<double> values_of_first(const dynamics::Ranks& ranks, const Make& make) {
+    std::vector<double> values;
+    on_first(ranks, [&] { values = make(); });
+    return ranks.gather(values);
 }
 
 /// The number that question() gives on rank 0, on all of them: one message. It is >= 0, and exact in a double.
@@ -35,14 +42,6 @@ template <class Question>
     answer = ranks.largest(answer);
     if (answer == failed) ranks.agree(error);
     return static_cast<std::int64_t>(answer);
-}
-
-/// A state with the points of all ranks, on rank 0; without points on the others.
-template <int Dim>
-[[nodiscard]] dynamics::IntegratorState collected(const dynamics::Ranks& ranks, dynamics::IntegratorState state) {
-    if (ranks.is_one()) return state;
-    for (auto* values : dynamics::arrays_of(state)) *values = ranks.collect(*values, Dim);
-    return state;
 }
 
 }  // namespace abut::run

@@ -43,7 +43,7 @@ template <int Dim>
 void OutputTimes<Dim>::show_start(dynamics::IntegratorState state) {
     for (const double node = state.time; is_due(node, 0); ++n_shown_) {
         state.time = next();
-        show_node(state);
+        show_to_observer(state, *start_.solid);
     }
 }
 
@@ -55,7 +55,7 @@ void OutputTimes<Dim>::show(const StepStart& start, const dynamics::IntegratorSt
         state.time = next();
         state.q = end.q;
         if (is_at_or_before(end.time, state.time)) {
-            show_node(state);
+            show_to_observer(state, *start_.solid);
             continue;
         }
         const double share = (state.time - start.motion.time) / end.dt;
@@ -73,33 +73,32 @@ void OutputTimes<Dim>::set_momenta(const StepStart& start, dynamics::IntegratorS
 }
 
 template <int Dim>
-void OutputTimes<Dim>::show_node(const dynamics::IntegratorState& state) {
-    whole_.show_state(state, [&](const auto& run, auto& solid) { observer_.look_at_time(run, solid); });
+void OutputTimes<Dim>::show_to_observer(const dynamics::IntegratorState& state, solid::Solid<Dim>& solid) {
+    const dynamics::RunView<Dim> run(state);
+    whole_.show(run, solid, [&](const auto& sight) { observer_.see_at_time(sight); });
+    if (solid.ranks().is_one()) observer_.look_at_time(run, solid);
 }
 
 /// With loads, obstacles and what materials and friction remember as they are then: another solid goes there from the
 /// start of the step, and that of the run knows nothing of it.
 template <int Dim>
-void OutputTimes<Dim>::show_inside(const StepStart& start, const dynamics::IntegratorState& own) {
-    const dynamics::IntegratorState from = whole_.of(start.motion), state = whole_.of(own);
-    whole_.on_first([&] {
-        solid::Solid<Dim>& solid = other_solid();
-        solid.restore(start.solid, from.q);
-        std::vector<double> force(state.q.size());
-        const double dt = state.time - from.time;
-        if (features_of(start_.options).has(solid::Feature::end_forces))
-            solid.end_force(from.q, state.q, from.time, dt, force);
-        else
-            solid.mean_force(from.q, state.q, from.time, dt, force);
-        observer_.look_at_time(dynamics::RunView<Dim>(state), solid);
-    });
+void OutputTimes<Dim>::show_inside(const StepStart& start, const dynamics::IntegratorState& state) {
+    solid::Solid<Dim>& solid = other_solid();
+    const dynamics::IntegratorState& from = start.motion;
+    solid.restore(start.solid, from.q);
+    std::vector<double> force(state.q.size());
+    const double dt = state.time - from.time;
+    if (features_of(start_.options).has(solid::Feature::end_forces))
+        solid.end_force(from.q, state.q, from.time, dt, force);
+    else
+        solid.mean_force(from.q, state.q, from.time, dt, force);
+    show_to_observer(state, solid);
 }
 
-/// On rank 0: of several ranks the solid that shows the whole.
 template <int Dim>
 solid::Solid<Dim>& OutputTimes<Dim>::other_solid() {
-    if (!start_.solid->ranks().is_one()) return whole_.seen();
-    if (!other_) other_ = std::make_unique<solid::Solid<Dim>>(start_.solid->mesh(), start_.solid->options());
+    const solid::Solid<Dim>& solid = *start_.solid;
+    if (!other_) other_ = std::make_unique<solid::Solid<Dim>>(solid.mesh(), solid.options(), solid.ranks());
     return *other_;
 }
 

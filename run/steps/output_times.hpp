@@ -21,7 +21,7 @@ struct StepStart {
     std::vector<std::byte> solid;  // the same on all ranks
 };
 
-/// Shows an observer the bodies at RunOptions::times, as Observer::look_at_time says: on the straight path of the step in
+/// Shows an observer the bodies at RunOptions::times, as Observer::see_at_time says: on the straight path of the step in
 /// which a time lies. The steps of the run stay as they are. All functions except `is_due`, `skip` and `forget_solid` are
 /// calls of all ranks.
 template <int Dim>
@@ -48,7 +48,7 @@ private:
     [[nodiscard]] double next() const { return start_.options.times[n_shown_]; }
     /// The velocity of the path as momenta.
     void set_momenta(const StepStart& start, dynamics::IntegratorState& state) const;
-    void show_node(const dynamics::IntegratorState& state);
+    void show_to_observer(const dynamics::IntegratorState& state, solid::Solid<Dim>& solid);
     void show_inside(const StepStart& start, const dynamics::IntegratorState& state);
     [[nodiscard]] solid::Solid<Dim>& other_solid();
 
@@ -56,7 +56,7 @@ private:
     const WholeRun<Dim>& whole_;
     Observer<Dim>& observer_;
     std::size_t n_shown_ = 0;
-    std::unique_ptr<solid::Solid<Dim>> other_;  // on one rank, from the first time inside a step on
+    std::unique_ptr<solid::Solid<Dim>> other_;  // from the first time inside a step on
 };
 
 }  // namespace abut::run

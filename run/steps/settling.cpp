@@ -306,14 +306,20 @@ std::vector<bool> turn_for_ever(const mesh::Mesh<Dim>& mesh, const solid::SolidO
 /// Refuses a body that nothing holds, and that loads would push or turn on for ever.
 template <int Dim>
 void require_holds(const Scene<Dim>& scene, solid::Solid<Dim>& solid, std::span<const double> q, double dt) {
-    const std::vector<bool> is_held = may_be_held(scene, solid.options());
-    if (std::ranges::find(is_held, false) == is_held.end()) return;
+    const auto of_first = [&](const auto& make) {  // which has the whole mesh
+        return values_of_first(solid.ranks(), [&] {
+            const std::vector<bool> of_bodies = make();
+            return std::vector<double>(of_bodies.begin(), of_bodies.end());
+        });
+    };
+    const std::vector<double> is_held = of_first([&] { return may_be_held(scene, solid.options()); });
+    if (std::ranges::find(is_held, 0.0) == is_held.end()) return;
     std::vector<double> force(q.size());
     solid.force(q, force);
-    const std::vector<bool> turn = turn_for_ever(scene.mesh, solid.options());
+    const std::vector<double> turn = of_first([&] { return turn_for_ever(scene.mesh, solid.options()); });
     const double time = static_cast<double>(most_rise) * dt;
     for (std::size_t body = 0; body < is_held.size(); ++body) {
-        if (is_held[body]) continue;
+        if (is_held[body] != 0.0) continue;
         const std::string name = quoted_name(scene, static_cast<std::int32_t>(body));
         const Whole<Dim> pushed = whole_of<Dim>(solid, q, force, body);
         const double push = pushed.momentum.norm();                               // resultant of the forces [N]
@@ -321,7 +327,7 @@ void require_holds(const Scene<Dim>& scene, solid::Solid<Dim>& solid, std::span<
         const double balanced = balanced_path * pushed.radius() / (time * time);  // acceleration [m/s^2]
         if (push > balanced * pushed.mass)
             refuse_free(name, fmt::format("push it {} with {:.3g} N", along<Dim>(pushed.momentum), push), push);
-        if (turn[body] && pushed.speed_of_rim() > balanced)
+        if (turn[body] != 0.0 && pushed.speed_of_rim() > balanced)
             refuse_free(name, fmt::format("turn it with a couple of {:.3g} N m", couple), couple);
     }
 }

@@ -29,7 +29,7 @@ template <int Dim>
 RunResult<Dim> simulated(const Scene<Dim>& scene, const RunOptions& given, Observer<Dim>& observer, const Checkpoint* from,
                          const Share<Dim>& share) {
     check(given);
-    check_features(scene, given, share.ranks);
+    dynamics::agreed(share.ranks, [&] { check_features(scene, given, share.ranks); });  // rank 0 knows faces of groups
     RunOptions options = with_defaults<Dim>(with_restart(given, scene));
     std::optional<global_control> threads;
     if (options.threads > 0)
@@ -60,7 +60,7 @@ RunResult<Dim> simulated(const Scene<Dim>& scene, const RunOptions& given, Obser
         if (start->solid->contact().pair_potential()) result.options.law = solid::ContactLaw::pair_potential;
         result.run.threads = static_cast<int>(global_control::active_value(global_control::max_allowed_parallelism));
         result.seconds.setup = seconds.setup;
-        require_even_cells(scene, result);
+        on_first(share.ranks, [&] { require_even_cells(scene, result); });
         take_steps(*start, observer, from);
     }
     start->result.seconds.total = seconds.total;

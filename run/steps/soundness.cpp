@@ -1,7 +1,11 @@
 #include "abut/run/steps/soundness.hpp"
 
 #include <algorithm>
+#include <cstdint>
+#include <exception>
 
+#include "abut/run/values/cell_velocity.hpp"
+#include "abut/run/values/gathered_cells.hpp"
 #include "abut/run/watch/divergence.hpp"
 
 namespace abut::run {
@@ -37,35 +41,64 @@ bool Soundness<Dim>::is_alive(double excess_before) const {
 }
 
 template <int Dim>
+auto Soundness<Dim>::motions_in(const dynamics::IntegratorState& own) const -> CellMotions {
+    const solid::Solid<Dim>& solid = *start_.solid;
+    const GatheredCells<Dim> gathered(solid, start_.present().mesh);
+    const auto brought = [&](const std::vector<Vector<Dim>>& of_part) {
+        return gathered.template cells<Vector<Dim>>([&](std::int32_t c) { return of_part[static_cast<std::size_t>(c)]; });
+    };
+    return {brought(solid.cells().displacement(own.q)), brought(cell_velocity<Dim>(own.p_before, own.p_after, solid))};
+}
+
+template <int Dim>
 void Soundness<Dim>::refuse(const dynamics::IntegratorState& state) {
     if (!sound_.is_kept()) sound_.replace(state);
-    const dynamics::IntegratorState sound = whole_.of(sound_.state()), lost = whole_.of(state);
+    const dynamics::IntegratorState lost = whole_.of(state), sound = whole_.of(sound_.state());
+    const CellMotions motions = motions_in(state);
+    Failure failure{.sound = sound, .lost = &lost};
+    for (const Vector<Dim>& velocity : motions.velocity) failure.lost_speed.push_back(velocity.norm());
     WorstCell worst;
-    whole_.on_first([&] { worst = worst_cell<Dim>(lost, whole_.seen()); });
-    tell({.sound = sound, .lost = &lost, .cells = {worst.cell}});
+    whole_.on_first([&] {
+        worst = worst_cell<Dim>(motions.displacement, motions.velocity);
+        failure.cells = {worst.cell};
+    });
+    tell(sound_.state(), std::move(failure));
     whole_.on_first([&] { refuse_diverged(start_.present(), start_.result, scale(), worst); });
 }
 
 template <int Dim>
 void Soundness<Dim>::tell_of_step(const Error& error) {
     const dynamics::IntegratorState sound = whole_.of(sound_.state());
-    const solid::Solid<Dim>& solid = *start_.solid;
-    tell({.sound = sound,
-          .lost = nullptr,
-          .cells = named_cells(error, solid.ranks(), whole_.seen(), solid.mesh().n_cells())});
+    tell(sound_.state(), {.sound = sound, .cells = named_cells(error, *start_.solid, start_.present().mesh)});
 }
 
 template <int Dim>
 void Soundness<Dim>::tell_of_crossing(const dynamics::IntegratorState& state) {
-    tell({.sound = whole_.of(state), .lost = nullptr, .cells = {}});
+    const dynamics::IntegratorState sound = whole_.of(state);
+    tell(state, {.sound = sound});
 }
 
-/// The error of the run counts, not one of those who are told of it.
+/// The error of the run counts, not one of those who are told of it. Contact was last searched where the run was lost.
 template <int Dim>
-void Soundness<Dim>::tell(const Failure& failure) {
+void Soundness<Dim>::tell(const dynamics::IntegratorState& own_sound, Failure failure) {
+    solid::Solid<Dim>& solid = *start_.solid;
+    const mesh::Mesh<Dim>& whole = start_.present().mesh;
+    Sight<Dim> sight;
+    try {
+        solid.restore(solid.state(), own_sound.q);
+        sight = sight_of<Dim>(dynamics::RunView<Dim>(own_sound), solid, whole);
+    } catch (const std::exception& error) {
+        failure.not_evaluated = error.what();
+        CellMotions motions = motions_in(own_sound);
+        sight.moment = {.steps = own_sound.steps, .time = own_sound.time};
+        sight.mesh = &whole;
+        sight.options = &solid.options();
+        sight.displacement = std::move(motions.displacement);
+        sight.velocity = std::move(motions.velocity);
+    }
     whole_.on_first([&] {
         try {
-            observer_.fail(failure, whole_.seen());
+            observer_.fail(failure, sight);
         } catch (...) {
         }
     });

@@ -1,6 +1,7 @@
 #pragma once
 // Private to the layer.
 #include <utility>
+#include <vector>
 
 #include "abut/base/error.hpp"
 #include "abut/run/steps/start.hpp"
@@ -45,7 +46,11 @@ private:
     [[nodiscard]] bool is_sound() const;
     [[nodiscard]] bool is_alive(double excess_before) const;
     void refuse(const dynamics::IntegratorState& state);
-    void tell(const Failure& failure);
+    struct CellMotions {
+        std::vector<Vector<Dim>> displacement, velocity;  // by cell of the whole, on rank 0
+    };
+    [[nodiscard]] CellMotions motions_in(const dynamics::IntegratorState& own) const;
+    void tell(const dynamics::IntegratorState& own_sound, Failure failure);
 
     Start<Dim>& start_;
     const WholeRun<Dim>& whole_;

@@ -15,6 +15,7 @@
 #include "abut/run/steps/output_times.hpp"
 #include "abut/run/steps/settling.hpp"
 #include "abut/run/steps/start_contact.hpp"
+#include "abut/run/values/gathered_cells.hpp"
 #include "abut/run/watch/rest_energy.hpp"
 #include "abut/solid/bond_view.hpp"
 #include "abut/solid/boundary/bond_places.hpp"
@@ -88,12 +89,16 @@ solid::SolidTimes added(const solid::SolidTimes& sum, const solid::SolidTimes& a
             sum.own_cells + a.own_cells - b.own_cells};
 }
 
-/// Faces of the mesh of a whole.
+/// Faces of the whole mesh, on rank 0. A call of all ranks.
 template <int Dim>
-std::vector<std::array<std::int32_t, 2>> bonded_faces(const solid::Solid<Dim>& solid) {
-    std::vector<std::array<std::int32_t, 2>> pairs;
+std::vector<std::array<std::int32_t, 2>> bonded_faces(const solid::Solid<Dim>& solid, const mesh::Mesh<Dim>& whole) {
+    std::vector<solid::BoundaryFace> here;
     for (const solid::BondPlace<Dim>& place : solid.bonds().places())
-        pairs.push_back({solid::mesh_face(solid.mesh(), place.faces[0]), solid::mesh_face(solid.mesh(), place.faces[1])});
+        here.insert(here.end(), place.faces.begin(), place.faces.end());
+    const std::vector<solid::BoundaryFace> faces = GatheredCells<Dim>(solid, whole).faces(here);
+    std::vector<std::array<std::int32_t, 2>> pairs;
+    for (std::size_t i = 0; i < faces.size(); i += 2)
+        pairs.push_back({solid::mesh_face(whole, faces[i]), solid::mesh_face(whole, faces[i + 1])});
     return pairs;
 }
 
@@ -105,17 +110,18 @@ Start<Dim>::Start(const Scene<Dim>& of, const RunOptions& given, std::optional<P
     if (pilot) solid::require_together(scene.mesh, chosen, features_of(scene, options, chosen, share.ranks));
     solid = std::make_unique<solid::Solid<Dim>>(share.part, chosen, share.ranks);
     result.run.pilot = std::move(pilot);
-    if (!share.ranks.is_one()) on_first(share.ranks, [&] { whole.emplace(scene.mesh, run::solid_options(scene, options)); });
     result.run.stable = solid::step_of_breaking(*solid);
     result.run.finest_dt = result.run.dt = choose_step(options, result.run.stable.dt);
     if (options.integrator == SolidIntegrator::memm_async) set_local_steps();
     result.run.steps = choose_steps(options, scene.time, result.run.dt);
     check_output_times(options, static_cast<double>(result.run.steps) * result.run.dt);
-    result.energy.at_rest = rest_energy(scene.mesh, solid->options().materials,
-                                        std::min(result.run.finest_dt, result.run.stable.dt), result.run.steps);
-    const solid::Solid<Dim>& seen = whole ? *whole : *solid;
-    result.bodies.stencils = seen.ccg().stencil_report();
-    result.bodies.boundary_stencils = seen.ccg().boundary().report;
+    const double shortest = std::min(result.run.finest_dt, result.run.stable.dt);
+    result.energy.at_rest = values_of_first(share.ranks, [&] {
+        return std::vector{rest_energy(scene.mesh, solid->options().materials, shortest, result.run.steps)};
+    })[0];
+    const solid::StencilReports stencils = solid->cells().stencils();
+    result.bodies.stencils = stencils.interior;
+    result.bodies.boundary_stencils = stencils.boundary;
     for (std::size_t body = 0; body < solid->options().materials.size(); ++body)
         if (solid::properties_of(solid->options().kinematics, body).finite_strains &&
             solid->options().materials[body].flow.kinematic_hardening > 0.0)
@@ -123,10 +129,11 @@ Start<Dim>::Start(const Scene<Dim>& of, const RunOptions& given, std::optional<P
     result.bodies.all_may_turn = solid::all_bodies(solid->options().kinematics, &solid::KinematicsProperties::turns);
     for (std::size_t body = 0; body < solid->options().materials.size(); ++body)
         result.bodies.may_turn.push_back(solid::properties_of(solid->options().kinematics, body).turns);
-    if (share.ranks.rank() == 0) result.bodies.inertia = solid::inertia_of_bodies(seen);
+    result.bodies.inertia = solid::inertia_of_bodies(*solid, scene.mesh);
     result.contact.blind_corners = solid->contact().blind_corners();
     result.contact.unseen_edges = solid->contact().unseen_edges();
-    if (share.ranks.rank() == 0) result.bodies.unjoined = mesh::find_unjoined_faces(scene.mesh, bonded_faces(seen));
+    const auto bonded = bonded_faces(*solid, scene.mesh);
+    if (share.ranks.rank() == 0) result.bodies.unjoined = mesh::find_unjoined_faces(scene.mesh, bonded);
     result.bonds.coverage = bond_coverage(scene, *solid);
     set_outside();
     set_state();
@@ -185,12 +192,8 @@ void Start<Dim>::settle(Observer<Dim>& observer) {
     {
         const Stopwatch watch(seconds);
         const double kinetic = 0.5 * dynamics::mass_product_over(ranks, momentum, solid->inverse_mass(), momentum);
-        const dynamics::IntegratorState all = collected<Dim>(ranks, {.q = q, .p_before = momentum, .p_after = momentum});
         if (scene.contact)
-            on_first(ranks, [&] {
-                check_start_contact<Dim>(scene, whole ? *whole : *solid, all.q, std::max(kinetic, scene.energy_scale.value),
-                                         result.energy.at_rest);
-            });
+            check_start_contact<Dim>(scene, *solid, q, std::max(kinetic, scene.energy_scale.value), result.energy.at_rest);
         Settled settled = run::settle(scene, solid->options(), first_share, q, result.run.stable.dt, observer);
         q = std::move(settled.q);
         solid->restore(settled.solid, q);

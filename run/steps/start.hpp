@@ -40,7 +40,6 @@ struct Start {
     const Share<Dim>& first_share;
     std::unique_ptr<const Scene<Dim>> rest;    // null: no cell has left
     std::unique_ptr<solid::Solid<Dim>> solid;  // always there
-    std::optional<solid::Solid<Dim>> whole;    // on rank 0 of several, for observers
     RunResult<Dim> result;
     std::vector<double> q;
     std::vector<double> momentum;

@@ -20,6 +20,7 @@
 #include "abut/geometry/convex_proximity.hpp"
 #include "abut/geometry/polygon.hpp"
 #include "abut/run/body_names.hpp"
+#include "abut/run/steps/of_all_ranks.hpp"
 #include "abut/solid/contact_view.hpp"
 #include "abut/solid/kinematics/properties.hpp"
 
@@ -164,16 +165,10 @@ std::optional<Nearest<Dim>> how_far_apart(const PlacedSurface<Dim>& a, const Pla
     return {};
 }
 
-}  // namespace
-
+/// Throws BadInput where two bodies or obstacles that push each other are apart.
 template <int Dim>
-void check_start_contact(const Scene<Dim>& scene, solid::Solid<Dim>& solid, std::span<const double> q, double scale,
-                         double rest_energy) {
-    if (solid.contact_at(q).acting_pairs().empty()) return;
+void require_touch(const Scene<Dim>& scene, const solid::Solid<Dim>& solid, double energy, double allowed) {
     const bool by_nodes = solid.contact().pair_potential() != nullptr;
-    const double energy =
-        by_nodes ? solid.contact().pair_potential()->last().energy : solid.contact().reconstruction()->last().energy;
-    if (!(std::abs(energy) > std::max(allowed_energy * scale, rest_energy))) return;
     const geometry::SearchOptions search{.method = solid.options().contact->search.broad_phase};
     for (const auto& [a, b] : pushing_bodies(solid)) {
         const auto apart = how_far_apart(placed(scene, a), placed(scene, b), search);
@@ -184,15 +179,27 @@ void check_start_contact(const Scene<Dim>& scene, solid::Solid<Dim>& solid, std:
             fmt::format(
                 "{} and {} are {:.4g} m apart at the start, nearest at ({}) m, and contact stores {:.4g} J; {:.4g} J is "
                 "allowed, {:g} of the energy that the run begins with. {}",
-                quoted_name(scene, a), quoted_name(scene, b), apart->distance, fmt::join(place, ", "), energy,
-                allowed_energy * scale, allowed_energy,
+                quoted_name(scene, a), quoted_name(scene, b), apart->distance, fmt::join(place, ", "), energy, allowed,
+                allowed_energy,
                 by_nodes ? "A face of one looks at one of the other from behind, nearer than cells are deep: make "
                            "cells smaller there, or move the bodies farther apart."
                          : "Faces that are tilted against each other count as nearer than they are: take law = "
                            "\"pair_potential\" (contact.law), make cells smaller there, or move the bodies farther "
                            "apart."),
-            {.value = energy, .allowed = allowed_energy * scale});
+            {.value = energy, .allowed = allowed});
     }
+}
+
+}  // namespace
+
+template <int Dim>
+void check_start_contact(const Scene<Dim>& scene, solid::Solid<Dim>& solid, std::span<const double> q, double scale,
+                         double rest_energy) {
+    if (solid.contact_at(q).acting_pairs().empty()) return;
+    const auto* by_nodes = solid.contact().pair_potential();
+    const double energy = by_nodes ? by_nodes->last().energy : solid.contact().reconstruction()->last().energy;
+    if (!(std::abs(energy) > std::max(allowed_energy * scale, rest_energy))) return;
+    on_first(solid.ranks(), [&] { require_touch(scene, solid, energy, allowed_energy * scale); });
 }
 
 template void check_start_contact<2>(const Scene<2>&, solid::Solid<2>&, std::span<const double>, double, double);

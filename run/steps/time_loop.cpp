@@ -64,8 +64,7 @@ public:
           erosion_(start) {}
 
     void run(const Checkpoint* from) {
-        whole_.show(*stepper_,
-                    [&](const auto& run, auto& solid) { result_.bodies.start = solid::body_motions<Dim>(run, solid); });
+        result_.bodies.start = solid::body_motions<Dim>(*stepper_, solid());
         if (from)
             resume(*from);
         else
@@ -150,7 +149,9 @@ private:
         return Wanted::of(first_says(solid().ranks(), [&] {
             const std::int64_t step = stepper_->steps();
             Wanted wanted;
+            observer_.note({.steps = step, .time = stepper_->time(), .impulses = solid().contact().impulses()});
             wanted.stop = step < result_.run.steps && observer_.asks_to_stop();
+            wanted.see = observer_.wants_sight(step);
             wanted.look = observer_.wants_look(step);
             wanted.measure = records && step > 0 && step < result_.run.steps && watches_.is_look_due(step);
             wanted.piece = observer_.wants_piece(step);
@@ -162,7 +163,8 @@ private:
     void look(const Wanted& wanted) {
         if (wanted.piece >= 0) make_piece(wanted.piece);
         if (wanted.measure) watches_.look_at_surfaces(*stepper_);
-        if (wanted.look) whole_.show(*stepper_, [&](const auto& run, auto& solid) { observer_.look(run, solid); });
+        if (wanted.see) whole_.show(*stepper_, [&](const auto& sight) { observer_.see(sight); });
+        if (wanted.look && solid().ranks().is_one()) observer_.look(*stepper_, solid());
     }
 
     void make_piece(std::int64_t frame) {
@@ -193,6 +195,7 @@ private:
     /// The run goes on as from a checkpoint.
     void go_on_with_parts(std::span<const double> weights) {
         const dynamics::IntegratorState sound = dynamics::gathered<Dim>(solid().ranks(), soundness_.state());
+        times_.forget_solid();
         stepper_.change_solid([&] {
             const solid::RunState state = solid::run_state(solid(), *stepper_);
             start_.take_part(start_.first_share.again(weights));
@@ -230,17 +233,19 @@ private:
     /// The last state, to those who look on.
     void show_end() {
         const contact::ContactReport contact = solid().contact().report();
-        whole_.show(*stepper_, [&](const auto& run, auto& solid) {
-            result_.bodies.end = solid::body_motions<Dim>(run, solid);
-            take_fragments(run, solid);
-            watches_.end(run, solid, contact);
-            observer_.end(run, solid);
-        });
+        result_.bodies.end = solid::body_motions<Dim>(*stepper_, solid());
+        take_fragments();
+        const auto see = [&](const Sight<Dim>& sight) {
+            watches_.end(sight, contact);
+            observer_.end(sight);
+        };
+        static_cast<void>(solid().potential(stepper_->q()));
+        whole_.show(*stepper_, see, Evaluated::yes);
     }
-    void take_fragments(const dynamics::RunView<Dim>& run, const solid::Solid<Dim>& solid) {
-        if (!solid.bonds().may_break()) return;
-        result_.bonds.fragments = solid::fragments<Dim>(run, solid);
-        result_.bonds.broken_share = solid.bonds().broken_share();
+    void take_fragments() {
+        if (!solid().bonds().may_break()) return;
+        result_.bonds.fragments = solid::fragments<Dim>(*stepper_, solid());
+        result_.bonds.broken_share = solid().bonds().broken_share();
     }
     /// Figures of the whole run that solid and watches have.
     void take_figures() {
@@ -258,7 +263,7 @@ private:
     // Checkpoints
 
     [[nodiscard]] Checkpoint checkpoint() {
-        Checkpoint checkpoint{.run = identity(scene_, result_),
+        Checkpoint checkpoint{.run = "",
                               .motion = whole_.of(stepper_->state()),
                               .solid = solid().state(),
                               .ledger = ledger_rows(result_.ledger),
@@ -270,6 +275,7 @@ private:
         return checkpoint;
     }
     void keep_looks(Checkpoint& checkpoint) const {
+        checkpoint.run = identity(scene_, result_);
         StateWriter looks(looks_kind, looks_version);
         put_value(looks, result_.erosion);
         put_value(looks, watches_);
@@ -280,7 +286,7 @@ private:
     }
 
     void resume(const Checkpoint& from) {
-        require_same_run(from.run, identity(scene_, result_), options_.other_end);
+        whole_.on_first([&] { require_same_run(from.run, identity(scene_, result_), options_.other_end); });
         require_later_end(from.motion);
         StateReader looks(from.looks, looks_kind, looks_version);
         get_value(looks, result_.erosion);
@@ -359,9 +365,7 @@ private:
     }
     void check_contact(const dynamics::LedgerEntry<Dim>& at_start) {
         const double scale = std::max(at_start.kinetic, scene_.energy_scale.value);
-        whole_.show(*stepper_, [&](const auto& run, auto& solid) {
-            check_start_contact<Dim>(scene_, solid, run.q, scale, result_.energy.at_rest);
-        });
+        check_start_contact<Dim>(scene_, solid(), stepper_->q(), scale, result_.energy.at_rest);
     }
 
     Start<Dim>& start_;

@@ -6,7 +6,6 @@
 #include <tuple>
 
 #include "abut/base/state_bytes.hpp"
-#include "abut/base/stopwatch.hpp"
 #include "abut/run/steps/start.hpp"
 #include "abut/run/steps/whole_run.hpp"
 #include "abut/run/watch/fine_motion.hpp"
@@ -17,8 +16,8 @@
 
 namespace abut::run {
 
-/// Watches of a run: each looks when it is due, and what they find is in Start::result. Functions that take an integrator
-/// are calls of all ranks.
+/// Watches of a run: each looks when it is due, and what they find is in Start::result. Functions that take the
+/// run are calls of all ranks.
 template <int Dim>
 class Watches {
 public:
@@ -34,24 +33,14 @@ public:
     void record(const dynamics::LedgerEntry<Dim>& entry, std::span<const double> q);
     /// Looks, where one is due, for bodies past a rim and together with themselves, and for motion from cell to cell. Throws
     /// Diverged where a body has gone through itself.
-    template <class Integrator>
-    void look_around(const Integrator& integrator) {
-        if (!is_sighting_due(integrator.steps())) return;
-        const Stopwatch watch(start_.result.seconds.looks);
-        look_at_obstacles(integrator.q(), integrator.time());
-        if (self_->is_on()) whole_.show(integrator, [&](const auto& run, auto& solid) { look_for_crossings(run, solid); });
-        whole_.show(integrator, [&](const auto& run, auto& solid) { look_at_fine_motion(run, solid); });
-    }
+    void look_around(const dynamics::RunView<Dim>& run);
 
     // At the surfaces
 
     [[nodiscard]] bool is_look_due(std::int64_t step) const { return surfaces_->is_due(step); }
-    template <class Integrator>
-    void look_at_surfaces(const Integrator& integrator) {
-        whole_.show(integrator, [&](const auto& run, auto& solid) { look_at_surfaces_of(run, solid); });
-    }
-    /// The last state, with the whole of all bodies.
-    void end(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid, const contact::ContactReport& contact);
+    void look_at_surfaces(const dynamics::RunView<Dim>& run);
+    /// The last state, on rank 0.
+    void end(const Sight<Dim>& sight, const contact::ContactReport& contact);
     /// After the run.
     void take_figures() const;
 
@@ -65,9 +54,8 @@ public:
 private:
     [[nodiscard]] bool is_sighting_due(std::int64_t step) const;
     void look_at_obstacles(std::span<const double> q, double time);
-    void look_for_crossings(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid);
-    void look_at_fine_motion(const dynamics::RunView<Dim>& run, const solid::Solid<Dim>& solid);
-    void look_at_surfaces_of(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid);
+    void look_for_crossings(const dynamics::RunView<Dim>& run);
+    void look_at_fine_motion(const dynamics::RunView<Dim>& run);
     void record_turned(std::span<const double> q);
 
     Start<Dim>& start_;

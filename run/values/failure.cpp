@@ -6,15 +6,12 @@
 #include <cmath>
 #include <span>
 
-#include "abut/run/values/cell_velocity.hpp"
-#include "abut/solid/cell_view.hpp"
+#include "abut/mesh/mesh.hpp"
 
 namespace abut::run {
 
 template <int Dim>
-WorstCell worst_cell(const dynamics::IntegratorState& state, const solid::Solid<Dim>& solid) {
-    const auto displacement = solid.cells().displacement(state.q);
-    const auto velocity = cell_velocity<Dim>(state.p_before, state.p_after, solid);
+WorstCell worst_cell(std::span<const Vector<Dim>> displacement, std::span<const Vector<Dim>> velocity) {
     WorstCell worst{.cell = 0, .speed = -1.0};
     for (std::size_t c = 0; c < velocity.size(); ++c) {
         const double speed = velocity[c].norm();
@@ -40,7 +37,7 @@ std::string name_of_cell(const mesh::Mesh<Dim>& mesh, std::int32_t cell, const V
 }
 
 #define ABUT_INSTANTIATE(Dim)                                                                       \
-    template WorstCell worst_cell<Dim>(const dynamics::IntegratorState&, const solid::Solid<Dim>&); \
+    template WorstCell worst_cell<Dim>(std::span<const Vector<Dim>>, std::span<const Vector<Dim>>); \
     template std::string name_of_cell<Dim>(const mesh::Mesh<Dim>&, std::int32_t);                   \
     template std::string name_of_cell<Dim>(const mesh::Mesh<Dim>&, std::int32_t, const Vector<Dim>&);
 ABUT_INSTANTIATE(2)

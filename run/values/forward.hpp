@@ -18,7 +18,9 @@ class RunView;
 namespace abut::solid {
 template <int Dim>
 class Solid;
-}
+template <int Dim>
+struct SolidOptions;
+}  // namespace abut::solid
 
 namespace abut::run {
 struct Checkpoint;
@@ -28,7 +30,11 @@ struct RunOptions;
 template <int Dim>
 struct FramePiece;
 template <int Dim>
+struct Moment;
+template <int Dim>
 struct RunResult;
 template <int Dim>
 struct Scene;
+template <int Dim>
+struct Sight;
 }  // namespace abut::run

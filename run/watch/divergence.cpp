@@ -3,12 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <utility>
 
 #include "abut/base/error.hpp"
 #include "abut/contact/contact.hpp"
+#include "abut/run/values/gathered_cells.hpp"
 #include "abut/run/watch/remedies.hpp"
 #include "abut/solid/contact_view.hpp"
 #include "abut/solid/solid.hpp"
@@ -77,27 +79,26 @@ std::string advice_on_law(const Error& error, const solid::Solid<Dim>& solid) {
 }
 
 template <int Dim>
-std::vector<std::int32_t> named_cells(const Error& error, const dynamics::Ranks& ranks, const solid::Solid<Dim>& whole,
-                                      std::int32_t n_cells) {
+std::vector<std::int32_t> named_cells(const Error& error, const solid::Solid<Dim>& solid, const mesh::Mesh<Dim>& whole) {
     ErrorFacts facts = error.facts();
     // A rank numbers cells and faces of its own; those of contact are the same on all.
-    if (!ranks.is_one()) {
+    if (!solid.ranks().is_one()) {
         facts.cell = ErrorFacts::none;
         if (error.kind() != ErrorKind::too_deep) facts = {};
     }
     std::vector<std::int32_t> cells;
-    for (const std::int64_t cell : {facts.cell, std::int64_t{whole.contact().cell_of_face(facts.face_1)},
-                                    std::int64_t{whole.contact().cell_of_face(facts.face_2)}})
-        if (cell >= 0 && cell < n_cells) cells.push_back(static_cast<std::int32_t>(cell));
+    if (facts.cell >= 0 && facts.cell < whole.n_cells()) cells.push_back(static_cast<std::int32_t>(facts.cell));
+    const std::array here{solid.contact().boundary_of_face(facts.face_1), solid.contact().boundary_of_face(facts.face_2)};
+    for (const solid::BoundaryFace face : GatheredCells<Dim>(solid, whole).faces(here))
+        if (face != solid::no_face) cells.push_back(solid::cell_of(whole, face));
     return cells;
 }
 
-#define ABUT_INSTANTIATE(Dim)                                                                                           \
-    template bool is_alive<Dim>(const dynamics::LedgerEntry<Dim>&, double, double);                                     \
-    template void refuse_diverged<Dim>(const Scene<Dim>&, const RunResult<Dim>&, double, const WorstCell&);             \
-    template std::string advice_on_law<Dim>(const Error&, const solid::Solid<Dim>&);                                    \
-    template std::vector<std::int32_t> named_cells<Dim>(const Error&, const dynamics::Ranks&, const solid::Solid<Dim>&, \
-                                                        std::int32_t);
+#define ABUT_INSTANTIATE(Dim)                                                                               \
+    template bool is_alive<Dim>(const dynamics::LedgerEntry<Dim>&, double, double);                         \
+    template void refuse_diverged<Dim>(const Scene<Dim>&, const RunResult<Dim>&, double, const WorstCell&); \
+    template std::string advice_on_law<Dim>(const Error&, const solid::Solid<Dim>&);                        \
+    template std::vector<std::int32_t> named_cells<Dim>(const Error&, const solid::Solid<Dim>&, const mesh::Mesh<Dim>&);
 ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)
 #undef ABUT_INSTANTIATE

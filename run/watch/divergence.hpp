@@ -30,9 +30,10 @@ template <int Dim>
 template <int Dim>
 [[nodiscard]] std::string advice_on_law(const Error& error, const solid::Solid<Dim>& solid);
 
-/// The cells of the mesh that the error of a step names. `whole`: on rank 0 the solid of all cells.
+/// The cells of the whole mesh that the error of a step names, on rank 0. A call of all ranks; `whole` is looked at on rank
+/// 0 alone.
 template <int Dim>
-[[nodiscard]] std::vector<std::int32_t> named_cells(const Error& error, const dynamics::Ranks& ranks,
-                                                    const solid::Solid<Dim>& whole, std::int32_t n_cells);
+[[nodiscard]] std::vector<std::int32_t> named_cells(const Error& error, const solid::Solid<Dim>& solid,
+                                                    const mesh::Mesh<Dim>& whole);
 
 }  // namespace abut::run

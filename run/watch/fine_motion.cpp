@@ -4,11 +4,8 @@
 #include <cmath>
 #include <span>
 
-#include "abut/dynamics/ledger.hpp"
 #include "abut/geometry/box.hpp"
 #include "abut/mesh/mesh.hpp"
-#include "abut/solid/cell_view.hpp"
-#include "abut/solid/solid.hpp"
 
 namespace abut::run {
 namespace {
@@ -144,21 +141,20 @@ FineMotion<Dim>::FineMotion(const mesh::Mesh<Dim>& mesh) : first_(1, 0) {
 
 /// The mean of a field over the cells that this one is compared with.
 template <int Dim>
-Vector<Dim> FineMotion<Dim>::mean_around(std::size_t cell, const std::vector<Vector<Dim>>& field) const {
+Vector<Dim> FineMotion<Dim>::mean_around(std::size_t cell, std::span<const Vector<Dim>> field) const {
     Vector<Dim> sum = Vector<Dim>::Zero();
     for (std::size_t i = first_[cell]; i < first_[cell + 1]; ++i) sum += field[static_cast<std::size_t>(around_[i])];
     return sum / static_cast<double>(first_[cell + 1] - first_[cell]);
 }
 
 template <int Dim>
-double FineMotion<Dim>::energy(const dynamics::RunView<Dim>& run, const solid::Solid<Dim>& solid) const {
-    const mesh::Mesh<Dim>& mesh = solid.mesh();
-    const std::vector<Vector<Dim>> velocity = solid.cells().velocity(run.p_after);
+double FineMotion<Dim>::energy(const mesh::Mesh<Dim>& mesh, std::span<const solid::Material> materials,
+                               std::span<const Vector<Dim>> velocity) const {
     std::vector<OfBody> bodies(is_told_.size());
     for (std::size_t c = 0; c < velocity.size(); ++c) {
         const auto body = static_cast<std::size_t>(mesh.cell_body[c]);
         if (is_told_[body] == 0) continue;
-        const double half_mass = 0.5 * solid.options().materials[body].density * mesh.cell_measure[c];
+        const double half_mass = 0.5 * materials[body].density * mesh.cell_measure[c];
         const double kinetic = half_mass * velocity[c].squaredNorm();
         bodies[body].all += kinetic;
         if (first_[c + 1] == first_[c]) continue;

@@ -6,6 +6,7 @@
 
 #include "abut/base/vector.hpp"
 #include "abut/run/values/forward.hpp"
+#include "abut/solid/material/material.hpp"
 
 namespace abut::run {
 
@@ -30,12 +31,13 @@ public:
     /// the body).
     ///
     /// Cells that have such neighbours stand for the whole body, by up to four times their own energy: no body has more
-    /// fine motion than kinetic energy. Velocities are those of the step to come, in which modes that change sign from
-    /// step to step are whole. `solid` is of that mesh.
-    [[nodiscard]] double energy(const dynamics::RunView<Dim>& run, const solid::Solid<Dim>& solid) const;
+    /// fine motion than kinetic energy. Velocities of the cells (n_cells) [m/s] are those of the step to come, in which
+    /// modes that change sign from step to step are whole. The mesh is that of the lists, with a material per body.
+    [[nodiscard]] double energy(const mesh::Mesh<Dim>& mesh, std::span<const solid::Material> materials,
+                                std::span<const Vector<Dim>> velocity) const;
 
 private:
-    [[nodiscard]] Vector<Dim> mean_around(std::size_t cell, const std::vector<Vector<Dim>>& field) const;
+    [[nodiscard]] Vector<Dim> mean_around(std::size_t cell, std::span<const Vector<Dim>> field) const;
 
     std::vector<std::size_t> first_;    // of each cell, in around_
     std::vector<std::int32_t> around_;  // cells that each one is compared with; none in bodies of few cells

@@ -80,6 +80,29 @@ bool is_behind_face(const std::vector<Vector<Dim>>& corners, const std::vector<V
            std::ranges::all_of(points, [&](const Vector<Dim>& x) { return normal.dot(x - corners[0]) < 0.0; });
 }
 
+/// For each body how far its box reaches and its centre, where it is at the start, (n_bodies, 1 + Dim) [m].
+template <int Dim>
+std::vector<double> sizes_and_centres(const Scene<Dim>& scene) {
+    std::vector<geometry::Box<Dim>> boxes(scene.mesh.body_names.size());
+    std::vector<Vector<Dim>> centres(boxes.size(), Vector<Dim>::Zero());
+    std::vector<double> measures(boxes.size(), 0.0);
+    for (std::int32_t c = 0; c < scene.mesh.n_cells(); ++c) {
+        const auto body = static_cast<std::size_t>(scene.mesh.cell_body[c]);
+        for (const std::int32_t v : scene.mesh.cell_vertices[c]) boxes[body].extend(scene.mesh.vertices[v]);
+        Vector<Dim> centre = scene.mesh.cell_centroid[c];
+        if (scene.displacement) centre += scene.displacement(scene.mesh.cell_centroid[c]);
+        centres[body] += scene.mesh.cell_measure[c] * centre;
+        measures[body] += scene.mesh.cell_measure[c];
+    }
+    std::vector<double> found;
+    for (std::size_t body = 0; body < boxes.size(); ++body) {
+        found.push_back(boxes[body].empty() ? 0.0 : (boxes[body].upper - boxes[body].lower).norm());
+        const Vector<Dim> centre = centres[body] / measures[body];
+        found.insert(found.end(), centre.begin(), centre.end());
+    }
+    return found;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -110,28 +133,22 @@ std::vector<Behind> behind_at_start(const Scene<Dim>& scene) {
 }
 
 template <int Dim>
-ObstacleWatch<Dim>::ObstacleWatch(const Scene<Dim>& scene) : scene_(scene) {
+ObstacleWatch<Dim>::ObstacleWatch(const Scene<Dim>& scene, const dynamics::Ranks& ranks) : scene_(scene) {
     if (!scene.contact) return;
     for (std::size_t i = 0; i < scene.solid.obstacles.size(); ++i)
         for (std::int32_t body = 0; body < scene.mesh.n_bodies(); ++body)
             if (is_flat(scene.solid.obstacles[i]) && !is_ignored(scene, body, i))
                 pairs_.push_back({body, static_cast<std::int32_t>(i)});
     if (pairs_.empty()) return;
-    std::vector<geometry::Box<Dim>> boxes(scene.mesh.body_names.size());
-    std::vector<Vector<Dim>> centres(boxes.size(), Vector<Dim>::Zero());
-    std::vector<double> measures(boxes.size(), 0.0);
-    for (std::int32_t c = 0; c < scene.mesh.n_cells(); ++c) {
-        const auto body = static_cast<std::size_t>(scene.mesh.cell_body[c]);
-        for (const std::int32_t v : scene.mesh.cell_vertices[c]) boxes[body].extend(scene.mesh.vertices[v]);
-        Vector<Dim> centre = scene.mesh.cell_centroid[c];
-        if (scene.displacement) centre += scene.displacement(scene.mesh.cell_centroid[c]);
-        centres[body] += scene.mesh.cell_measure[c] * centre;
-        measures[body] += scene.mesh.cell_measure[c];
-    }
-    for (const geometry::Box<Dim>& box : boxes) size_.push_back(box.empty() ? 0.0 : (box.upper - box.lower).norm());
+    std::vector<double> found;  // rank 0 has the whole mesh
+    dynamics::agreed(ranks, [&] {
+        if (ranks.rank() == 0) found = sizes_and_centres(scene);
+    });
+    found = ranks.gather(found);
+    for (std::size_t first = 0; first < found.size(); first += Dim + 1) size_.push_back(found[first]);
     for (Watched& pair : pairs_) {
-        const auto body = static_cast<std::size_t>(pair.body);
-        pair.at_start = place(pair, centres[body] / measures[body], 0.0);
+        const double* centre = &found[static_cast<std::size_t>(pair.body) * (Dim + 1) + 1];
+        pair.at_start = place(pair, Vector<Dim>(centre), 0.0);
     }
     std::erase_if(pairs_, [](const Watched& pair) { return !(pair.at_start.height > 0.0); });
 }

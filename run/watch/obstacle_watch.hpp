@@ -26,7 +26,8 @@ template <int Dim>
 template <int Dim>
 class ObstacleWatch {
 public:
-    explicit ObstacleWatch(const Scene<Dim>& scene);
+    /// The scene must outlive it; rank 0 has its whole mesh. A call of all ranks.
+    ObstacleWatch(const Scene<Dim>& scene, const dynamics::Ranks& ranks);
 
     /// Adds bodies of which nothing was found before to `found`. A call of all ranks, for the displacements of the
     /// points of this one.

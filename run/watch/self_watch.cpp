@@ -1,5 +1,4 @@
 #include "abut/run/watch/self_watch.hpp"
-#include "abut/run/values/sightings.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -19,7 +18,6 @@
 #include "abut/geometry/polygon.hpp"
 #include "abut/solid/body/body_frame.hpp"
 #include "abut/solid/boundary/boundary_face.hpp"
-#include "abut/solid/cell_view.hpp"
 #include "abut/solid/kinematics/properties.hpp"
 
 namespace abut::run {
@@ -33,14 +31,12 @@ constexpr std::int64_t least_steps = 20;  // from one look to the next
 
 }  // namespace
 
-/// One body, with its points in [first, last).
+/// One body.
 template <int Dim>
 class SelfWatch<Dim>::Body {
 public:
-    Body(const mesh::Mesh<Dim>& mesh, std::int32_t body, std::span<const std::int32_t> body_of_points)
-        : name_(mesh.body_names[static_cast<std::size_t>(body)]) {
-        first_ = static_cast<std::size_t>(std::ranges::find(body_of_points, body) - body_of_points.begin());
-        for (last_ = first_; last_ < body_of_points.size() && body_of_points[last_] == body;) ++last_;
+    Body(const mesh::Mesh<Dim>& mesh, std::int32_t body)
+        : body_(body), name_(mesh.body_names[static_cast<std::size_t>(body)]) {
         for (const std::int32_t face : mesh.boundary_faces)
             if (const std::int32_t cell = mesh.face_cells[face][0]; mesh.cell_body[cell] == body)
                 append(mesh, face, solid::cell_depth(mesh, face));
@@ -55,21 +51,27 @@ public:
         search_.emplace(surface_.view(), options);
     }
 
-    void look(const solid::Solid<Dim>& solid, std::span<const double> q, double time, std::int64_t step,
-              Sightings<Dim>& found) {
-        if (is_done_ || (has_looked_ && step < last_look_ + least_steps)) return;
-        deform(solid, q);
-        if (has_looked_ && 2.0 * farthest_since_look() < least_gap_) return;
+    [[nodiscard]] bool is_due(const solid::AllPoints<Dim>& points, std::int64_t step) {
+        is_due_ = false;
+        if (is_done_ || (has_looked_ && step < last_look_ + least_steps)) return false;
+        deform(points);
+        is_due_ = !has_looked_ || 2.0 * farthest_since_look() >= least_gap_;
+        return is_due_;
+    }
+
+    void look(const std::vector<Vector<Dim>>& of_vertices, const Moment<Dim>& now, Sightings<Dim>& found) {
+        if (!is_due_) return;
+        is_due_ = false;
         has_looked_ = true;
-        last_look_ = step;
+        last_look_ = now.steps;
         deformed_at_look_ = deformed_;
         std::optional<NearItself<Dim>> crossing;
         try {
-            crossing = look_at_surface(solid, q, time, found.near_themselves);
+            crossing = look_at_surface(of_vertices, now.time, found.near_themselves);
         } catch (const Error& error) {  // a face without a plane, or more pairs than a search may find
             is_done_ = true;
             if (std::ranges::find(found.looks_ended, name_, &LookEnded::body) == found.looks_ended.end())
-                found.looks_ended.push_back({name_, time, error.what()});
+                found.looks_ended.push_back({name_, now.time, error.what()});
         }
         if (crossing) refuse(*crossing);
     }
@@ -98,10 +100,14 @@ private:
     }
 
     /// The displacement of the points as seen from the rotation that fits them best.
-    void deform(const solid::Solid<Dim>& solid, std::span<const double> q) {
-        const auto u = as_vectors<Dim>(q).subspan(first_, last_ - first_);
-        const auto rest = solid.rest_positions().subspan(first_, last_ - first_);
-        const auto mass = solid.masses().subspan(first_, last_ - first_);
+    void deform(const solid::AllPoints<Dim>& points) {
+        const auto of_body = points.body();
+        const auto first = static_cast<std::size_t>(std::ranges::find(of_body, body_) - of_body.begin());
+        std::size_t last = first;
+        while (last < of_body.size() && of_body[last] == body_) ++last;
+        const auto u = as_vectors<Dim>(points.q()).subspan(first, last - first);
+        const auto rest = points.rest().subspan(first, last - first);
+        const auto mass = points.mass().subspan(first, last - first);
         Vector<Dim> rest_centre = Vector<Dim>::Zero(), moved = Vector<Dim>::Zero();
         double whole = 0.0;
         for (std::size_t i = 0; i < u.size(); ++i) {
@@ -149,9 +155,8 @@ private:
     }
 
     /// Adds a body that comes near itself; returns where it has gone through itself.
-    [[nodiscard]] std::optional<NearItself<Dim>> look_at_surface(const solid::Solid<Dim>& solid, std::span<const double> q,
-                                                                 double time, std::vector<NearItself<Dim>>& found) {
-        const std::vector<Vector<Dim>> u = solid.cells().vertex_displacement(q);
+    [[nodiscard]] std::optional<NearItself<Dim>> look_at_surface(const std::vector<Vector<Dim>>& u, double time,
+                                                                 std::vector<NearItself<Dim>>& found) {
         std::vector<Vector<Dim>> x(surface_.vertices);
         for (std::size_t v = 0; v < x.size(); ++v) x[v] += u[static_cast<std::size_t>(vertices_[v])];
         search_->search_moved(x, x, contact::GapOf::centroids);
@@ -188,8 +193,8 @@ private:
         return sum / Dim;
     }
 
+    std::int32_t body_;
     std::string name_;
-    std::size_t first_ = 0, last_ = 0;
     contact::Surface<Dim> surface_;       // facets of Dim corners, each with vertices of its own
     std::vector<std::int32_t> vertices_;  // of the mesh, of each vertex of the surface
     std::optional<contact::CandidateSearch<Dim>> search_;
@@ -198,6 +203,7 @@ private:
     double least_gap_ = 0.0;  // that the last look found, at most `ahead_` [m]
     std::int64_t last_look_ = 0;
     bool has_looked_ = false;
+    bool is_due_ = false;
     bool is_done_ = false;
 };
 
@@ -214,7 +220,7 @@ SelfWatch<Dim>::SelfWatch(const Scene<Dim>& scene, const solid::Solid<Dim>& soli
         if (touches_itself(body)) continue;
         if (!solid::properties_of(kinematics, static_cast<std::size_t>(body)).deforms) continue;
         is_on_ = true;
-        if (solid.ranks().is_one()) bodies_.push_back(std::make_unique<Body>(scene.mesh, body, solid.body_of_points()));
+        if (solid.ranks().rank() == 0) bodies_.push_back(std::make_unique<Body>(scene.mesh, body));
     }
 }
 
@@ -222,9 +228,16 @@ template <int Dim>
 SelfWatch<Dim>::~SelfWatch() = default;
 
 template <int Dim>
-void SelfWatch<Dim>::look(const solid::Solid<Dim>& solid, std::span<const double> q, double time, std::int64_t step,
-                          Sightings<Dim>& found) {
-    for (const auto& body : bodies_) body->look(solid, q, time, step, found);
+bool SelfWatch<Dim>::is_due(const solid::AllPoints<Dim>& points, std::int64_t step) {
+    bool any = false;
+    for (const auto& body : bodies_) any = body->is_due(points, step) || any;
+    return any;
+}
+
+template <int Dim>
+void SelfWatch<Dim>::look(const Sight<Dim>& sight, Sightings<Dim>& found) {
+    const std::vector<Vector<Dim>> of_vertices = sight.vertex_displacement();
+    for (const auto& body : bodies_) body->look(of_vertices, sight.moment, found);
 }
 
 template class SelfWatch<2>;

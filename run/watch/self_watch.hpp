@@ -6,6 +6,9 @@
 #include <vector>
 
 #include "abut/run/scene.hpp"
+#include "abut/run/values/sight.hpp"
+#include "abut/run/values/sightings.hpp"
+#include "abut/solid/all_points.hpp"
 
 namespace abut::run {
 
@@ -19,8 +22,8 @@ namespace abut::run {
 template <int Dim>
 class SelfWatch {
 public:
-    /// Watches the bodies of the scene that deform, except those within which contact acts. `solid`: the whole of them,
-    /// or that of a rank that only says with the others whether there is anything to watch.
+    /// Watches the bodies of the scene that deform, except those within which contact acts: on rank 0, and the others only
+    /// say with it whether there is anything to watch.
     SelfWatch(const Scene<Dim>& scene, const solid::Solid<Dim>& solid);
     ~SelfWatch();
     SelfWatch(const SelfWatch&) = delete;
@@ -28,10 +31,11 @@ public:
 
     /// Whether any body is watched, on any rank.
     [[nodiscard]] bool is_on() const { return is_on_; }
-    /// `solid`, which has the whole of all bodies, has been evaluated in q last. Throws Diverged where two faces that
-    /// look at each other across an opening at rest are more than 0.3 of the depth of both cells inside each other.
-    void look(const solid::Solid<Dim>& solid, std::span<const double> q, double time, std::int64_t step,
-              Sightings<Dim>& found);
+    /// Whether a body has deformed enough since it was looked at, at the node of these points; for rank 0.
+    [[nodiscard]] bool is_due(const solid::AllPoints<Dim>& points, std::int64_t step);
+    /// Looks at the bodies that `is_due` has found. Throws Diverged where two faces that look at each other across an
+    /// opening at rest are more than 0.3 of the depth of both cells inside each other.
+    void look(const Sight<Dim>& sight, Sightings<Dim>& found);
 
 private:
     class Body;

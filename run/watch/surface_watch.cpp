@@ -15,10 +15,7 @@
 #include "abut/geometry/face_tree.hpp"
 #include "abut/geometry/points.hpp"
 #include "abut/run/body_names.hpp"
-#include "abut/run/values/cell_velocity.hpp"
 #include "abut/solid/body_interference.hpp"
-#include "abut/solid/cell_view.hpp"
-#include "abut/solid/contact_view.hpp"
 
 namespace abut::run {
 namespace {
@@ -158,9 +155,8 @@ auto SurfaceWatch<Dim>::points(std::span<const std::int32_t> corners) const -> P
 
 /// Vertices go with the mean of the cells at the surface around them.
 template <int Dim>
-void SurfaceWatch<Dim>::move(const dynamics::RunView<Dim>& run, const solid::Solid<Dim>& solid) {
+void SurfaceWatch<Dim>::move(const Sight<Dim>& sight) {
     const mesh::Mesh<Dim>& mesh = scene_.mesh;
-    const std::vector<Vector<Dim>> displacement = solid.cells().displacement(run.q);
     const std::size_t n_of_mesh = vertex_.size();
     std::vector<int> n_cells(n_of_mesh, 0);
     std::fill_n(position_.begin(), n_of_mesh, Vector<Dim>::Zero());
@@ -168,11 +164,11 @@ void SurfaceWatch<Dim>::move(const dynamics::RunView<Dim>& run, const solid::Sol
         for (const Part& part : body.parts) {
             if (part.cell < 0) continue;
             const auto c = static_cast<std::size_t>(part.cell);
-            const Matrix<Dim> gradient = solid.cells().displacement_gradient(part.cell, run.q);
+            const Matrix<Dim>& gradient = sight.displacement_gradient[c];
             for (const std::int32_t corner : part.corners) {
                 const auto v = static_cast<std::size_t>(corner);
                 const Vector<Dim>& x = mesh.vertices[static_cast<std::size_t>(vertex_[v])];
-                position_[v] += x + displacement[c] + gradient * (x - mesh.cell_centroid[c]);
+                position_[v] += x + sight.displacement[c] + gradient * (x - mesh.cell_centroid[c]);
                 ++n_cells[v];
             }
         }
@@ -180,30 +176,29 @@ void SurfaceWatch<Dim>::move(const dynamics::RunView<Dim>& run, const solid::Sol
     for (std::size_t i = 0; i < at_rest_.size(); ++i) {
         const contact::RigidObstacle<Dim>& obstacle = scene_.solid.obstacles[static_cast<std::size_t>(obstacle_[i])];
         Vector<Dim>& x = position_[n_of_mesh + i];
-        x = contact::placement_at(obstacle, run.time)(at_rest_[i]);
+        x = contact::placement_at(obstacle, sight.moment.time)(at_rest_[i]);
     }
 }
 
 template <int Dim>
-void SurfaceWatch<Dim>::look(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid, double speed, bool touch) {
-    if (!is_on() || last_ == run.steps) return;
-    move(run, solid);
-    std::int64_t cost = cost_of_part * n_parts_ + look_at_depths(run.time);
-    if (touch) cost += look_at_pairs(run, solid, speed);
-    last_ = run.steps;
-    next_ = run.steps + steps_per_cost * cost / (scene_.mesh.n_cells() + cost_of_step) + 1;
+void SurfaceWatch<Dim>::look(const Sight<Dim>& sight, double speed, bool touch) {
+    if (!is_on() || last_ == sight.moment.steps) return;
+    move(sight);
+    std::int64_t cost = cost_of_part * n_parts_ + look_at_depths(sight.moment.time);
+    if (touch) cost += look_at_pairs(sight, speed);
+    last_ = sight.moment.steps;
+    next_ = last_ + steps_per_cost * cost / (scene_.mesh.n_cells() + cost_of_step) + 1;
     ++looks_.looks;
 }
 
 template <int Dim>
-void SurfaceWatch<Dim>::end(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid, double speed, bool touch,
-                            bool has_touched) {
+void SurfaceWatch<Dim>::end(const Sight<Dim>& sight, double speed, bool touch, bool has_touched) {
     if (!is_on()) return;
-    if (last_ == run.steps)
-        move(run, solid);
+    if (last_ == sight.moment.steps)
+        move(sight);
     else
-        look(run, solid, speed, touch);
-    if (!has_touched) look_for_nearest(run.time);
+        look(sight, speed, touch);
+    if (!has_touched) look_for_nearest(sight.moment.time);
 }
 
 /// The size of a cell in space, or the way across a face of an obstacle [m].
@@ -277,16 +272,15 @@ std::int64_t SurfaceWatch<Dim>::look_at_depths(double time) {
 
 /// The pairs that push each other: how far apart they are. Returns what it has cost.
 template <int Dim>
-std::int64_t SurfaceWatch<Dim>::look_at_pairs(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid, double speed) {
+std::int64_t SurfaceWatch<Dim>::look_at_pairs(const Sight<Dim>& sight, double speed) {
     const mesh::Mesh<Dim>& mesh = scene_.mesh;
-    const std::vector<solid::ActingPair<Dim>> pairs = solid.contact_at(run.q).acting_pairs();
     const auto of_face = [&](std::int32_t face) {
         Points corners;
         for (const std::int32_t vertex : mesh.face_vertices[face])
             corners.push_back(position_[static_cast<std::size_t>(of_vertex_[static_cast<std::size_t>(vertex)])]);
         return corners;
     };
-    for (const solid::ActingPair<Dim>& pair : pairs) {
+    for (const solid::ActingPair<Dim>& pair : sight.pairs) {
         if (pair.face_1 == solid::no_face || pair.face_2 == solid::no_face) continue;
         const std::int32_t face_1 = mesh_face(mesh, pair.face_1), face_2 = mesh_face(mesh, pair.face_2);
         const double size = std::pow(std::min(mesh.face_measure[static_cast<std::size_t>(face_1)],
@@ -297,16 +291,15 @@ std::int64_t SurfaceWatch<Dim>::look_at_pairs(const dynamics::RunView<Dim>& run,
         if (apart / size <= looks_.remote.ratio) continue;
         looks_.remote = {quoted_name(scene_, mesh.cell_body[static_cast<std::size_t>(cell_of(mesh, pair.face_1))]),
                          quoted_name(scene_, mesh.cell_body[static_cast<std::size_t>(cell_of(mesh, pair.face_2))]), apart,
-                         apart / size, run.time};
+                         apart / size, sight.moment.time};
     }
-    look_at_pressure(run, solid, pairs, speed);
-    return cost_of_acting_pair * static_cast<std::int64_t>(pairs.size());
+    look_at_pressure(sight, speed);
+    return cost_of_acting_pair * std::ssize(sight.pairs);
 }
 
 /// By pairs of bodies: their mean pressure, and their speed along each other.
 template <int Dim>
-void SurfaceWatch<Dim>::look_at_pressure(const dynamics::RunView<Dim>& run, const solid::Solid<Dim>& solid,
-                                         std::span<const solid::ActingPair<Dim>> pairs, double speed) {
+void SurfaceWatch<Dim>::look_at_pressure(const Sight<Dim>& sight, double speed) {
     struct Sum {
         std::array<std::int32_t, 2> bodies;
         double force, area, slip;
@@ -314,9 +307,9 @@ void SurfaceWatch<Dim>::look_at_pressure(const dynamics::RunView<Dim>& run, cons
     const mesh::Mesh<Dim>& mesh = scene_.mesh;
     const auto cell = [&](solid::BoundaryFace face) { return face == solid::no_face ? -1 : cell_of(mesh, face); };
     const auto body = [&](std::int32_t of) { return of < 0 ? -1 : mesh.cell_body[static_cast<std::size_t>(of)]; };
-    const std::vector<Vector<Dim>> velocity = cell_velocity<Dim>(run.p_before, run.p_after, solid);
+    const std::vector<Vector<Dim>>& velocity = sight.velocity;
     std::vector<Sum> sums;
-    for (const solid::ActingPair<Dim>& pair : pairs) {
+    for (const solid::ActingPair<Dim>& pair : sight.pairs) {
         const std::int32_t cell_1 = cell(pair.face_1), cell_2 = cell(pair.face_2);
         if (cell_1 < 0 || cell_2 < 0) continue;  // how fast an obstacle moves is not known
         const std::array bodies{body(cell_1), body(cell_2)};
@@ -331,7 +324,8 @@ void SurfaceWatch<Dim>::look_at_pressure(const dynamics::RunView<Dim>& run, cons
         const auto young = [&](std::int32_t i) { return scene_.solid.materials[static_cast<std::size_t>(i)].mean_young(); };
         const double ratio = sum.force / sum.area / std::min(young(sum.bodies[0]), young(sum.bodies[1]));
         if (ratio > looks_.pressed.ratio && sum.slip / sum.area > sliding_share * speed)
-            looks_.pressed = {quoted_name(scene_, sum.bodies[0]), quoted_name(scene_, sum.bodies[1]), 0.0, ratio, run.time};
+            looks_.pressed = {quoted_name(scene_, sum.bodies[0]), quoted_name(scene_, sum.bodies[1]), 0.0, ratio,
+                              sight.moment.time};
     }
 }
 

@@ -9,6 +9,7 @@
 
 #include "abut/base/state_bytes.hpp"
 #include "abut/run/scene.hpp"
+#include "abut/run/values/sight.hpp"
 #include "abut/run/values/surface_looks.hpp"
 #include "abut/solid/contact/contact_results.hpp"
 
@@ -23,11 +24,10 @@ public:
     explicit SurfaceWatch(const Scene<Dim>& scene);
 
     [[nodiscard]] bool is_due(std::int64_t step) const { return is_on() && step >= next_; }
-    /// `solid` has all cells, and was evaluated in this state last; `speed` is the largest of the run so far [m/s];
-    /// `touch`: something did in the last step.
-    void look(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid, double speed, bool touch);
+    /// `speed` is the largest of the run so far [m/s]; `touch`: something did in the last step.
+    void look(const Sight<Dim>& sight, double speed, bool touch);
     /// The last look of a run, if there was none at this step, and, where nothing `has_touched`, the two that are nearest.
-    void end(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid, double speed, bool touch, bool has_touched);
+    void end(const Sight<Dim>& sight, double speed, bool touch, bool has_touched);
     [[nodiscard]] const SurfaceLooks& looks() const { return looks_; }
 
     /// Memory of a checkpoint.
@@ -55,11 +55,10 @@ private:
     [[nodiscard]] Pairs passing_pairs(double time) const;
     [[nodiscard]] bool may_meet(const Body& body_1, const Body& body_2, const Pairs& passing) const;
     [[nodiscard]] Points points(std::span<const std::int32_t> corners) const;
-    void move(const dynamics::RunView<Dim>& run, const solid::Solid<Dim>& solid);
+    void move(const Sight<Dim>& sight);
     std::int64_t look_at_depths(double time);
-    std::int64_t look_at_pairs(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid, double speed);
-    void look_at_pressure(const dynamics::RunView<Dim>& run, const solid::Solid<Dim>& solid,
-                          std::span<const solid::ActingPair<Dim>> pairs, double speed);
+    std::int64_t look_at_pairs(const Sight<Dim>& sight, double speed);
+    void look_at_pressure(const Sight<Dim>& sight, double speed);
     [[nodiscard]] double depth(const Part& part_1, const Part& part_2, double at_least) const;
     [[nodiscard]] double size(const Part& part) const;
     void look_for_nearest(double time);

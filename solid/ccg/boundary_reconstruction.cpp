@@ -147,7 +147,10 @@ private:
         std::vector<std::int32_t> faces;
         for (const BoundaryFace b : wanted) faces.push_back(mesh_face(mesh_, b));
         const auto stencils = select_stencils<Dim>(mesh_, faces, report_);
-        for (std::size_t i = 0; i < wanted.size(); ++i) affine_[wanted[i]] = stencils[i];
+        for (std::size_t i = 0; i < wanted.size(); ++i) {
+            affine_[wanted[i]] = stencils[i];
+            lowest_weights_.emplace_back(wanted[i], std::ranges::min(stencils[i].weights));
+        }
     }
 
     void reconstruct(std::int32_t cell) {
@@ -341,6 +344,7 @@ private:
     BoundaryReconstruction<Dim> pack() {
         BoundaryReconstruction<Dim> packed;
         packed.report = report_;
+        packed.lowest_weights = std::move(lowest_weights_);
         for (const BoundaryFace b : boundary_faces(mesh_))
             if (is_free(b) && has_affine_traces(cell_of(mesh_, b))) packed.affine.push_back({b, affine_[b], free_part(b)});
         for (const Row<Dim>& row : rows_) {
@@ -383,6 +387,7 @@ private:
     IdVector<BoundaryFace, FaceStencil<Dim>> affine_;  // where wanted
     IdVector<BoundaryFace, Row<Dim>> rows_;
     StencilReport report_;
+    std::vector<std::pair<BoundaryFace, double>> lowest_weights_;  // of the affine extrapolations
 };
 
 }  // namespace

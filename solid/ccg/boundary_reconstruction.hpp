@@ -2,6 +2,7 @@
 #include <cmath>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "abut/mesh/mesh.hpp"
@@ -40,8 +41,9 @@ struct BoundaryReconstruction {
     /// k_f = n . A_ff n / |f|, what the answers leave of it, stabilisation left out (n_boundary); infinity: the displacement
     /// along the normal is prescribed [Pa/m]
     std::vector<double> normal_stiffness;
-    std::vector<AffineFace<Dim>> affine;  ///< cell by cell, increasing: FaceConditions::is_thick
-    StencilReport report;                 ///< of the affine extrapolations that were needed
+    std::vector<AffineFace<Dim>> affine;                          ///< cell by cell, increasing: FaceConditions::is_thick
+    StencilReport report;                                         ///< of the affine extrapolations that were needed
+    std::vector<std::pair<BoundaryFace, double>> lowest_weights;  ///< of each of these, in the order of the faces [-]
 
     [[nodiscard]] std::int32_t size() const { return static_cast<std::int32_t>(offsets.size()) - 1; }
     /// visit(face, C) for each face that answers to a correction of b.

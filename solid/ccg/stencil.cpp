@@ -309,6 +309,14 @@ FaceStencil<Dim> select(const mesh::Mesh<Dim>& mesh, const NearestCells<Dim>& ne
 
 }  // namespace
 
+void StencilReport::add(std::int32_t face, double lowest_weight) {
+    ++faces;
+    if (lowest_weight < -extrapolation_step) ++extrapolated;
+    if (lowest_weight >= worst_weight) return;
+    worst_weight = lowest_weight;
+    worst_face = face;
+}
+
 template <int Dim>
 std::vector<FaceStencil<Dim>> select_stencils(const mesh::Mesh<Dim>& mesh, std::span<const std::int32_t> faces,
                                               StencilReport& report) {
@@ -324,14 +332,10 @@ std::vector<FaceStencil<Dim>> select_stencils(const mesh::Mesh<Dim>& mesh, std::
             stencils[i] = select(mesh, nearest, faces[i], joined ? &*joined : nullptr, guess, halvings[i]);
     });
     for (std::size_t i = 0; i < faces.size(); ++i) {
-        const double lowest = *std::min_element(stencils[i].weights.begin(), stencils[i].weights.end());
-        ++report.faces;
-        if (lowest < -extrapolation_step) ++report.extrapolated;
-        if (halvings[i] > 0) ++report.lowered_floor;
-        if (lowest < report.worst_weight) {
-            report.worst_weight = lowest;
-            report.worst_face = faces[i];
-        }
+        report.add(faces[i], std::ranges::min(stencils[i].weights));
+        if (halvings[i] == 0) continue;
+        ++report.lowered_floor;
+        report.lowered_faces.push_back(faces[i]);
     }
     return stencils;
 }

@@ -18,11 +18,20 @@ struct FaceStencil {
 
 /// How far the reconstruction had to extrapolate: faces whose point lies outside every acceptable simplex.
 struct StencilReport {
-    std::int64_t faces = 0;          ///< faces that were given a stencil
-    std::int64_t extrapolated = 0;   ///< faces with a weight below -1e-3
-    double worst_weight = 0.0;       ///< the most negative weight
-    std::int32_t worst_face = -1;    ///< the face that has it; -1: no face has a negative weight
-    std::int64_t lowered_floor = 0;  ///< faces for which the volume floor had to be halved
+    std::int64_t faces = 0;                     ///< faces that were given a stencil
+    std::int64_t extrapolated = 0;              ///< faces with a weight below -1e-3
+    double worst_weight = 0.0;                  ///< the most negative weight
+    std::int32_t worst_face = -1;               ///< the face that has it; -1: no face has a negative weight
+    std::int64_t lowered_floor = 0;             ///< faces for which the volume floor had to be halved
+    std::vector<std::int32_t> lowered_faces{};  ///< these, in the order in which they were asked for
+
+    /// Counts a face whose stencil has this lowest weight.
+    void add(std::int32_t face, double lowest_weight);
+};
+
+struct StencilReports {
+    StencilReport interior;  ///< of faces between cells
+    StencilReport boundary;  ///< of boundary faces whose displacement is extrapolated
 };
 
 /// A simplex for each of `faces`, out of the nearest cell centroids of the same body (10 in 2D, 14 in 3D, up to four times

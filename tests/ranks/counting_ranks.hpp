@@ -48,6 +48,10 @@ public:
         ++calls_.collects;
         return ranks_.collect(values, width);
     }
+    [[nodiscard]] std::vector<double> gather_to_first(std::span<const double> values) const override {
+        ++calls_.collects;
+        return ranks_.gather_to_first(values);
+    }
     [[nodiscard]] std::vector<double> gather(std::span<const double> values) const override {
         ++calls_.gathers;
         return ranks_.gather(values);

@@ -2,6 +2,7 @@
 // Runs of a scene on all ranks of the program, and what is seen of them.
 #include <catch2/catch.hpp>
 
+#include <cstring>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -9,8 +10,10 @@
 #include <utility>
 #include <vector>
 
+#include "abut/mesh/outline.hpp"
 #include "abut/ranks/partition.hpp"
 #include "abut/run/steps/simulation.hpp"
+#include "abut/run/values/sight.hpp"
 #include "ranks/counting_ranks.hpp"
 #include "ranks/shared_solid.hpp"
 #include "ranks/world.hpp"
@@ -85,22 +88,46 @@ Owners odd(const ranks::Communicator& all, const mesh::Mesh<Dim>& mesh) {
     };
 }
 
+/// The scene of a rank that has a part: the whole mesh is on rank 0 alone.
+template <int Dim>
+run::Scene<Dim> of_rank(const ranks::Communicator& all, const run::Scene<Dim>& scene) {
+    run::Scene<Dim> here = scene;
+    if (all.rank() > 0) here.mesh = mesh::outline_of(scene.mesh);
+    return here;
+}
+
 /// Looks every so often, and keeps what it sees.
 template <int Dim>
 class Watch : public run::Observer<Dim> {
 public:
     explicit Watch(std::int64_t look_every = 5, std::int64_t keep_every = 0)
         : look_every_(look_every), keep_every_(keep_every) {}
-    void look(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) override {
-        for (const auto values : {run.q, run.p_before, run.p_after}) seen.emplace_back(values.begin(), values.end());
-        seen.push_back({solid.potential(run.q)});
+    void see(const run::Sight<Dim>& sight) override {
+        const auto keep = [&]<class T>(const std::vector<T>& values) {
+            std::vector<double> numbers(values.size() * sizeof(T) / sizeof(double));
+            std::memcpy(numbers.data(), values.data(), numbers.size() * sizeof(double));
+            seen.push_back(std::move(numbers));
+        };
+        keep(sight.displacement_gradient);
+        keep(sight.stress);
+        keep(sight.out_of_plane_stress);
+        keep(sight.plastic_strain);
+        keep(sight.contact.pressure);
+        keep(sight.bond);
+        keep(sight.fragment);
+        for (const solid::ActingPair<Dim>& pair : sight.pairs) {
+            seen.push_back({static_cast<double>(pair.face_1), static_cast<double>(pair.face_2)});
+            seen.emplace_back(pair.force.begin(), pair.force.end());
+        }
+        keep(sight.velocity);
+        keep(sight.displacement);
     }
-    [[nodiscard]] bool wants_look(std::int64_t step) const override { return look_every_ > 0 && step % look_every_ == 0; }
+    [[nodiscard]] bool wants_sight(std::int64_t step) const override { return look_every_ > 0 && step % look_every_ == 0; }
     [[nodiscard]] bool wants_checkpoint(std::int64_t step, bool) const override {
         return keep_every_ > 0 && step % keep_every_ == 0;
     }
     void keep(const run::Checkpoint& checkpoint) override { kept.push_back(checkpoint); }
-    void fail(const run::Failure& failure, solid::Solid<Dim>&) override { sound = failure.sound; }
+    void fail(const run::Failure& failure, const run::Sight<Dim>&) override { sound = failure.sound; }
 
     std::vector<std::vector<double>> seen;
     dynamics::IntegratorState sound;

@@ -24,7 +24,7 @@ run::RunResult<Dim> check_same_run(const ranks::Communicator& all, const run::Sc
     Watch<Dim> alone, together;
     const auto expected = run::simulate<Dim>(scene, options, alone);
     const SharedMesh<Dim> mesh(all, scene.mesh, owners);
-    auto found = run::simulate<Dim>(scene, options, together, nullptr, mesh.share());
+    auto found = run::simulate<Dim>(test::of_rank(all, scene), options, together, nullptr, mesh.share());
     test::require_same(all, expected, alone, found, together);
     return found;
 }
@@ -101,14 +101,15 @@ TEST_CASE("rigid bodies whose parts change, among others or alone, have the bits
     Watch<2> alone(5, 10), together(5, 10);
     const auto expected = run::simulate<2>(scene, options, alone);
     const SharedMesh<2> mesh(all, scene.mesh, test::odd(all, scene.mesh), scene.solid.kinematics);
-    const auto found = run::simulate<2>(scene, options, together, nullptr, mesh.share());
+    const auto found = run::simulate<2>(test::of_rank(all, scene), options, together, nullptr, mesh.share());
     test::require_same(all, expected, alone, found, together);
     CHECK(found.contact.report.active_pairs_max > 0);
 
     Watch<2> rest;
     const SharedMesh<2> other(all, scene.mesh, test::odd(all, scene.mesh), scene.solid.kinematics);
-    const auto on_ranks = run::simulate<2>(scene, options, rest, &alone.kept[1], other.share());  // began alone
-    Watch<2> later;                                                                               // of `alone`
+    const auto on_ranks =
+        run::simulate<2>(test::of_rank(all, scene), options, rest, &alone.kept[1], other.share());  // began alone
+    Watch<2> later;                                                                                 // of `alone`
     later.seen.assign(alone.seen.end() - static_cast<std::ptrdiff_t>(rest.seen.size()), alone.seen.end());
     test::require_same(all, expected, later, on_ranks, rest);
 }
@@ -165,13 +166,14 @@ TEST_CASE("a run goes on from checkpoints of another number of ranks, with loads
     Watch<2> alone(5, 10), together(5, 10);
     const auto expected = run::simulate<2>(scene, options, alone);
     const SharedMesh<2> mesh(all, scene.mesh, test::odd(all, scene.mesh));
-    static_cast<void>(run::simulate<2>(scene, options, together, nullptr, mesh.share()));
+    static_cast<void>(run::simulate<2>(test::of_rank(all, scene), options, together, nullptr, mesh.share()));
     REQUIRE(alone.kept.size() == 4);
     REQUIRE(test::everywhere(all, all.rank() != 0 || together.kept.size() == 4));
 
     Watch<2> rest;
     const SharedMesh<2> other(all, scene.mesh, test::odd(all, scene.mesh));
-    const auto on_ranks = run::simulate<2>(scene, options, rest, &alone.kept[1], other.share());  // began alone
+    const auto on_ranks =
+        run::simulate<2>(test::of_rank(all, scene), options, rest, &alone.kept[1], other.share());  // began alone
     const std::size_t n_later = rest.seen.size();
     Watch<2> later;  // of `alone`
     later.seen.assign(alone.seen.end() - static_cast<std::ptrdiff_t>(all.rank() == 0 ? n_later : 0), alone.seen.end());
@@ -200,7 +202,7 @@ TEST_CASE("two threads a rank have the bits of one", "[ranks][run]") {
     options.threads = 2;
     const SharedMesh<2> mesh(all, scene.mesh, test::even(all, scene.mesh));
     Watch<2> together;
-    const auto found = run::simulate<2>(scene, options, together, nullptr, mesh.share());
+    const auto found = run::simulate<2>(test::of_rank(all, scene), options, together, nullptr, mesh.share());
     test::require_same(all, expected, alone, found, together);
 }
 
@@ -236,8 +238,11 @@ public:
     void record(const dynamics::LedgerEntry<2>& entry, const run::RunResult<2>&) override {
         if (entry.step > 10) fail_in("record");
     }
-    void look(const dynamics::RunView<2>& view, solid::Solid<2>&) override {
-        if (view.steps > 10) fail_in("look");
+    void note(const run::Moment<2>& moment) override {
+        if (moment.steps > 10) fail_in("note");
+    }
+    void see(const run::Sight<2>& sight) override {
+        if (sight.moment.steps > 10) fail_in("see");
     }
     void progress(std::int64_t step, double) override {
         if (step > 10) fail_in("progress");
@@ -268,7 +273,7 @@ TEST_CASE("an observer that throws ends the run on all ranks with its error, and
     const ranks::Communicator all = test::world();
     const auto scene = test::meeting_bodies<2>(0.3);
     const std::string where =
-        GENERATE(as<std::string>{}, "begin", "record", "look", "progress", "asks_to_stop", "piece", "keep");
+        GENERATE(as<std::string>{}, "begin", "record", "note", "see", "progress", "asks_to_stop", "piece", "keep");
     const int guilty = where == "piece" ? all.size() - 1 : 0;
     const SharedMesh<2> mesh(all, scene.mesh, test::even(all, scene.mesh));
     Faulty faulty(where);

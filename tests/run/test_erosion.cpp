@@ -12,6 +12,7 @@
 #include "abut/run/files/run_identity.hpp"
 #include "abut/run/report/result_files.hpp"
 #include "abut/run/steps/simulation.hpp"
+#include "abut/run/values/sight.hpp"
 #include "abut/run/words/summary.hpp"
 #include "abut/run/words/warnings.hpp"
 #include "abut/solid/cell_view.hpp"
@@ -132,10 +133,10 @@ public:
     void cells_left(const solid::Solid<2>&, std::span<const std::int32_t> first_cells) override {
         probes_.take_cells(first_cells);
     }
-    void look(const dynamics::RunView<2>& run, solid::Solid<2>& solid) override {
-        last = probes_.values(run, solid);
-        if (run.steps == 0) first = last;
-        time = run.time;
+    void look(const dynamics::RunView<2>& view, solid::Solid<2>& solid) override {
+        last = probes_.values(run::sight_of<2>(view, solid));
+        if (view.steps == 0) first = last;
+        time = view.time;
     }
 
     std::vector<std::vector<double>> first, last;

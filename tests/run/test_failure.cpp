@@ -27,7 +27,7 @@ using test::read_text;
 
 /// Copies of what observers are told of a failure.
 struct Witness : run::Observer<2> {
-    void fail(const run::Failure& failure, abut::solid::Solid<2>&) override {
+    void fail(const run::Failure& failure, const run::Sight<2>&) override {
         ++failures;
         sound = failure.sound;
         if (failure.lost) lost = *failure.lost;
@@ -99,7 +99,7 @@ TEST_CASE("a run that diverges names a cell of the body that is unstable, and sh
 TEST_CASE("an observer that fails to look at a failure hides neither the error nor the failure from others",
           "[run][failure]") {
     struct Clumsy : run::Observer<2> {
-        void fail(const run::Failure&, abut::solid::Solid<2>&) override { throw std::bad_alloc(); }
+        void fail(const run::Failure&, const run::Sight<2>&) override { throw std::bad_alloc(); }
     } clumsy;
     const run::Scene<2> scene = coarse_and_fine();
     Witness witness;

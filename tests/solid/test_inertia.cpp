@@ -61,7 +61,7 @@ TEMPLATE_TEST_CASE_SIG(
             angular -= moment<Dim>(Vector<Dim>(centre / mass), momentum);
             CHECK((angular - expected[k] * spin).norm() <= 1e-12 * expected[k]);
         }
-        const auto of_floating = solid::inertia_of_bodies(floating), of_small = solid::inertia_of_bodies(small);
+        const auto of_floating = solid::inertia_of_bodies(floating, mesh), of_small = solid::inertia_of_bodies(small, mesh);
         AxialVector<Dim> sorted = expected;
         std::ranges::sort(sorted);
         CHECK((of_floating[0].exact - sorted).norm() <= 1e-12 * sorted.norm());
@@ -74,7 +74,7 @@ TEST_CASE("n x n square cells at their centres have 1 - 1/n^2 of the moment of i
     const int n = GENERATE(2, 4, 8);
     const Kinematics kinematics = GENERATE(Kinematics::small, Kinematics::finite);
     const auto mesh = mesh::structured_box<2>({1.0, 5.0}, {3.0, 7.0}, {n, n}, CellShape::quadrangle);
-    const auto inertia = solid::inertia_of_bodies(solid::Solid<2>(mesh, alone<2>(kinematics)));
+    const auto inertia = solid::inertia_of_bodies(solid::Solid<2>(mesh, alone<2>(kinematics)), mesh);
     CHECK(inertia[0].exact[0] == Approx(4.0 * 8.0 / 12.0).epsilon(1e-12));
     CHECK(inertia[0].share[0] == Approx(1.0 - 1.0 / (n * n)).epsilon(1e-12));
 }
