@@ -12,7 +12,6 @@ namespace {
 // MetalFlow::jump_cap where none is given. Gradients of bricks are central differences, so that jumps have more to hold.
 constexpr double cap_of_simplices = 0.1, cap_of_others = 0.3;
 constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
-constexpr double never_reached = std::numeric_limits<double>::max();
 constexpr double same_normal = 1e-10;  // 1 - |cos| of two normals that count as one
 
 template <int Dim>

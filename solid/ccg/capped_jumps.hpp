@@ -51,9 +51,18 @@ public:
     [[nodiscard]] bool may_last(std::ptrdiff_t half_face) const {
         return largest_[static_cast<std::size_t>(half_face)] < std::numeric_limits<double>::infinity();
     }
-    /// Whether a half-face that may have such a jump, of a body whose strains are linear, surely stays below its cap in a
-    /// step that begins where the last one ended, and in whose middle its jump is `mean`: then the step is made. Else
-    /// `advance` must say.
+    /// Whether a half-face can yield.
+    [[nodiscard]] bool has_cap(std::ptrdiff_t half_face) const {
+        return largest_[static_cast<std::size_t>(half_face)] < never_reached;
+    }
+    /// J, which stays as it is in the step.
+    [[nodiscard]] const Vector<Dim>& keep(std::ptrdiff_t half_face) {
+        const auto i = static_cast<std::size_t>(half_face);
+        return next_[i] = memory_[i];
+    }
+    /// Whether a half-face that has a cap, of a body whose strains are linear, surely stays below it in a step that
+    /// begins where the last one ended, and in whose middle its jump is `mean`: then the step is made. Else `advance`
+    /// must say.
     [[nodiscard]] bool stays_elastic(std::ptrdiff_t half_face, const Vector<Dim>& mean) {
         const auto i = static_cast<std::size_t>(half_face);
         next_elastic_[i] =
@@ -104,6 +113,7 @@ public:
     void set_memory(std::ptrdiff_t cell, std::span<const double> values);
 
 private:
+    static constexpr double never_reached = std::numeric_limits<double>::max();  // for want of a cap
     static constexpr double rounding = 1e-9;  // more than what sums of very many steps make of a jump, over the cap
     [[nodiscard]] static Elastic of(const Vector<Dim>& lasting, const Vector<Dim>& jump, const Matrix<Dim>& gradient);
     /// The part of a jump in space whose traction the cap limits: all of it, or that along the face, whose normal is

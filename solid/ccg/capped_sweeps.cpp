@@ -68,8 +68,11 @@ void CcgSweeps<Dim, Real>::add_lasting_jumps(std::int32_t c) {
     bool any = false;
     std::optional<Matrix<Dim>> change;  // of the gradient of its traces, once it is asked for
     const auto mean_of_step = [&](std::int32_t i) -> Vector<Dim> {
-        const Vector<Dim> mean = unload(jump(c, i)), of_flow = jump_of_flow(c, i);
-        if (follows_ && of_flow.isZero(0.0) && capped_->stays_elastic(i, mean)) return capped_->lasting(i);
+        const Vector<Dim> of_flow = jump_of_flow(c, i);
+        const bool is_still = of_flow.isZero(0.0);
+        if (is_still && !capped_->has_cap(i)) return capped_->keep(i);
+        const Vector<Dim> mean = unload(jump(c, i));
+        if (follows_ && is_still && capped_->stays_elastic(i, mean)) return capped_->lasting(i);
         if (!change) change = trace_change(c);
         wants_change_[static_cast<std::size_t>(c)] = 1;
         return capped_->advance(c, i, mean, jump_change(c, i, *change), of_flow);
