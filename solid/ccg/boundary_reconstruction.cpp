@@ -119,11 +119,10 @@ private:
     }
 
     /// Whether the traces of a cell do without the balance of its free faces: one of them has no support. Jumps of
-    /// metal stay as they are, and those of tips, which are thin and bear nothing.
+    /// tips, which are thin and bear nothing, stay as they are.
     bool has_affine_traces(std::int32_t cell) const {
         if (conditions_.is_thick.empty() || conditions_.is_thick[static_cast<std::size_t>(cell)] == 0) return false;
-        if (rule_of(cell) != FreeFaceRule::local_equilibrium || materials_[mesh_.cell_body[cell]].law == MaterialLaw::j2)
-            return false;
+        if (rule_of(cell) != FreeFaceRule::local_equilibrium) return false;
         std::vector<FreeFaceOfCell<Dim>> free;
         for (const BoundaryFace b : boundary_of(cell))
             if (conditions_.prescribed[b].isZero(0.0) && !is_joined(b)) free.push_back({normal_of(b), free_part(b)});

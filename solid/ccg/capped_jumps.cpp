@@ -12,7 +12,6 @@ namespace {
 // MetalFlow::jump_cap where none is given. Gradients of bricks are central differences, so that jumps have more to hold.
 constexpr double cap_of_simplices = 0.1, cap_of_others = 0.3;
 constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
-constexpr double never_reached = std::numeric_limits<double>::max();
 constexpr double same_normal = 1e-10;  // 1 - |cos| of two normals that count as one
 
 template <int Dim>
@@ -86,7 +85,10 @@ CappedJumps<Dim>::CappedJumps(const mesh::Mesh<Dim>& mesh, std::span<const Mater
         const double stiffness = arrays.faces[f].jump_stiffness;
         if (!contains(a) || stiffness == 0.0) continue;
         const Held by = std::max(held[static_cast<std::size_t>(a)], held[static_cast<std::size_t>(b)]);
-        if (by == Held::all) continue;
+        if (by == Held::all) {
+            if (!is_finite(kinematics, body_of(a))) largest_[i] = never_reached;  // it goes with free faces that flow
+            continue;
+        }
         only_slides_[i] = by == Held::along_normals ? 1 : 0;
         const Material& material = materials[body_of(a)];
         const double by_default = is_simplex(mesh, a) && is_simplex(mesh, b) ? cap_of_simplices : cap_of_others;
@@ -101,6 +103,7 @@ CappedJumps<Dim>::CappedJumps(const mesh::Mesh<Dim>& mesh, std::span<const Mater
     start_.resize(memory_.size());
     end_.resize(memory_.size());
     loss_.assign(capped_.size(), 0.0);
+    loss_by_flow_ = loss_;
 }
 
 template <int Dim>
@@ -119,18 +122,17 @@ Vector<Dim> CappedJumps<Dim>::excess(std::ptrdiff_t half_face, const Vector<Dim>
 /// With J_b and [u]_b the means of both ends D = k ([u]_b - J_b) . Delta J, which is exact; half of it is of this cell.
 template <int Dim>
 Vector<Dim> CappedJumps<Dim>::advance(std::ptrdiff_t cell, std::ptrdiff_t half_face, const Vector<Dim>& mean,
-                                      const Vector<Dim>& change) {
+                                      const Vector<Dim>& change, const Vector<Dim>& of_flow) {
     const auto i = static_cast<std::size_t>(half_face);
-    const std::int32_t face = arrays_.half_faces[i].face;
-    const Vector<Dim>& before = memory_[i];
-    const Vector<Dim> trial = mean + 0.5 * change - before;
+    const Vector<Dim> trial = mean + 0.5 * change - memory_[i] - of_flow;
     const Vector<Dim> yielded = excess(half_face, trial);
     if (!yielded.isZero(0.0)) any_yielded_.store(true, std::memory_order_relaxed);
-    next_[i] = before + yielded;
+    next_[i] = memory_[i] + of_flow + yielded;
     next_elastic_[i] = trial - yielded;
-    const Vector<Dim> lasting = 0.5 * (before + next_[i]);
-    loss_[static_cast<std::size_t>(cell)] +=
-        0.5 * arrays_.faces[face].jump_stiffness * (mean - lasting).dot(next_[i] - before);
+    const Vector<Dim> lasting = 0.5 * (memory_[i] + next_[i]);
+    const Vector<Dim> gradient = 0.5 * arrays_.faces[arrays_.half_faces[i].face].jump_stiffness * (mean - lasting);
+    loss_[static_cast<std::size_t>(cell)] += gradient.dot(yielded);
+    loss_by_flow_[static_cast<std::size_t>(cell)] += gradient.dot(of_flow);
     return lasting;
 }
 
@@ -195,13 +197,6 @@ std::int32_t CappedJumps<Dim>::memory_size(std::ptrdiff_t cell) const {
 }
 
 template <int Dim>
-Vector<Dim> CappedJumps<Dim>::lasting_on(std::ptrdiff_t cell, std::int32_t face) const {
-    for (std::int32_t i = arrays_.half_face_offsets[cell]; i < arrays_.half_face_offsets[cell + 1]; ++i)
-        if (arrays_.half_faces[i].face == face) return lasting(i);
-    return Vector<Dim>::Zero();
-}
-
-template <int Dim>
 void CappedJumps<Dim>::put_memory(std::ptrdiff_t cell, std::vector<double>& values) const {
     if (!contains(cell)) return;
     for (std::int32_t i = arrays_.half_face_offsets[cell]; i < arrays_.half_face_offsets[cell + 1]; ++i)
@@ -212,7 +207,7 @@ template <int Dim>
 void CappedJumps<Dim>::set_memory(std::ptrdiff_t cell, std::span<const double> values) {
     for (std::int32_t i = arrays_.half_face_offsets[cell]; i < arrays_.half_face_offsets[cell + 1]; ++i) {
         memory_[i] = next_[i] = Vector<Dim>(values.data());
-        if (!has_cap(i) && !memory_[i].isZero(0.0)) largest_[static_cast<std::size_t>(i)] = never_reached;
+        if (!may_last(i) && !memory_[i].isZero(0.0)) largest_[static_cast<std::size_t>(i)] = never_reached;
         elastic_[i].setConstant(not_known);
         values = values.subspan(Dim);
     }

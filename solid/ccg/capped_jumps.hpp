@@ -20,6 +20,8 @@ namespace abut::solid {
 /// nothing else holds a cell it stays elastic: at edges, and under contact, of finite bodies along the normals of faces
 /// alone. docs/method.md, Metal that yields.
 ///
+/// Where strains are linear J also goes with the free faces of both cells: they flow, and the traces do not know it.
+///
 /// Each half-face remembers J as its cell sees it: of a finite body as a vector of the material, which F turns. That of
 /// the twin is its negative, bit by bit, since both come from the same sums. Only a step that has ended is remembered.
 /// Functions of different cells may be called from several threads at once.
@@ -40,14 +42,23 @@ public:
         return memory_[static_cast<std::size_t>(half_face)];
     }
 
-    /// Lasting jump on a face of a cell; 0 where it has none of that number.
-    [[nodiscard]] Vector<Dim> lasting_on(std::ptrdiff_t cell, std::int32_t face) const;
-
     /// Nothing is dissipated in this step so far.
-    void begin(std::ptrdiff_t cell) { loss_[static_cast<std::size_t>(cell)] = 0.0; }
-    /// Whether a half-face can yield at all, or has a jump that lasts, of when it could: cells beside it have left since.
-    [[nodiscard]] bool has_cap(std::ptrdiff_t half_face) const {
+    void begin(std::ptrdiff_t cell) {
+        loss_[static_cast<std::size_t>(cell)] = 0.0;
+        loss_by_flow_[static_cast<std::size_t>(cell)] = 0.0;
+    }
+    /// Whether a half-face can have a jump that lasts, now or before cells beside it have left.
+    [[nodiscard]] bool may_last(std::ptrdiff_t half_face) const {
         return largest_[static_cast<std::size_t>(half_face)] < std::numeric_limits<double>::infinity();
+    }
+    /// Whether a half-face can yield.
+    [[nodiscard]] bool has_cap(std::ptrdiff_t half_face) const {
+        return largest_[static_cast<std::size_t>(half_face)] < never_reached;
+    }
+    /// J, which stays as it is in the step.
+    [[nodiscard]] const Vector<Dim>& keep(std::ptrdiff_t half_face) {
+        const auto i = static_cast<std::size_t>(half_face);
+        return next_[i] = memory_[i];
     }
     /// Whether a half-face that has a cap, of a body whose strains are linear, surely stays below it in a step that
     /// begins where the last one ended, and in whose middle its jump is `mean`: then the step is made. Else `advance`
@@ -62,9 +73,9 @@ public:
         return true;
     }
     /// Lets a half-face of a body whose strains are linear yield in a step in which [u] changes by `change` about
-    /// `mean`. Returns the mean of J [m].
+    /// `mean`, and J by `of_flow` as free faces of its cells flow along. Returns the mean of J [m].
     [[nodiscard]] Vector<Dim> advance(std::ptrdiff_t cell, std::ptrdiff_t half_face, const Vector<Dim>& mean,
-                                      const Vector<Dim>& change);
+                                      const Vector<Dim>& change, const Vector<Dim>& of_flow);
 
     /// A finite body in one state: [x] - F J, with what its jump was made of.
     struct Elastic {
@@ -88,6 +99,10 @@ public:
     [[nodiscard]] double loss(std::ptrdiff_t cell) const {
         return contains(cell) ? loss_[static_cast<std::size_t>(cell)] : 0.0;
     }
+    /// Energy that they have lost in the step as J went with free faces that flowed, without a sign [J].
+    [[nodiscard]] double loss_by_flow(std::ptrdiff_t cell) const {
+        return contains(cell) ? loss_by_flow_[static_cast<std::size_t>(cell)] : 0.0;
+    }
     /// The next step begins where this one ends.
     void end_step();
 
@@ -98,6 +113,7 @@ public:
     void set_memory(std::ptrdiff_t cell, std::span<const double> values);
 
 private:
+    static constexpr double never_reached = std::numeric_limits<double>::max();  // for want of a cap
     static constexpr double rounding = 1e-9;  // more than what sums of very many steps make of a jump, over the cap
     [[nodiscard]] static Elastic of(const Vector<Dim>& lasting, const Vector<Dim>& jump, const Matrix<Dim>& gradient);
     /// The part of a jump in space whose traction the cap limits: all of it, or that along the face, whose normal is
@@ -114,8 +130,8 @@ private:
     std::vector<Vector<Dim>> memory_, next_;  // J by half-face
     // [u] - J at the start and at the end of the step, by half-face; of bodies whose strains are linear
     std::vector<Vector<Dim>> elastic_, next_elastic_;
-    std::vector<Elastic> start_, end_;  // by half-face, of finite bodies
-    std::vector<double> loss_;          // by cell
+    std::vector<Elastic> start_, end_;         // by half-face, of finite bodies
+    std::vector<double> loss_, loss_by_flow_;  // by cell
     std::atomic<bool> any_yielded_ = false;
 };
 

@@ -17,7 +17,21 @@ Lanes<Dim, Real> CcgSweeps<Dim, Real>::jump(std::int32_t c, std::int32_t half_fa
 
 // Bodies whose strains are linear --------------------------------------------------------------------------------------
 
-/// Change of [u] in the step, where the gradient of the cell changes by `of_cell`.
+/// Change in the step of the gradient that the traces of a cell have.
+template <int Dim, class Real>
+Matrix<Dim> CcgSweeps<Dim, Real>::trace_change(std::int32_t c) const {
+    Matrix<Dim> change = change_of_stage(c);
+    for (const BoundaryFace b : arrays_.affine_faces_of(c)) {
+        const std::int32_t f = arrays_.face_of(b), i = element_.tables.affine_index_of(b);
+        const Vectors moved = coefficients_.affine_parts[static_cast<std::size_t>(i)] *
+                              (element_.reconstructed(u_change_.data(), f) - face_change(b));
+        change += coefficients_.cells[c].inverse_measure * unload(moved) *
+                  Vector<Dim>(arrays_.faces[f].area_vector.data()).transpose();
+    }
+    return change;
+}
+
+/// Change of [u] in the step, where the gradient of the traces of the cell changes by `of_cell`.
 template <int Dim, class Real>
 Vector<Dim> CcgSweeps<Dim, Real>::jump_change(std::int32_t c, std::int32_t half_face, const Matrix<Dim>& of_cell) const {
     const HalfFace& half = arrays_.half_faces[half_face];
@@ -26,9 +40,23 @@ Vector<Dim> CcgSweeps<Dim, Real>::jump_change(std::int32_t c, std::int32_t half_
         return load_packed<Dim>(change).times(coefficients_.lever_arms[half_of_cell]);
     };
     const std::int32_t other = c == first ? second : first;
-    const Matrix<Dim> of_other = change_of_stage(other);
+    const Matrix<Dim> of_other = trace_change(other);
     return unload(of_trace(of_cell, half_face) - of_trace(of_other, half.twin) +
                   (load_packed<Dim>(u_change_, c) - load_packed<Dim>(u_change_, other)));
+}
+
+/// Change of what lasts of [u] in the step as the free faces of both cells flow along: traces have them where they
+/// would be without flow, except for affine ones.
+template <int Dim, class Real>
+Vector<Dim> CcgSweeps<Dim, Real>::jump_of_flow(std::int32_t c, std::int32_t half_face) const {
+    if (!plastic_->any_flowed()) return Vector<Dim>::Zero();
+    const auto of_trace = [&](std::int32_t cell, std::int32_t half_of_cell) -> Vector<Dim> {
+        if (!plastic_->tilts(cell) || !arrays_.affine_faces_of(cell).empty()) return Vector<Dim>::Zero();
+        return plastic_->tilt_change(cell) * Vector<Dim>(arrays_.lever_arms[half_of_cell].data());
+    };
+    const HalfFace& half = arrays_.half_faces[half_face];
+    const auto [first, second] = arrays_.face_cells[half.face];
+    return of_trace(c == first ? second : first, half.twin) - of_trace(c, half_face);
 }
 
 /// Takes what lasts of the jumps out of those that push the cell: in a step the mean of both ends.
@@ -38,16 +66,19 @@ void CcgSweeps<Dim, Real>::add_lasting_jumps(std::int32_t c) {
     LaneTensor<Dim, Real> sum{};
     Vectors direct{};
     bool any = false;
-    std::optional<Matrix<Dim>> change;  // of the gradient, once it is asked for
+    std::optional<Matrix<Dim>> change;  // of the gradient of its traces, once it is asked for
     const auto mean_of_step = [&](std::int32_t i) -> Vector<Dim> {
+        const Vector<Dim> of_flow = jump_of_flow(c, i);
+        const bool is_still = of_flow.isZero(0.0);
+        if (is_still && !capped_->has_cap(i)) return capped_->keep(i);
         const Vector<Dim> mean = unload(jump(c, i));
-        if (follows_ && capped_->stays_elastic(i, mean)) return capped_->lasting(i);
-        if (!change) change = change_of_stage(c);
+        if (follows_ && is_still && capped_->stays_elastic(i, mean)) return capped_->lasting(i);
+        if (!change) change = trace_change(c);
         wants_change_[static_cast<std::size_t>(c)] = 1;
-        return capped_->advance(c, i, mean, jump_change(c, i, *change));
+        return capped_->advance(c, i, mean, jump_change(c, i, *change), of_flow);
     };
     for (std::int32_t i = arrays_.half_face_offsets[c]; i < arrays_.half_face_offsets[c + 1]; ++i) {
-        if (!capped_->has_cap(i)) continue;
+        if (!capped_->may_last(i)) continue;
         const Vector<Dim> lasting = steps_ ? mean_of_step(i) : capped_->lasting(i);
         if (lasting.isZero(0.0)) continue;
         any = true;

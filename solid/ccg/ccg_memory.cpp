@@ -16,6 +16,28 @@ bool remember_alike(const FiniteCells<Dim>& cells, std::int32_t cell, const Fini
     return *cells.inelastic_cell(cell).kind == *others.inelastic_cell(other).kind;
 }
 
+/// Part of the jump of a face that flow makes by moving free faces, as the cell with the half-face sees it: traces do
+/// not have it [m].
+template <int Dim>
+Vector<Dim> jump_of_tilts(const CcgArrays<Dim>& arrays, const PlasticCells<Dim>& plastic, std::int32_t cell,
+                          std::int32_t half_face) {
+    const HalfFace& half = arrays.half_faces[static_cast<std::size_t>(half_face)];
+    const auto of_trace = [&](std::int32_t c, std::int32_t half_of_cell) -> Vector<Dim> {
+        if (!plastic.contains(c) || !arrays.affine_faces_of(c).empty()) return Vector<Dim>::Zero();
+        return plastic.tilted(c) * Vector<Dim>(arrays.lever_arms[static_cast<std::size_t>(half_of_cell)].data());
+    };
+    const auto [first, second] = arrays.face_cells[half.face];
+    return of_trace(cell, half_face) - of_trace(cell == first ? second : first, half.twin);
+}
+
+/// Number of the half-face that a cell has of a face; -1: none.
+template <int Dim>
+std::int32_t half_face_of(const CcgArrays<Dim>& arrays, std::int32_t cell, std::int32_t face) {
+    for (std::int32_t i = arrays.half_face_offsets[cell]; i < arrays.half_face_offsets[cell + 1]; ++i)
+        if (arrays.half_faces[i].face == face) return i;
+    return -1;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -77,7 +99,7 @@ dynamics::Losses Ccg<Dim>::step_loss(std::int32_t cell) const {
     dynamics::Losses loss;
     if (impl_->viscous.any()) loss = impl_->viscous.loss(cell);
     loss.in_cells = impl_->plastic.loss(cell);
-    loss.on_faces = -impl_->plastic.work_of_push(cell);
+    loss.on_faces = impl_->capped.loss_by_flow(cell) - impl_->plastic.work_of_push(cell);
     if (impl_->finite.any_inelastic()) loss += impl_->sweeps.step_loss(cell);
     loss.in_jumps = impl_->capped.loss(cell);
     return loss;
@@ -192,15 +214,29 @@ void Ccg<Dim>::take_memory(const Ccg& before, std::span<const std::int32_t> old_
         };
         take(from.viscous, impl_->viscous);
         take(from.plastic, impl_->plastic);
-        if (!impl_->capped.contains(c)) continue;
-        values.clear();
-        for (const HalfFace& half_face : impl_->arrays.half_faces_of(c)) {
-            const Vector<Dim> lasting = from.capped.lasting_on(old, old_faces[static_cast<std::size_t>(half_face.face)]);
-            values.insert(values.end(), lasting.begin(), lasting.end());
-        }
-        impl_->capped.set_memory(c, values);
     }
     if (impl_->finite.any_inelastic()) impl_->sweeps.set_memory(of_laws);
+    impl_->take_jumps(from, old_cells, old_faces);
+}
+
+/// Faces that have become free are, for the cells beside them, where flow would have brought them.
+template <int Dim>
+void Ccg<Dim>::Impl::take_jumps(const Impl& from, std::span<const std::int32_t> old_cells,
+                                std::span<const std::int32_t> old_faces) {
+    std::vector<double> values;
+    for (std::int32_t c = 0; c < arrays.n_cells(); ++c) {
+        if (!capped.contains(c)) continue;
+        values.clear();
+        for (std::int32_t i = arrays.half_face_offsets[c]; i < arrays.half_face_offsets[c + 1]; ++i) {
+            const std::int32_t old_cell = old_cells[static_cast<std::size_t>(c)];
+            const std::int32_t old_face = old_faces[static_cast<std::size_t>(arrays.half_faces[i].face)];
+            Vector<Dim> lasting = -jump_of_tilts(arrays, plastic, c, i);
+            if (const std::int32_t old = half_face_of(from.arrays, old_cell, old_face); old >= 0)
+                lasting += from.capped.lasting(old) + jump_of_tilts(from.arrays, from.plastic, old_cell, old);
+            values.insert(values.end(), lasting.begin(), lasting.end());
+        }
+        capped.set_memory(c, values);
+    }
 }
 
 #define ABUT_INSTANTIATE(Dim)                                                                           \

@@ -41,11 +41,15 @@ void CcgSweeps<Dim, Real>::set_any_stress(std::int32_t c) {
     else
         element_.set_any_stress(c);
     if constexpr (takes_finite)
-        if (has_stress_beside() && !finite_.contains(c)) add_stress_of_material(c);
-    if (plastic_ && plastic_->contains(c)) {
-        add_stress(c, -plastic_->stress(c));
-        if (capped_ && capped_->contains(c)) add_lasting_jumps(c);
-    }
+        if (!finite_.contains(c)) {
+            if (capped_ && capped_->contains(c)) {
+                add_lasting_jumps(c);
+                const std::int32_t i = element_.tables.affine_index_of(c);
+                if (i >= 0) element_.set_any_affine_gradients(arrays_.affine.cells[static_cast<std::size_t>(i)]);
+            }
+            if (has_stress_beside()) add_stress_of_material(c);
+            if (plastic_ && plastic_->contains(c)) add_stress(c, -plastic_->stress(c));
+        }
 }
 
 /// Stress of a cell whose strains are linear, beside lambda and mu of its strain: other moduli, less
@@ -163,6 +167,7 @@ void CcgSweeps<Dim, Real>::displacement_gradients_of_chunk(std::int32_t k) {
         if (steps_ && plastic_ && !chunks_[k].has_finite)
             for_runs(cells, [&](std::int32_t c) {  // for its own stress, and for the jumps of its neighbours
                 if (makes_change(c)) store_tensor(load_packed<Dim>(linear_change(c)), g_change_, c);
+                if (plastic_->contains(c)) let_flow(c);
             });
     if (!strain_bounds_.empty()) strain_bounds_[k] = largest_strain_of_chunk(k);
 }
@@ -177,6 +182,11 @@ void CcgSweeps<Dim, Real>::stresses_of_chunk(std::int32_t k) {
     } else if constexpr (takes_finite) {
         for_runs(cells, [&](std::int32_t c) { set_finite_stress(c); });
     }
+    if constexpr (takes_finite)
+        if (capped_ && !chunks_[k].has_finite)
+            for_runs(cells, [&](std::int32_t c) {
+                if (capped_->contains(c)) add_lasting_jumps(c);
+            });
     for (const AffineCell& cell : wanted_.affine_gradients[k]) element_.set_any_affine_gradients(cell);
     if constexpr (takes_finite)
         if (!chunks_[k].has_finite) {

@@ -75,15 +75,19 @@ Lanes<Dim, Real> CcgSweeps<Dim, Real>::boundary_change(BoundaryFace face) const 
     return sum - load_packed<Dim>(Vector<Dim>(boundary.deficit[b] * unload<Dim>(origin)));
 }
 
+/// As `boundary_change`, with that of prescribed displacements.
+template <int Dim, class Real>
+Lanes<Dim, Real> CcgSweeps<Dim, Real>::face_change(BoundaryFace b) const {
+    const Lanes<Dim, Real> change = boundary_change(b);
+    return load_change_.empty() ? change : change + load_packed<Dim>(load_change_[static_cast<std::size_t>(number_of(b))]);
+}
+
 /// The change of the gradient of a cell whose strains are linear in a step, made for this cell alone: few bodies ask for it.
 template <int Dim, class Real>
 Matrix<Dim> CcgSweeps<Dim, Real>::linear_change(std::int32_t c) const {
     const auto relative = [&](std::int32_t f) {
         const BoundaryFace b = arrays_.boundary_index[f];
-        if (b == no_face) return element_.reconstructed(u_change_.data(), f);
-        const Lanes<Dim, Real> change = boundary_change(b);
-        return load_change_.empty() ? change
-                                    : change + load_packed<Dim>(load_change_[static_cast<std::size_t>(number_of(b))]);
+        return b == no_face ? element_.reconstructed(u_change_.data(), f) : face_change(b);
     };
     return unload(element_.gradient_of(u_change_.data(), c, relative));
 }
@@ -112,24 +116,30 @@ void CcgSweeps<Dim, Real>::add_stress(std::int32_t c, const Matrix<Dim>& added) 
     store_tensor(sum, s_, c);
 }
 
-/// C : eps of a cell whose strains are linear, before its stress has anything beside. As below, while `stresses` of its
-/// chunk run: what its faces had is not overwritten yet.
+/// C : eps of a cell whose strains are linear, before its stress has anything beside.
 template <int Dim, class Real>
 Matrix<Dim> CcgSweeps<Dim, Real>::elastic_stress_of_stage(std::int32_t c) const {
     if (arrays_.simplices.contains(c)) return unload(load_tensor<Dim>(s_, c));
     return unload(elastic_stress(coefficients_.cells[c], load_tensor<Dim>(g_, c)));
 }
 
-/// Takes out of the stress of a cell what it lacks by flow, in a step the mean of both ends. `elastic`: C : eps.
+/// Lets a cell flow in a step whose middle its gradient is in: jumps look at the flow of both of their cells.
 template <int Dim, class Real>
-void CcgSweeps<Dim, Real>::take_stress_of_flow(std::int32_t c, const Matrix<Dim>& elastic) {
-    if (steps_ && plastic_->moves_faces(c)) set_push_of_contact(c);
-    if (!steps_ || (follows_ && plastic_->stays_elastic(c, elastic))) {
-        if (plastic_->has_flowed(c)) add_stress(c, -plastic_->stress(c));
-        return;
-    }
+void CcgSweeps<Dim, Real>::let_flow(std::int32_t c) {
+    if (plastic_->moves_faces(c)) set_push_of_contact(c);
+    const Matrix<Dim> elastic = elastic_stress_of_stage(c);
+    if (follows_ && plastic_->stays_elastic(c, elastic)) return;
     wants_change_[static_cast<std::size_t>(c)] = 1;
-    add_stress(c, -plastic_->advance(c, elastic, change_of_stage(c), dt_));
+    plastic_->advance(c, elastic, change_of_stage(c), dt_);
+}
+
+/// Takes out of the stress of a cell what it lacks by flow, in a step the mean of both ends.
+template <int Dim, class Real>
+void CcgSweeps<Dim, Real>::take_stress_of_flow(std::int32_t c) {
+    if (steps_ && plastic_->flows(c))
+        add_stress(c, -plastic_->mean_stress(c));
+    else if (plastic_->has_flowed(c))
+        add_stress(c, -plastic_->stress(c));
 }
 
 template <int Dim, class Real>
@@ -143,13 +153,9 @@ void CcgSweeps<Dim, Real>::set_push_of_contact(std::int32_t c) {
 /// Adds the stresses of flow and damping to that of a cell whose strains are linear.
 template <int Dim, class Real>
 void CcgSweeps<Dim, Real>::add_linear_stress(std::int32_t c) {
-    const bool flows = plastic_ && plastic_->contains(c);
-    const Matrix<Dim> elastic = flows ? elastic_stress_of_stage(c) : Matrix<Dim>::Zero();
     if (steps_ && viscous_ && viscous_->contains(c))
         add_stress(c, viscous_->stress(c, Matrix<Dim>::Zero(), linear_change(c), dt_));
-    if (!flows) return;
-    take_stress_of_flow(c, elastic);
-    if (capped_ && capped_->contains(c)) add_lasting_jumps(c);
+    if (plastic_ && plastic_->contains(c)) take_stress_of_flow(c);
 }
 
 /// S of the Green strain E, with the free faces where the energy of the cell is least.
@@ -404,6 +410,7 @@ void CcgSweeps<Dim, Real>::keep_end(std::int32_t c, const Response<Dim>& of_law,
     template bool CcgSweeps<Dim>::makes_change(std::int32_t);                                                 \
     template Matrix<Dim> CcgSweeps<Dim>::change_of_stage(std::int32_t) const;                                 \
     template void CcgSweeps<Dim>::add_stress(std::int32_t, const Matrix<Dim>&);                               \
+    template void CcgSweeps<Dim>::let_flow(std::int32_t);                                                     \
     template void CcgSweeps<Dim>::add_linear_stress(std::int32_t);                                            \
     template void CcgSweeps<Dim>::take_ends(const StepEnds<Dim>&);                                            \
     template void CcgSweeps<Dim>::begin_step(std::span<const Vector<Dim>>, const BoundaryLoad<Dim>&, double); \
@@ -412,6 +419,7 @@ void CcgSweeps<Dim, Real>::keep_end(std::int32_t c, const Response<Dim>& of_law,
     template void CcgSweeps<Dim>::load_end(std::int32_t);                                                     \
     template Response<Dim> CcgSweeps<Dim>::law_response(std::int32_t, const Matrix<Dim>&) const;              \
     template Lanes<Dim> CcgSweeps<Dim>::boundary_change(BoundaryFace) const;                                  \
+    template Lanes<Dim> CcgSweeps<Dim>::face_change(BoundaryFace) const;                                      \
     template LaneTensor<Dim> CcgSweeps<Dim>::finite_stress(std::ptrdiff_t, const LaneTensor<Dim>&) const;     \
     template void CcgSweeps<Dim>::set_finite_displacement_gradient(std::int32_t);                             \
     template void CcgSweeps<Dim>::set_finite_stress(std::int32_t);

@@ -133,7 +133,10 @@ PlasticCells<Dim>::PlasticCells(const mesh::Mesh<Dim>& mesh, std::span<const Mat
         cells_.push_back({.material = &materials_[body], .response = number, .measure = mesh.cell_measure[c]});
         surfaces_.push_back({.poisson = materials_[body].poisson});
         set_surface(surfaces_.size() - 1);
-        if (free_faces != FreeFaces::stay_alone && rule == FreeFaceRule::local_equilibrium) make_push(arrays, c, conditions);
+        if (rule != FreeFaceRule::local_equilibrium) continue;
+        const std::vector<Shift> shifts = shifts_of(arrays, c, conditions);
+        set_tilt(arrays, c, shifts);
+        if (free_faces != FreeFaces::stay_alone) make_push(c, shifts);
     }
     driving_.assign(cells_.size(), unknown());
     next_driving_ = driving_;
@@ -143,30 +146,47 @@ PlasticCells<Dim>::PlasticCells(const mesh::Mesh<Dim>& mesh, std::span<const Mat
 
 /// Free faces balance C : G with what they bear, of which C : p n is a part.
 template <int Dim>
-void PlasticCells<Dim>::make_push(const CcgArrays<Dim>& arrays, std::int32_t cell, const FaceConditions<Dim>& conditions) {
-    const Cell& of = at(cell);
-    Push push{.number = number(cell), .first_shift = static_cast<std::int32_t>(shifts_.size())};
-    push.tilt.setZero();
+auto PlasticCells<Dim>::shifts_of(const CcgArrays<Dim>& arrays, std::int32_t cell,
+                                  const FaceConditions<Dim>& conditions) const -> std::vector<Shift> {
+    std::vector<Shift> shifts;
+    const BoundaryReconstruction<Dim>& boundary = arrays.boundary;
     for (const HalfFace& half_face : arrays.half_faces_of(cell)) {
         const BoundaryFace b = arrays.boundary_index[half_face.face];
         if (b == no_face || conditions.prescribed[b].isIdentity(0.0)) continue;
-        Shift& shift = shifts_.emplace_back(Shift{b, SmallMatrix<Dim, n_strains>::Zero()});
-        const BoundaryReconstruction<Dim>& boundary = arrays.boundary;
-        const Vector<Dim> area = Vector<Dim>(arrays.faces[half_face.face].area_vector.data());
+        Shift& shift = shifts.emplace_back(Shift{b, SmallMatrix<Dim, n_strains>::Zero()});
         for (int k = 0; k < n_strains; ++k) {
-            const Matrix<Dim> stress = unpacked(Strain(response_inside(of).stiffness.col(k)));
+            const Matrix<Dim> stress = unpacked(Strain(response_inside(at(cell)).stiffness.col(k)));
             Vector<Dim> moved = Vector<Dim>::Zero();
             for (std::int32_t i = boundary.load_offsets[number_of(b)]; i < boundary.load_offsets[number_of(b) + 1]; ++i)
                 moved += boundary.from_traction[i] * (stress * arrays.normal_of(boundary.load_faces[i]));
             shift.moved.col(k) = moved;
-            const Matrix<Dim> of_gradient = arrays.cells[cell].inverse_measure * moved * area.transpose();
-            push.tilt.col(k) += SmallMatrix<Dim * Dim, 1>(of_gradient.data());
         }
     }
-    push.end_shift = static_cast<std::int32_t>(shifts_.size());
-    if (push.end_shift == push.first_shift) return;
-    surfaces_[push.number].push = static_cast<std::int32_t>(pushes_.size());
-    pushes_.push_back(push);
+    return shifts;
+}
+
+template <int Dim>
+void PlasticCells<Dim>::set_tilt(const CcgArrays<Dim>& arrays, std::int32_t cell, std::span<const Shift> shifts) {
+    if (shifts.empty()) return;
+    Tilt tilt = Tilt::Zero();
+    for (const Shift& shift : shifts)
+        for (int k = 0; k < n_strains; ++k) {
+            const Vector<Dim> area(arrays.faces[arrays.face_of(shift.face)].area_vector.data());
+            const Matrix<Dim> of_gradient = arrays.cells[cell].inverse_measure * shift.moved.col(k) * area.transpose();
+            tilt.col(k) += SmallMatrix<Dim * Dim, 1>(of_gradient.data());
+        }
+    at(cell).tilt = static_cast<std::int32_t>(tilts_.size());
+    tilts_.push_back(tilt);
+}
+
+template <int Dim>
+void PlasticCells<Dim>::make_push(std::int32_t cell, std::span<const Shift> shifts) {
+    if (shifts.empty()) return;
+    surfaces_[number(cell)].push = static_cast<std::int32_t>(pushes_.size());
+    const auto first = static_cast<std::int32_t>(shifts_.size());
+    shifts_.insert(shifts_.end(), shifts.begin(), shifts.end());
+    pushes_.push_back(
+        {.number = number(cell), .first_shift = first, .end_shift = static_cast<std::int32_t>(shifts_.size())});
 }
 
 template <int Dim>
@@ -181,13 +201,6 @@ Vector<Dim> PlasticCells<Dim>::moved(std::ptrdiff_t cell, BoundaryFace face) con
         if (const Shift& shift = shifts_[static_cast<std::size_t>(i)]; shift.face == face)
             return shift.moved * at(cell).memory.plastic;
     return Vector<Dim>::Zero();
-}
-
-template <int Dim>
-Matrix<Dim> PlasticCells<Dim>::tilted(std::ptrdiff_t cell) const {
-    const Push& push = pushes_[static_cast<std::size_t>(surfaces_[number(cell)].push)];
-    const SmallMatrix<Dim * Dim, 1> tilt = push.tilt * at(cell).memory.plastic;
-    return Matrix<Dim>(tilt.data());
 }
 
 template <int Dim>
@@ -309,7 +322,7 @@ auto PlasticCells<Dim>::beyond_surface(const Cell& cell, const Strain& normal, d
 }
 
 template <int Dim>
-Matrix<Dim> PlasticCells<Dim>::advance(std::ptrdiff_t cell, const Matrix<Dim>& mean, const Matrix<Dim>& change, double dt) {
+void PlasticCells<Dim>::advance(std::ptrdiff_t cell, const Matrix<Dim>& mean, const Matrix<Dim>& change, double dt) {
     const std::size_t n = number(cell);
     const Surface& surface = surfaces_[n];
     Cell& of = cells_[n];
@@ -320,19 +333,18 @@ Matrix<Dim> PlasticCells<Dim>::advance(std::ptrdiff_t cell, const Matrix<Dim>& m
     Strain normal;
     const FlowStress stress(of.material->flow, of.memory.equivalent, dt);
     const double g = flow(n, stress, next_driving_[n] + push, normal);
-    if (!(g > 0.0)) return of.memory.stress;
+    if (!(g > 0.0)) return;
     const double radius = slope_of_alpha * stress.at(slope_of_alpha * g).stress;
     const double beyond = push.isZero(0.0) ? 0.0 : normal.dot(beyond_surface(of, normal, g));
     const double loss = 0.5 * of.measure * g * (normal.dot(middle - half - surface.shift + push) + radius + beyond);
     // Else it waits: a stress beyond the surface is one of a rate.
-    if (loss < 0.0 && of.material->flow.knows_rates()) return of.memory.stress;
+    if (loss < 0.0 && of.material->flow.knows_rates()) return;
     flows_[n] = 1;
     any_flowed_.store(true, std::memory_order_relaxed);
     loss_[n] = loss;
     if (surface.push >= 0) pushes_[static_cast<std::size_t>(surface.push)].work = of.measure * g * normal.dot(push);
     of.next = memory_of(of, of.memory.plastic + g * normal, of.memory.equivalent + slope_of_alpha * g);
     next_driving_[n] = middle + half - shift_of(of, of.next);
-    return 0.5 * (of.memory.stress + of.next.stress);
 }
 
 template <int Dim>

@@ -49,9 +49,15 @@ public:
     /// Whether its flow moves boundary faces that contact may push. For itself, and for jumps, the cell has them where
     /// they would be without flow.
     [[nodiscard]] bool moves_faces(std::ptrdiff_t cell) const { return contains(cell) && surfaces_[number(cell)].push >= 0; }
-    /// How far p moves such a face [m], and by how much it changes what tilts all of them [-].
+    /// How far p moves such a face [m].
     [[nodiscard]] Vector<Dim> moved(std::ptrdiff_t cell, BoundaryFace face) const;
-    [[nodiscard]] Matrix<Dim> tilted(std::ptrdiff_t cell) const;
+    /// Change of the displacement gradient of a cell as p moves its free faces [-]; 0 where it has none.
+    [[nodiscard]] Matrix<Dim> tilted(std::ptrdiff_t cell) const { return tilt_of(at(cell), at(cell).memory.plastic); }
+    /// Whether `tilted` changes in the step, and by how much [-].
+    [[nodiscard]] bool tilts(std::ptrdiff_t cell) const { return contains(cell) && flows(cell) && at(cell).tilt >= 0; }
+    [[nodiscard]] Matrix<Dim> tilt_change(std::ptrdiff_t cell) const {
+        return tilt_of(at(cell), at(cell).next.plastic - at(cell).memory.plastic);
+    }
     /// Sets what contact does in the step to a cell that moves faces: dV/dû of a face of it by gradient(face) [N], and dV/dG
     /// over the measure [Pa].
     template <class Gradient>
@@ -61,7 +67,8 @@ public:
         for (std::int32_t i = push.first_shift; i < push.end_shift; ++i)
             sum -= shifts_[static_cast<std::size_t>(i)].moved.transpose() *
                    (gradient(shifts_[static_cast<std::size_t>(i)].face) / at(cell).measure);
-        push.stress = sum - push.tilt.transpose() * SmallMatrix<Dim * Dim, 1>(moment.data());
+        push.stress =
+            sum - tilts_[static_cast<std::size_t>(at(cell).tilt)].transpose() * SmallMatrix<Dim * Dim, 1>(moment.data());
         make_deviator(push.stress);
     }
     /// Work of contact in the step by what flow has moved, had that moved along [J]: a part of `loss`.
@@ -77,8 +84,13 @@ public:
     /// `advance` must say.
     [[nodiscard]] bool stays_elastic(std::ptrdiff_t cell, const Matrix<Dim>& mean);
     /// Flows in a step of length `dt` in whose middle C : eps is `mean` [Pa], and in which the displacement gradient
-    /// changes by `change`; returns the mean of `stress` at both ends [Pa].
-    [[nodiscard]] Matrix<Dim> advance(std::ptrdiff_t cell, const Matrix<Dim>& mean, const Matrix<Dim>& change, double dt);
+    /// changes by `change`.
+    void advance(std::ptrdiff_t cell, const Matrix<Dim>& mean, const Matrix<Dim>& change, double dt);
+    /// Whether a cell flows in the step, and the mean of `stress` at both ends of it [Pa].
+    [[nodiscard]] bool flows(std::ptrdiff_t cell) const { return flows_[number(cell)] != 0; }
+    [[nodiscard]] Matrix<Dim> mean_stress(std::ptrdiff_t cell) const {
+        return 0.5 * (at(cell).memory.stress + at(cell).next.stress);
+    }
     /// The terms of the energy that p is in [J/m^3].
     [[nodiscard]] double energy(std::ptrdiff_t cell, const Matrix<Dim>& g) const;
     /// In the plane: the stress out of it [Pa].
@@ -139,7 +151,9 @@ private:
         std::int32_t response;
         double measure;
         Memory memory{}, next{};  // the latter where it flows
+        std::int32_t tilt = -1;   // of `tilts_`; -1: it has no free faces
     };
+    using Tilt = SmallMatrix<Dim * Dim, n_strains>;  // what p makes of G
     /// How p moves a boundary face: by moved p.
     struct Shift {
         BoundaryFace face;
@@ -147,13 +161,20 @@ private:
     };
     /// Push of contact on a cell that moves faces.
     struct Push {
-        std::size_t number;                      // of the cell
-        std::int32_t first_shift, end_shift;     // of its faces
-        SmallMatrix<Dim * Dim, n_strains> tilt;  // what p makes of G
-        Strain stress = Strain::Zero();          // of contact in the step, on p
-        double work = 0.0;                       // of it in the step
+        std::size_t number;                   // of the cell
+        std::int32_t first_shift, end_shift;  // of its faces
+        Strain stress = Strain::Zero();       // of contact in the step, on p
+        double work = 0.0;                    // of it in the step
     };
-    void make_push(const CcgArrays<Dim>& arrays, std::int32_t cell, const FaceConditions<Dim>& conditions);
+    [[nodiscard]] std::vector<Shift> shifts_of(const CcgArrays<Dim>& arrays, std::int32_t cell,
+                                               const FaceConditions<Dim>& conditions) const;
+    void set_tilt(const CcgArrays<Dim>& arrays, std::int32_t cell, std::span<const Shift> shifts);
+    void make_push(std::int32_t cell, std::span<const Shift> shifts);
+    [[nodiscard]] Matrix<Dim> tilt_of(const Cell& cell, const Strain& plastic) const {
+        if (cell.tilt < 0) return Matrix<Dim>::Zero();
+        const SmallMatrix<Dim * Dim, 1> tilt = tilts_[static_cast<std::size_t>(cell.tilt)] * plastic;
+        return Matrix<Dim>(tilt.data());
+    }
     static void make_deviator(Strain& strain);
     [[nodiscard]] static Strain unknown() { return Strain::Constant(std::numeric_limits<double>::quiet_NaN()); }
     [[nodiscard]] bool is_inside(const Cell& cell) const { return &response(cell) == &response_inside(cell); }
@@ -190,6 +211,7 @@ private:
     std::vector<char> flows_;                     // in the step: it ends with Cell::next
     std::vector<double> loss_;                    // in the step [J]
     std::vector<Cell> cells_;
+    std::vector<Tilt> tilts_;
     std::vector<Push> pushes_;
     std::vector<Shift> shifts_;  // push by push
 };

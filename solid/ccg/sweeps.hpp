@@ -163,6 +163,7 @@ private:
     void keep_end(std::int32_t c, const Response<Dim>& of_law, double of_jumps, Tensor& sum);
     [[nodiscard]] CellStretch end_stretch(std::int32_t c) const;
     [[nodiscard]] Vectors boundary_change(BoundaryFace b) const;
+    [[nodiscard]] Vectors face_change(BoundaryFace b) const;
     void set_finite_displacement_gradient(std::int32_t c);
     void set_finite_stress(std::int32_t c);
     void load_change(const StepEnds<Dim>& ends);
@@ -174,7 +175,8 @@ private:
     /// Whether a step begins where the last one ended, so that what its cells remember of that end holds.
     [[nodiscard]] bool follows_last_load(const StepEnds<Dim>& ends);
     [[nodiscard]] Matrix<Dim> elastic_stress_of_stage(std::int32_t c) const;
-    void take_stress_of_flow(std::int32_t c, const Matrix<Dim>& elastic);
+    void let_flow(std::int32_t c);
+    void take_stress_of_flow(std::int32_t c);
     void set_push_of_contact(std::int32_t c);
     void add_linear_stress(std::int32_t c);
     void take_ends(const StepEnds<Dim>& ends);
@@ -193,7 +195,9 @@ private:
     // One jump that yields: capped_sweeps.cpp
     [[nodiscard]] Vectors jump(std::int32_t c, std::int32_t half_face) const;
     [[nodiscard]] Vectors elastic_jump(std::int32_t c, std::int32_t half_face) const;
+    [[nodiscard]] Matrix<Dim> trace_change(std::int32_t c) const;
     [[nodiscard]] Vector<Dim> jump_change(std::int32_t c, std::int32_t half_face, const Matrix<Dim>& of_cell) const;
+    [[nodiscard]] Vector<Dim> jump_of_flow(std::int32_t c, std::int32_t half_face) const;
     void add_lasting_jumps(std::int32_t c);
     [[nodiscard]] Matrix<Dim> trace_gradient(std::int32_t c) const;
     [[nodiscard]] Matrix<Dim> gradient_at_face(std::int32_t face) const;

@@ -1,4 +1,5 @@
 // J2 plasticity of bodies whose strains are linear: small and floating ones.
+#include <Eigen/QR>
 #include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -50,7 +51,129 @@ struct Radial {
     }
 };
 
+/// Shapes of cells that a box is made of.
+std::vector<CellShape> shapes_in(int dim) {
+    if (dim == 2) return {CellShape::quadrangle, CellShape::triangle};
+    return {CellShape::hexahedron, CellShape::tetrahedron, CellShape::prism, CellShape::pyramid};
+}
+
+/// Stretch and equivalent plastic strain of metal with linear isotropic hardening under a tension that rises to `stress`. In
+/// the plane the return is made in small steps, since the stress out of it turns the direction of flow.
+template <int Dim>
+std::pair<double, double> in_tension(const Material& material, double stress) {
+    const double yield = material.flow.yield_stress, hardening = material.flow.hardening;
+    if (Dim == 3) return {stress / material.young + (stress - yield) / hardening, (stress - yield) / hardening};
+    constexpr int n = 100000;
+    double along = 0.0, out_of_plane = 0.0, equivalent = 0.0;  // plastic
+    const auto out_of_plane_stress = [&](double x) { return material.poisson * x - material.young * out_of_plane; };
+    for (int i = 1; i <= n; ++i) {
+        const double x = stress * i / n, z = out_of_plane_stress(x), mises = std::sqrt(x * x - x * z + z * z);
+        const double beyond = mises - yield - hardening * equivalent, slope = (2.0 * z - x) / (2.0 * mises);
+        if (beyond <= 0.0) continue;
+        const double flow = beyond / (material.young * slope * slope + hardening);
+        along += flow * (2.0 * x - z) / (2.0 * mises);
+        out_of_plane += flow * slope;
+        equivalent += flow;
+    }
+    return {(stress - material.poisson * out_of_plane_stress(stress)) / material.young + along, equivalent};
+}
+
+/// Slope of u_x in x over all cells by least squares.
+template <int Dim>
+double mean_stretch(const TurningScene<Dim>& scene) {
+    const auto q = as_vectors<Dim>(scene.memm.q());
+    const auto n = static_cast<Eigen::Index>(scene.mesh.n_cells());
+    Eigen::MatrixXd affine(n, Dim + 1);
+    Eigen::VectorXd moved(n);
+    for (Eigen::Index c = 0; c < n; ++c) {
+        const Vector<Dim>& x = scene.solid.rest_positions()[static_cast<std::size_t>(c)];
+        affine(c, Dim) = 1.0;
+        for (int k = 0; k < Dim; ++k) affine(c, k) = x[k];
+        moved[c] = q[static_cast<std::size_t>(c)][0];
+    }
+    return affine.colPivHouseholderQr().solve(moved)[0];
+}
+
 }  // namespace
+
+TEMPLATE_TEST_CASE_SIG("metal that loads pull beyond yield stretches as the closed form says, in three cells of any shape",
+                       "[solid][material][patch]", ((int Dim), Dim), 2, 3) {
+    // All but the innermost of 27 bricks have free faces, and jumps would hold them back if they did not see these flow.
+    // The load rises slowly: what swings would be kept by flow.
+    constexpr double duration = 400.0, stress = 1.3e-3;
+    Material material = metal(0.1, 0.0);
+    material.damping.mass = 0.5;
+    const auto [stretch, plastic] = in_tension<Dim>(material, stress);
+    const auto load_at = [](double t) {
+        return 0.5 * stress * (1.0 - std::cos(M_PI * std::min(t / (0.7 * duration), 1.0)));
+    };
+    struct Pulled {
+        Kinematics kinematics;
+        bool follows;
+    };
+    for (const auto& [kinematics, follows] :
+         {Pulled{Kinematics::small, false}, Pulled{Kinematics::floating, false}, Pulled{Kinematics::floating, true}})
+        for (const CellShape shape : shapes_in(Dim)) {
+            if (kinematics == Kinematics::floating && shape != shapes_in(Dim).front()) continue;  // frames know no shapes
+            CAPTURE(static_cast<int>(kinematics), follows, static_cast<int>(shape));
+            std::array<int, Dim> counts;
+            counts.fill(3);
+            const auto mesh = mesh::structured_box<Dim>(Vector<Dim>::Zero(), Vector<Dim>::Ones(), counts, shape);
+            auto options = alone<Dim>(material);
+            for (const auto& [group, sign] : {std::pair{"xmin", -1.0}, std::pair{"xmax", 1.0}})
+                options.boundary.traction.push_back({.group = group,
+                                                     .history = [=](double t, const Vector<Dim>&) -> Vector<Dim> {
+                                                         return sign * load_at(t) * Vector<Dim>::Unit(0);
+                                                     },
+                                                     .follows = follows});
+            TurningScene<Dim> scene(mesh, options, {moving<Dim>(Vector<Dim>::Zero())}, 0.9, kinematics);
+            const double fall =
+                fall_of_dissipation<Dim>(scene, static_cast<int>(duration / scene.memm.dt()), &dynamics::Losses::in_cells);
+            double off = 0.0;
+            for (std::int32_t c = 0; c < mesh.n_cells(); ++c)
+                raise(off, std::abs(scene.solid.cells().plastic_strain(c) / plastic - 1.0));
+            const dynamics::Losses lost = scene.solid.dissipated();
+            CHECK(mean_stretch(scene) == Approx(stretch).epsilon(1e-3));
+            CHECK(off <= 5e-3);
+            CHECK(fall <= 0.0);
+            CHECK(std::abs(lost.on_faces) <= 4e-3 * lost.in_cells);
+            CHECK(scene.drifts().pseudo_energy <= 1e-12);
+        }
+}
+
+TEST_CASE("a bar of metal four bricks high that is bent beyond yield bears the moment of its layers", "[solid][material]") {
+    // Perfectly plastic, ends that turn: layers at y bear min(E kappa |y|, sigma_y), and their sum is within 3 % of
+    // M_e (3/2 - (kappa_e/kappa)^2/2) of a bar without layers.
+    constexpr int n = 4;
+    constexpr double length = 3.0, duration = 600.0, bend = 3.0;  // times what makes it yield
+    Material material = metal(0.0, 0.0);
+    material.damping.mass = 0.3;
+    const double yield = material.flow.yield_stress, curvature = bend * 2.0 * yield / material.young;
+    const auto mesh = mesh::structured_box<3>({0.0, -0.5, -0.5}, {length, 0.5, 0.5}, {3 * n, n, n}, CellShape::hexahedron);
+    auto options = alone<3>(material);
+    for (const auto& [group, sign] : {std::pair{"xmin", 1.0}, std::pair{"xmax", -1.0}})
+        options.boundary.dirichlet.push_back({.group = group,
+                                              .constraint = solid::Constraint::components,
+                                              .components = {true, false, false},
+                                              .history = [=](double t, const Vector<3>& x) -> Vector<3> {
+                                                  const double share =
+                                                      0.5 * (1.0 - std::cos(M_PI * std::min(t / (0.8 * duration), 1.0)));
+                                                  return {sign * share * 0.5 * curvature * length * x[1], 0.0, 0.0};
+                                              }});
+    TurningScene<3> scene(mesh, options, {moving<3>(Vector<3>::Zero())}, 0.9, Kinematics::small);
+    scene.run_until(duration);
+    (void)scene.solid.potential(scene.memm.q());
+    double moment = 0.0, of_layers = 0.0;
+    for (std::int32_t c = 0; c < mesh.n_cells(); ++c) {
+        const Vector<3>& x = mesh.cell_centroid[static_cast<std::size_t>(c)];
+        if (std::abs(x[0] - 0.5 * length) > 0.5) continue;
+        moment -= mesh.cell_measure[c] * x[1] * scene.solid.cells().stress(c)(0, 0);
+        of_layers += mesh.cell_measure[c] * std::abs(x[1]) * std::min(material.young * curvature * std::abs(x[1]), yield);
+    }
+    CHECK(of_layers == Approx(yield / 6.0 * (1.5 - 0.5 / (bend * bend))).epsilon(0.03));
+    CHECK(moment == Approx(of_layers).epsilon(0.004));
+    CHECK(scene.drifts().pseudo_energy <= 1e-12);
+}
 
 TEMPLATE_TEST_CASE_SIG("a body that is strained alike everywhere has the stress of the radial return, there and back",
                        "[solid][material]", ((int Dim), Dim), 2, 3) {
@@ -161,12 +284,13 @@ TEST_CASE(
 TEST_CASE("a bar that is held as it flies has the plateau of the exact bilinear bar to 0.5 % and its plastic front to 1 %",
           "[solid][material]") {
     // E_t = E/10: an elastic front at c, a plastic one at sqrt(E_t/rho), behind it sigma_y + rho sqrt(E_t/rho) (v_0 - sigma_y/(rho c)).
+    // The bar is slender: what flows widens by half of its stretch, and the inertia of that is not in these formulas.
     constexpr int n = 200;
     constexpr double yield = 1e-4, speed = 5.0 * yield, modulus = 0.1, time = 0.8;
     const double plastic_speed = std::sqrt(modulus), plateau = yield + plastic_speed * (speed - yield);
     Material bar{.young = 1.0, .poisson = 0.3, .density = 1.0, .law = MaterialLaw::j2, .flow = {.yield_stress = yield}};
     bar.flow.hardening = modulus / (1.0 - modulus);
-    const auto mesh = mesh::structured_box<3>({0.0, 0.0, 0.0}, {1.0, 2.0 / n, 2.0 / n}, {n, 2, 2}, CellShape::hexahedron);
+    const auto mesh = mesh::structured_box<3>({0.0, 0.0, 0.0}, {1.0, 1.0 / n, 1.0 / n}, {n, 2, 2}, CellShape::hexahedron);
     auto options = alone<3>(bar);
     options.boundary.dirichlet = {{.group = "xmin", .constraint = solid::Constraint::normal}};
     TurningScene<3> scene(mesh, options, {moving<3>(-speed * Vector<3>::Unit(0))}, 0.5, Kinematics::small);
@@ -214,11 +338,9 @@ TEMPLATE_TEST_CASE_SIG("metal bodies that collide under the pair potential flow,
     }
 }
 
-TEMPLATE_TEST_CASE_SIG("a plate that is pressed against a wall flows in its first layer as it does inside",
-                       "[solid][material][contact]", ((int Dim), Dim), 2, 3) {
+TEMPLATE_TEST_CASE_SIG("a plate that is pressed against a wall flows in all its layers alike", "[solid][material][contact]",
+                       ((int Dim), Dim), 2, 3) {
     // Uniaxial strain, slowly and damped: the stress is the same in all layers, and the plastic strain (2 mu eps - sigma_y)/(3 mu + H).
-    // Jumps beside the wall do not see what contact pushes with: the second and third layer of elastic bricks are strained by 0.86 and
-    // 1.07 of the others.
     constexpr int layers = 6;
     constexpr double duration = 60.0, most = 4e-3;
     Material material = metal(0.1, 0.05);
@@ -268,7 +390,7 @@ TEMPLATE_TEST_CASE_SIG("a plate that is pressed against a wall flows in its firs
         CAPTURE(strain, lost.on_faces / lost.in_cells, scene.drifts().pseudo_energy);
         CHECK(strain[4] > 1e-3);
         CHECK(inside == Approx(exact).epsilon(0.015));  // what swings is kept by flow
-        CHECK(strain[0] == Approx(strain[4]).epsilon(0.07));
+        for (const double of_layer : strain) CHECK(of_layer == Approx(strain[4]).epsilon(0.01));
         CHECK(fall <= 0.0);
         CHECK(std::abs(lost.on_faces) <= 0.01 * lost.in_cells);
         CHECK(scene.drifts().pseudo_energy <= 2e-12);
