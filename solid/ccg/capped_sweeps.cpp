@@ -10,9 +10,10 @@ namespace abut::solid {
 template <int Dim, class Real>
 Lanes<Dim, Real> CcgSweeps<Dim, Real>::jump(std::int32_t c, std::int32_t half_face) const {
     const HalfFace& half = arrays_.half_faces[half_face];
-    if (!arrays_.simplices.contains(c)) return load_packed<Dim>(trace_, half_face) - load_packed<Dim>(trace_, half.twin);
+    if (!arrays_.simplices.contains(c))
+        return load_packed<Dim>(work_.trace, half_face) - load_packed<Dim>(work_.trace, half.twin);
     const auto [first, second] = arrays_.face_cells[half.face];
-    return load_packed<Dim>(deviation_, c) - load_packed<Dim>(deviation_, c == first ? second : first);
+    return load_packed<Dim>(work_.deviation, c) - load_packed<Dim>(work_.deviation, c == first ? second : first);
 }
 
 // Bodies whose strains are linear --------------------------------------------------------------------------------------
@@ -20,11 +21,11 @@ Lanes<Dim, Real> CcgSweeps<Dim, Real>::jump(std::int32_t c, std::int32_t half_fa
 /// Change in the step of the gradient that the traces of a cell have.
 template <int Dim, class Real>
 Matrix<Dim> CcgSweeps<Dim, Real>::trace_change(std::int32_t c) const {
-    Matrix<Dim> change = change_of_stage(c);
+    Matrix<Dim> change = change_.gradient(c);
     for (const BoundaryFace b : arrays_.affine_faces_of(c)) {
         const std::int32_t f = arrays_.face_of(b), i = element_.tables.affine_index_of(b);
-        const Vectors moved = coefficients_.affine_parts[static_cast<std::size_t>(i)] *
-                              (element_.reconstructed(u_change_.data(), f) - face_change(b));
+        const Vectors moved =
+            coefficients_.affine_parts[static_cast<std::size_t>(i)] * (change_.reconstructed(f) - change_.of_face(b));
         change += coefficients_.cells[c].inverse_measure * unload(moved) *
                   Vector<Dim>(arrays_.faces[f].area_vector.data()).transpose();
     }
@@ -42,7 +43,7 @@ Vector<Dim> CcgSweeps<Dim, Real>::jump_change(std::int32_t c, std::int32_t half_
     const std::int32_t other = c == first ? second : first;
     const Matrix<Dim> of_other = trace_change(other);
     return unload(of_trace(of_cell, half_face) - of_trace(of_other, half.twin) +
-                  (load_packed<Dim>(u_change_, c) - load_packed<Dim>(u_change_, other)));
+                  (change_.of_cell(c) - change_.of_cell(other)));
 }
 
 /// Change of what lasts of [u] in the step as the free faces of both cells flow along: traces have them where they
@@ -62,7 +63,7 @@ Vector<Dim> CcgSweeps<Dim, Real>::jump_of_flow(std::int32_t c, std::int32_t half
 /// Takes what lasts of the jumps out of those that push the cell: in a step the mean of both ends.
 template <int Dim, class Real>
 void CcgSweeps<Dim, Real>::add_lasting_jumps(std::int32_t c) {
-    if (steps_) capped_->begin(c);
+    if (change_.of_linear()) capped_->begin(c);
     LaneTensor<Dim, Real> sum{};
     Vectors direct{};
     bool any = false;
@@ -72,14 +73,14 @@ void CcgSweeps<Dim, Real>::add_lasting_jumps(std::int32_t c) {
         const bool is_still = of_flow.isZero(0.0);
         if (is_still && !capped_->has_cap(i)) return capped_->keep(i);
         const Vector<Dim> mean = unload(jump(c, i));
-        if (follows_ && is_still && capped_->stays_elastic(i, mean)) return capped_->lasting(i);
+        if (change_.follows() && is_still && capped_->stays_elastic(i, mean)) return capped_->lasting(i);
         if (!change) change = trace_change(c);
-        wants_change_[static_cast<std::size_t>(c)] = 1;
+        change_.ask(c);
         return capped_->advance(c, i, mean, jump_change(c, i, *change), of_flow);
     };
     for (std::int32_t i = arrays_.half_face_offsets[c]; i < arrays_.half_face_offsets[c + 1]; ++i) {
         if (!capped_->may_last(i)) continue;
-        const Vector<Dim> lasting = steps_ ? mean_of_step(i) : capped_->lasting(i);
+        const Vector<Dim> lasting = change_.of_linear() ? mean_of_step(i) : capped_->lasting(i);
         if (lasting.isZero(0.0)) continue;
         any = true;
         const Vectors gradient = coefficients_.faces[arrays_.half_faces[i].face].jump_stiffness * load_packed<Dim>(lasting);
@@ -87,7 +88,7 @@ void CcgSweeps<Dim, Real>::add_lasting_jumps(std::int32_t c) {
         sum.add_outer(gradient, coefficients_.lever_arms[i]);
     }
     if (!any) return;
-    store(load_packed<Dim>(direct_, c) - direct, direct_, c);
+    store(load_packed<Dim>(work_.direct, c) - direct, work_.direct, c);
     if (!arrays_.simplices.contains(c)) add_stress(c, -coefficients_.cells[c].inverse_measure * unload(sum));
 }
 
@@ -96,7 +97,8 @@ void CcgSweeps<Dim, Real>::add_lasting_jumps(std::int32_t c) {
 /// F - I as the traces of the cell take it.
 template <int Dim, class Real>
 Matrix<Dim> CcgSweeps<Dim, Real>::trace_gradient(std::int32_t c) const {
-    return finite_.has_condensed_traces(c) ? free_[finite_.free_position(c)].gradient() : unload(load_tensor<Dim>(g_, c));
+    return finite_.has_condensed_traces(c) ? free_[finite_.free_position(c)].gradient()
+                                           : unload(load_tensor<Dim>(work_.g, c));
 }
 
 /// The mean of both cells.
@@ -109,7 +111,7 @@ Matrix<Dim> CcgSweeps<Dim, Real>::gradient_at_face(std::int32_t face) const {
 /// As SweepElements::sum_jumps, where F of both cells also moves what lasts of a jump.
 template <int Dim, class Real>
 LaneTensor<Dim, Real> CcgSweeps<Dim, Real>::sum_capped_jumps(std::int32_t c, double& defect) {
-    const bool advances = keeps_ == &kept_.end;
+    const bool advances = kept_.fills_end();
     if (advances) capped_->begin(c);
     Matrix<Dim> sum = Matrix<Dim>::Zero();
     Vector<Dim> direct = Vector<Dim>::Zero();
@@ -118,14 +120,14 @@ LaneTensor<Dim, Real> CcgSweeps<Dim, Real>::sum_capped_jumps(std::int32_t c, dou
         if (arrays_.boundary_index[face] != no_face) continue;
         const Vector<Dim> jumped = unload(jump(c, i));
         const Matrix<Dim> g = gradient_at_face(face);
-        const auto elastic = advances ? capped_->advance(c, i, jumped, g, defect)
-                             : keeps_ ? capped_->start(i, jumped, g)
-                                      : capped_->at(i, jumped, g);
+        const auto elastic = advances         ? capped_->advance(c, i, jumped, g, defect)
+                             : kept_.filled() ? capped_->start(i, jumped, g)
+                                              : capped_->at(i, jumped, g);
         const Vector<Dim> gradient = coefficients_.faces[face].jump_stiffness * elastic.jump;
         direct += gradient;
         sum += gradient * (Vector<Dim>(coefficients_.lever_arms[i].data()) - 0.5 * elastic.lasting).transpose();
     }
-    store(load_packed<Dim>(direct), direct_, c);
+    store(load_packed<Dim>(direct), work_.direct, c);
     return load_packed<Dim>(Matrix<Dim>(coefficients_.cells[c].inverse_measure * sum));
 }
 

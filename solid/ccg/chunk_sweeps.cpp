@@ -65,7 +65,7 @@ Matrix<Dim> CcgSweeps<Dim, Real>::stress_beside(std::int32_t c, const Matrix<Dim
 template <int Dim, class Real>
 void CcgSweeps<Dim, Real>::add_stress_of_material(std::int32_t c) {
     const bool is_directed = arrays_.directed.contains(c);
-    add_stress(c, stress_beside(c, is_directed ? unload(load_tensor<Dim>(g_, c)) : Matrix<Dim>::Zero()));
+    add_stress(c, stress_beside(c, is_directed ? unload(load_tensor<Dim>(work_.g, c)) : Matrix<Dim>::Zero()));
 }
 
 /// Adds what contact adds to the stress of a cell, and what its free face does.
@@ -90,8 +90,9 @@ template <int Dim, class Real>
 double CcgSweeps<Dim, Real>::energy(std::ptrdiff_t c) const {
     const CellGeometry<Dim, Real>& cell = coefficients_.cells[c];
     const bool simplices = arrays_.simplices.contains(c);
-    const auto relative = [&](std::int32_t f) { return load_packed<Dim>(of_face_, f); };
-    const LaneTensor<Dim, Real> g = simplices ? element_.gradient_of(u_.data(), c, relative) : load_tensor<Dim>(g_, c);
+    const auto relative = [&](std::int32_t f) { return load_packed<Dim>(work_.of_face, f); };
+    const LaneTensor<Dim, Real> g =
+        simplices ? element_.gradient_of(work_.u.data(), c, relative) : load_tensor<Dim>(work_.g, c);
     const bool finite = finite_.contains(c);
     const bool has_law = finite_.has_law(c);
     const LaneTensor<Dim, Real> strain = finite ? green_strain(g) : g;
@@ -131,21 +132,20 @@ Matrix<Dim> CcgSweeps<Dim, Real>::stress(std::int32_t c) const {
 
 template <int Dim, class Real>
 void CcgSweeps<Dim, Real>::load_displacement(std::span<const Vector<Dim>> u) {
-    parallel_each(arrays_.n_cells(), [&](std::ptrdiff_t c) { store(load_packed<Dim>(u[c]), u_, c); });
+    parallel_each(arrays_.n_cells(), [&](std::ptrdiff_t c) { store(load_packed<Dim>(u[c]), work_.u, c); });
 }
 
 template <int Dim, class Real>
 void CcgSweeps<Dim, Real>::reconstruct_chunk(std::int32_t k) {
-    for_runs(wanted_.reconstructed[k], [&](std::int32_t f) { store(element_.reconstructed(u_.data(), f), of_face_, f); });
+    for_runs(wanted_.reconstructed[k],
+             [&](std::int32_t f) { store(element_.reconstructed(work_.u.data(), f), work_.of_face, f); });
     const SweepElements<Vectors>& of_rows = takes_end(k) ? end_element_ : element_;
     for (const BoundaryFace b : wanted_.reconstructed_rows[k])
-        store(of_rows.reconstructed_row(u_.data(), b), of_face_, arrays_.face_of(b));
+        store(of_rows.reconstructed_row(work_.u.data(), b), work_.of_face, arrays_.face_of(b));
     if constexpr (takes_finite) {
-        if (!has_change_ || !chunks_[k].has_finite) return;
-        for_runs(wanted_.reconstructed[k],
-                 [&](std::int32_t f) { store(element_.reconstructed(u_change_.data(), f), relative_change_, f); });
-        for (const BoundaryFace b : wanted_.reconstructed_rows[k])
-            store(boundary_change(b), relative_change_, arrays_.face_of(b));
+        if (!change_.of_finite() || !chunks_[k].has_finite) return;
+        for_runs(wanted_.reconstructed[k], [&](std::int32_t f) { change_.reconstruct_finite(f); });
+        for (const BoundaryFace b : wanted_.reconstructed_rows[k]) change_.reconstruct_finite(b);
     }
 }
 
@@ -154,7 +154,7 @@ void CcgSweeps<Dim, Real>::displacement_gradients_of_chunk(std::int32_t k) {
     const auto cells = wanted_.displacement_gradients[k];
     if (chunks_[k].simplices) {
         const auto condensed = wanted_.condensed_gradients[k];
-        for (const auto& [c, b] : condensed) store(Vectors{}, of_face_, arrays_.face_of(b));
+        for (const auto& [c, b] : condensed) store(Vectors{}, work_.of_face, arrays_.face_of(b));
         for_runs(cells, [&](std::int32_t c) { element_.set_simplex_stress(c); });
         for (const CondensedCell& cell : condensed) element_.add_condensed_face(cell);
     } else if (!chunks_[k].has_finite) {
@@ -164,9 +164,9 @@ void CcgSweeps<Dim, Real>::displacement_gradients_of_chunk(std::int32_t k) {
     }
     for (const AffineCell& cell : wanted_.affine_traces[k]) element_.set_any_affine_traces(cell);
     if constexpr (takes_finite)
-        if (steps_ && plastic_ && !chunks_[k].has_finite)
+        if (change_.of_linear() && plastic_ && !chunks_[k].has_finite)
             for_runs(cells, [&](std::int32_t c) {  // for its own stress, and for the jumps of its neighbours
-                if (makes_change(c)) store_tensor(load_packed<Dim>(linear_change(c)), g_change_, c);
+                change_.prepare_gradient(c, !change_.follows() && capped_ && capped_->contains(c));
                 if (plastic_->contains(c)) let_flow(c);
             });
     if (!strain_bounds_.empty()) strain_bounds_[k] = largest_strain_of_chunk(k);
@@ -190,7 +190,7 @@ void CcgSweeps<Dim, Real>::stresses_of_chunk(std::int32_t k) {
     for (const AffineCell& cell : wanted_.affine_gradients[k]) element_.set_any_affine_gradients(cell);
     if constexpr (takes_finite)
         if (!chunks_[k].has_finite) {
-            if (steps_ || plastic_) for_runs(cells, [&](std::int32_t c) { add_linear_stress(c); });
+            if (change_.of_linear() || plastic_) for_runs(cells, [&](std::int32_t c) { add_linear_stress(c); });
             if (has_stress_beside()) for_runs(cells, [&](std::int32_t c) { add_stress_of_material(c); });
         }
     for (const Run& run : cells) add_moments(run.begin, run.end);
@@ -201,10 +201,11 @@ template <int Dim, class Real>
 void CcgSweeps<Dim, Real>::face_gradients_of_chunk(std::int32_t k) {
     const auto faces = wanted_.face_gradients[k];
     if (chunks_[k].simplices)
-        for_runs(faces, [&](std::int32_t f) { store(element_.interior_gradient_of_simplices(f), of_face_, f); });
+        for_runs(faces, [&](std::int32_t f) { store(element_.interior_gradient_of_simplices(f), work_.of_face, f); });
     else
-        for_runs(faces, [&](std::int32_t f) { store(element_.interior_gradient(f), of_face_, f); });
-    for (const BoundaryFace b : wanted_.row_gradients[k]) store(element_.boundary_gradient(b), boundary_y_, number_of(b));
+        for_runs(faces, [&](std::int32_t f) { store(element_.interior_gradient(f), work_.of_face, f); });
+    for (const BoundaryFace b : wanted_.row_gradients[k])
+        store(element_.boundary_gradient(b), work_.boundary_y, number_of(b));
 }
 
 template <int Dim, class Real>

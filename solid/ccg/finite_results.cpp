@@ -16,12 +16,13 @@ void CcgSweeps<Dim, Real>::add_moments(std::int32_t begin, std::int32_t end) {
         Matrix<Dim> added = push.affine;
         if (finite_.shows_condensed(c)) {
             const Matrix<Dim> gradient = push.condensed + push.of_moved_faces;
-            added += (end_.empty() ? pull_back(c, gradient) : kept_.pull_back_contact(c, gradient)) - push.of_moved_faces;
+            added +=
+                (kept_.fills_end() ? kept_.pull_back_contact(c, gradient) : pull_back(c, gradient)) - push.of_moved_faces;
         }
-        LaneTensor<Dim, Real> sum = load_tensor<Dim>(s_, c);
+        LaneTensor<Dim, Real> sum = load_tensor<Dim>(work_.s, c);
         const LaneTensor<Dim> packed = load_packed<Dim>(added);
         for (int j = 0; j < Dim; ++j) sum.col[j] += element_.units.stress(packed.col[j]);
-        store_tensor(sum, s_, c);
+        store_tensor(sum, work_.s, c);
     });
 }
 
@@ -31,7 +32,7 @@ Matrix<Dim> CcgSweeps<Dim, Real>::pull_back(std::int32_t c, const Matrix<Dim>& g
     const FreeCell<Dim>& free = *finite_.free_cell(c);
     const FreeEnd<Dim>& state = free_[finite_.free_position(c)];
     if (free.has_one_normal()) return state.pull_back(gradient);
-    const Matrix<Dim> g = unload(load_tensor<Dim>(g_, c)), change = unload(load_tensor<Dim>(g_change_, c));
+    const Matrix<Dim> g = unload(load_tensor<Dim>(work_.g, c)), change = unload(change_.gradient_of_finite(c));
     return EdgeStep<Dim>(free, poisson(c), {state.swelling, state.swelling}, g, change).pull_back(gradient);
 }
 
@@ -59,7 +60,7 @@ std::pair<Vector<Dim>, Matrix<Dim>> CcgSweeps<Dim, Real>::tilted_face(BoundaryFa
 template <int Dim, class Real>
 Matrix<Dim> CcgSweeps<Dim, Real>::law_gradient(std::int32_t c) const {
     const std::int32_t position = finite_.free_position(c);
-    return position < 0 ? unload(load_tensor<Dim>(g_, c)) : free_[position].least.gradient();
+    return position < 0 ? unload(load_tensor<Dim>(work_.g, c)) : free_[position].least.gradient();
 }
 
 /// At the end of the step, or in the state.
@@ -69,8 +70,8 @@ CellStretch CcgSweeps<Dim, Real>::end_stretch(std::int32_t c) const {
     if (const ThermalStretch* stretch = finite_.stretch(c))
         return cell_stretch<3>(stretch->elastic_gradient<Dim>(law_gradient(c)));
     if (finite_.has_law(c)) return cell_stretch<Dim>(law_gradient(c));
-    LaneTensor<Dim, Real> g = load_tensor<Dim>(g_, c);
-    const LaneTensor<Dim, Real> change = load_tensor<Dim>(g_change_, c);
+    LaneTensor<Dim, Real> g = load_tensor<Dim>(work_.g, c);
+    const LaneTensor<Dim, Real> change = change_.gradient_of_finite(c);
     for (int j = 0; j < Dim; ++j) g.col[j] += 0.5 * change.col[j];
     const FreeCell<Dim>* free = finite_.of_one_normal(c);
     return free ? condensed_stretch<Dim>(*free, contraction(cell.lambda, cell.mu), unload(g)) : cell_stretch<Dim>(unload(g));
@@ -111,8 +112,8 @@ Matrix<Dim> CcgSweeps<Dim, Real>::cauchy_stress(std::int32_t c) const {
         const Matrix<Dim> f = Matrix<Dim>::Identity() + law_gradient(c);
         return law_response(c, law_gradient(c)).stress * f.transpose() / f.determinant();
     }
-    const LaneTensor<Dim, Real> g = load_tensor<Dim>(g_, c);
-    const Matrix<Dim> stress = unload(finite_stress(c, mean_green_strain(g, load_tensor<Dim>(g_change_, c))));
+    const LaneTensor<Dim, Real> g = load_tensor<Dim>(work_.g, c);
+    const Matrix<Dim> stress = unload(finite_stress(c, mean_green_strain(g, change_.gradient_of_finite(c))));
     Matrix<Dim> f = Matrix<Dim>::Identity();
     f += finite_.of_one_normal(c) ? free_[finite_.free_position(c)].gradient() : unload(g);
     return f * stress * f.transpose() / f.determinant();

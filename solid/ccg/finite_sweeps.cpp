@@ -9,118 +9,19 @@
 // What the sweeps do with the cells of bodies of Kinematics::finite. docs/method.md, Bodies that bend.
 
 namespace abut::solid {
-namespace {
-
-/// Marks of what a step does to a cell that remembers. `as_it_was`: it remembers the same as before, and what it answers is
-/// evaluated.
-constexpr char flow = 1, as_it_was = 2;
-
-}  // namespace
-
-template <int Dim, class Real>
-void CcgSweeps<Dim, Real>::load_change(const StepEnds<Dim>& ends) {
-    dt_ = ends.dt;
-    has_change_ = finite_.any() && !finite_.takes_ends() && !ends.start.empty();
-    steps_ = (viscous_ || plastic_) && !ends.start.empty();
-    if (!has_change_ && !steps_) return;
-    load_change_.clear();
-    if (steps_ && ends.start_load && ends.end_load)
-        for (std::size_t b = 0; b < ends.end_load->displacement.size(); ++b)
-            load_change_.push_back(ends.end_load->displacement[b] - ends.start_load->displacement[b]);
-    if (steps_ && viscous_) add_change_of_corrections(ends.change);
-    if (std::ranges::all_of(load_change_, [](const Vector<Dim>& change) { return change.isZero(0.0); }))
-        load_change_.clear();
-    std::atomic<bool> same = plastic_ && follows_last_load(ends) && load_change_.empty();
-    parallel_each(arrays_.n_cells(), [&](std::ptrdiff_t c) {
-        store(load_packed<Dim>(ends.end[c]) - load_packed<Dim>(ends.start[c]), u_change_, c);
-        if (!plastic_) return;
-        if (unload(load_packed<Dim>(u_end_, c)) != ends.start[c]) same.store(false, std::memory_order_relaxed);
-        store(load_packed<Dim>(ends.end[c]), u_end_, c);
-    });
-    follows_ = same;
-}
-
-/// Bonded faces move their cells beside what prescribed displacements do.
-template <int Dim, class Real>
-void CcgSweeps<Dim, Real>::add_change_of_corrections(const FaceCorrections<Dim>& change) {
-    if (!change.faces.empty()) load_change_.resize(arrays_.boundary_faces.size(), Vector<Dim>::Zero());
-    for (std::size_t i = 0; i < change.faces.size(); ++i) {
-        const Vector<Dim>& of_face = change.displacement[i];
-        load_change_[static_cast<std::size_t>(change.faces[i])] += of_face;
-        arrays_.boundary.for_each_answer(change.faces[i], [&](BoundaryFace face, const Matrix<Dim>& answer) {
-            load_change_[static_cast<std::size_t>(face)] += answer * of_face;
-        });
-    }
-}
-
-/// Whether prescribed displacements begin where those of the last step ended.
-template <int Dim, class Real>
-bool CcgSweeps<Dim, Real>::follows_last_load(const StepEnds<Dim>& ends) {
-    static const BoundaryLoad<Dim> none;
-    const bool same = last_ended_ && load_end_ == (ends.start_load ? *ends.start_load : none).displacement;
-    last_ended_ = false;
-    load_end_ = (ends.end_load ? *ends.end_load : none).displacement;
-    return same;
-}
-
-/// Change of û_f - u_c; prescribed displacements do not change.
-template <int Dim, class Real>
-Lanes<Dim, Real> CcgSweeps<Dim, Real>::boundary_change(BoundaryFace face) const {
-    const BoundaryReconstruction<Dim>& boundary = arrays_.boundary;
-    const Lanes<Dim, Real> origin = load_packed<Dim>(u_change_, arrays_.cell_of(face));
-    const std::int32_t b = number_of(face);
-    Lanes<Dim, Real> sum;
-    for (std::int32_t i = boundary.offsets[b]; i < boundary.offsets[b + 1]; ++i)
-        sum += coefficients_.boundary_weights[i] * (load_packed<Dim>(u_change_, boundary.cells[i]) - origin);
-    return sum - load_packed<Dim>(Vector<Dim>(boundary.deficit[b] * unload<Dim>(origin)));
-}
-
-/// As `boundary_change`, with that of prescribed displacements.
-template <int Dim, class Real>
-Lanes<Dim, Real> CcgSweeps<Dim, Real>::face_change(BoundaryFace b) const {
-    const Lanes<Dim, Real> change = boundary_change(b);
-    return load_change_.empty() ? change : change + load_packed<Dim>(load_change_[static_cast<std::size_t>(number_of(b))]);
-}
-
-/// The change of the gradient of a cell whose strains are linear in a step, made for this cell alone: few bodies ask for it.
-template <int Dim, class Real>
-Matrix<Dim> CcgSweeps<Dim, Real>::linear_change(std::int32_t c) const {
-    const auto relative = [&](std::int32_t f) {
-        const BoundaryFace b = arrays_.boundary_index[f];
-        return b == no_face ? element_.reconstructed(u_change_.data(), f) : face_change(b);
-    };
-    return unload(element_.gradient_of(u_change_.data(), c, relative));
-}
-
-/// Whether the change of a cell is made before stresses ask for it: where it surely is, and where it was asked for in
-/// the last step, as what flows mostly goes on. Elsewhere whoever asks makes it, with the same bits.
-template <int Dim, class Real>
-bool CcgSweeps<Dim, Real>::makes_change(std::int32_t c) {
-    const auto i = static_cast<std::size_t>(c);
-    const bool is_needed = !follows_ && capped_ && capped_->contains(c);
-    has_change_made_[i] = is_needed || wants_change_[i] != 0 ? 1 : 0;
-    wants_change_[i] = 0;
-    return has_change_made_[i] != 0;
-}
-
-template <int Dim, class Real>
-Matrix<Dim> CcgSweeps<Dim, Real>::change_of_stage(std::int32_t c) const {
-    return has_change_made_[static_cast<std::size_t>(c)] != 0 ? unload(load_tensor<Dim>(g_change_, c)) : linear_change(c);
-}
-
 template <int Dim, class Real>
 void CcgSweeps<Dim, Real>::add_stress(std::int32_t c, const Matrix<Dim>& added) {
-    LaneTensor<Dim, Real> sum = load_tensor<Dim>(s_, c);
+    LaneTensor<Dim, Real> sum = load_tensor<Dim>(work_.s, c);
     const LaneTensor<Dim, Real> other = load_packed<Dim>(added);
     for (int j = 0; j < Dim; ++j) sum.col[j] += other.col[j];
-    store_tensor(sum, s_, c);
+    store_tensor(sum, work_.s, c);
 }
 
 /// C : eps of a cell whose strains are linear, before its stress has anything beside.
 template <int Dim, class Real>
 Matrix<Dim> CcgSweeps<Dim, Real>::elastic_stress_of_stage(std::int32_t c) const {
-    if (arrays_.simplices.contains(c)) return unload(load_tensor<Dim>(s_, c));
-    return unload(elastic_stress(coefficients_.cells[c], load_tensor<Dim>(g_, c)));
+    if (arrays_.simplices.contains(c)) return unload(load_tensor<Dim>(work_.s, c));
+    return unload(elastic_stress(coefficients_.cells[c], load_tensor<Dim>(work_.g, c)));
 }
 
 /// Lets a cell flow in a step whose middle its gradient is in: jumps look at the flow of both of their cells.
@@ -128,15 +29,15 @@ template <int Dim, class Real>
 void CcgSweeps<Dim, Real>::let_flow(std::int32_t c) {
     if (plastic_->moves_faces(c)) set_push_of_contact(c);
     const Matrix<Dim> elastic = elastic_stress_of_stage(c);
-    if (follows_ && plastic_->stays_elastic(c, elastic)) return;
-    wants_change_[static_cast<std::size_t>(c)] = 1;
-    plastic_->advance(c, elastic, change_of_stage(c), dt_);
+    if (change_.follows() && plastic_->stays_elastic(c, elastic)) return;
+    change_.ask(c);
+    plastic_->advance(c, elastic, change_.gradient(c), dt_);
 }
 
 /// Takes out of the stress of a cell what it lacks by flow, in a step the mean of both ends.
 template <int Dim, class Real>
 void CcgSweeps<Dim, Real>::take_stress_of_flow(std::int32_t c) {
-    if (steps_ && plastic_->flows(c))
+    if (change_.of_linear() && plastic_->flows(c))
         add_stress(c, -plastic_->mean_stress(c));
     else if (plastic_->has_flowed(c))
         add_stress(c, -plastic_->stress(c));
@@ -147,14 +48,14 @@ void CcgSweeps<Dim, Real>::set_push_of_contact(std::int32_t c) {
     Matrix<Dim> moment = Matrix<Dim>::Zero();
     moments_.for_each(c, c + 1, [&](std::int32_t, const CellPush<Dim>& push) { moment = push.affine; });
     plastic_->set_push(
-        c, [&](BoundaryFace b) { return unload<Dim>(load_packed<Dim>(pair_gradient_, number_of(b))); }, moment);
+        c, [&](BoundaryFace b) { return unload<Dim>(load_packed<Dim>(work_.pair_gradient, number_of(b))); }, moment);
 }
 
 /// Adds the stresses of flow and damping to that of a cell whose strains are linear.
 template <int Dim, class Real>
 void CcgSweeps<Dim, Real>::add_linear_stress(std::int32_t c) {
-    if (steps_ && viscous_ && viscous_->contains(c))
-        add_stress(c, viscous_->stress(c, Matrix<Dim>::Zero(), linear_change(c), dt_));
+    if (change_.of_linear() && viscous_ && viscous_->contains(c))
+        add_stress(c, viscous_->stress(c, Matrix<Dim>::Zero(), change_.made_gradient(c), dt_));
     if (plastic_ && plastic_->contains(c)) take_stress_of_flow(c);
 }
 
@@ -170,15 +71,11 @@ LaneTensor<Dim, Real> CcgSweeps<Dim, Real>::finite_stress(std::ptrdiff_t c, cons
 template <int Dim, class Real>
 void CcgSweeps<Dim, Real>::set_finite_displacement_gradient(std::int32_t c) {
     const LaneTensor<Dim, Real> g =
-        element_.gradient_of(u_.data(), c, [&](std::int32_t f) { return load_packed<Dim>(of_face_, f); });
-    LaneTensor<Dim, Real> change{};
-    if (has_change_)
-        change =
-            element_.gradient_of(u_change_.data(), c, [&](std::int32_t f) { return load_packed<Dim>(relative_change_, f); });
-    store_tensor(g, g_, c);
-    store_tensor(change, g_change_, c);
+        element_.gradient_of(work_.u.data(), c, [&](std::int32_t f) { return load_packed<Dim>(work_.of_face, f); });
+    store_tensor(g, work_.g, c);
+    change_.set_gradient_of_finite(c);
     const std::int32_t position = finite_.free_position(c), inelastic = finite_.inelastic(c);
-    if (advances_ && inelastic >= 0) advance(c, inelastic, unload(g));
+    if (kept_.advances() && inelastic >= 0) advance(c, inelastic, unload(g));
     if (position < 0) return element_.set_traces(c, g);
     const FreeCell<Dim>& free = finite_.free()[position];
     const CellGeometry<Dim, Real>& cell = coefficients_.cells[c];
@@ -192,11 +89,12 @@ void CcgSweeps<Dim, Real>::set_finite_displacement_gradient(std::int32_t c) {
             const Matrix<Dim> shape = stretch ? LeastEnergy<Dim>::warm_shape(free, of_plane, unload(g), *stretch)
                                               : LeastEnergy<Dim>::linear_shape(free, of_plane, unload(g));
             state.least = LeastEnergy<Dim>(free, *law, unload(g), shape);
-        } else if (!advances_ || flows_[static_cast<std::size_t>(inelastic)] != as_it_was) {
-            state.least = LeastEnergy<Dim>(free, *law, unload(g), here().memory->shape(inelastic));
+        } else if (!kept_.advances() || fates_[static_cast<std::size_t>(inelastic)] != Fate::stays) {
+            state.least = LeastEnergy<Dim>(free, *law, unload(g), kept_.here().memory->shape(inelastic));
         }
     } else if (free.has_one_normal()) {
-        state.condensed = CondensedStep<Dim>(free, contraction(cell.lambda, cell.mu), unload(g), unload(change));
+        state.condensed =
+            CondensedStep<Dim>(free, contraction(cell.lambda, cell.mu), unload(g), unload(change_.gradient_of_finite(c)));
     }
     element_.set_traces(c, finite_.has_condensed_traces(c) ? load_packed<Dim>(state.gradient()) : g);
 }
@@ -210,19 +108,19 @@ void CcgSweeps<Dim, Real>::advance(std::int32_t c, std::int32_t inelastic, const
     CellMemory<Dim>&start = *kept_.start.memory, &end = *kept_.end.memory;
     const std::span<const double> before = start.of(inelastic);
     const std::span<double> after = end.of(inelastic);
-    char& fate = flows_[static_cast<std::size_t>(inelastic)];
+    Fate& fate = fates_[static_cast<std::size_t>(inelastic)];
     Response<Dim> reached_response;
     const auto advance_to = [&](const Matrix<Dim>& reached) {
         std::ranges::copy(before, after.begin());
         const Advance<Dim> advance = law.advance(reached, dt_, after);
         reached_response = advance.response;
-        fate = advance.dissipates ? flow : 0;
+        fate = advance.dissipates ? Fate::flows : Fate::changes;
     };
     const std::int32_t position = finite_.free_position(c);
     if (position < 0) {
         advance_to(g);
-        if (fate != 0 || !keeps_ || !std::ranges::equal(before, after)) return;
-        fate = as_it_was;
+        if (fate == Fate::flows || !kept_.filled() || !std::ranges::equal(before, after)) return;
+        fate = Fate::stays;
         kept_.end.energy[c] = reached_response.energy;
         return store_tensor(load_packed<Dim>(reached_response.stress), kept_.end.stress, c);
     }
@@ -233,7 +131,7 @@ void CcgSweeps<Dim, Real>::advance(std::int32_t c, std::int32_t inelastic, const
     const LeastEnergy<Dim> at_first(free, end.law(inelastic), g, shape);
     advance_to(at_first.gradient());
     if (std::ranges::equal(before, after)) {
-        if (fate == 0) fate = as_it_was;
+        if (fate == Fate::changes) fate = Fate::stays;
         free_[position].least = at_first;
         return;
     }
@@ -253,21 +151,21 @@ void CcgSweeps<Dim, Real>::set_finite_stress(std::int32_t c) {
         state.pulled_jumps = state.pull_back(state.jumps);
         sum = load_packed<Dim>(state.pulled_jumps);
     }
-    const LaneTensor<Dim, Real> g = load_tensor<Dim>(g_, c);
+    const LaneTensor<Dim, Real> g = load_tensor<Dim>(work_.g, c);
     Response<Dim> of_law;
     if (law(c)) {
         const std::int32_t inelastic = finite_.inelastic(c);
-        const bool is_kept = keeps_ == &kept_.end && finite_.free_position(c) < 0 && inelastic >= 0 &&
-                             flows_[static_cast<std::size_t>(inelastic)] == as_it_was;
-        of_law = is_kept ? Response<Dim>{keeps_->energy[c], unload(load_tensor<Dim>(keeps_->stress, c))}
+        const bool is_kept = kept_.fills_end() && finite_.free_position(c) < 0 && inelastic >= 0 &&
+                             fates_[static_cast<std::size_t>(inelastic)] == Fate::stays;
+        of_law = is_kept ? Response<Dim>{kept_.end.energy[c], unload(load_tensor<Dim>(kept_.end.stress, c))}
                          : law_response(c, unload(g));
         for (int j = 0; j < Dim; ++j) sum.col[j] += load_packed<Dim>(Vector<Dim>(of_law.stress.col(j)));
     } else {
-        const LaneTensor<Dim, Real> stress = finite_stress(c, mean_green_strain(g, load_tensor<Dim>(g_change_, c)));
+        const LaneTensor<Dim, Real> stress = finite_stress(c, mean_green_strain(g, change_.gradient_of_finite(c)));
         for (int j = 0; j < Dim; ++j) sum.col[j] += stress.col[j] + g * stress.col[j];
     }
-    if (keeps_) keep_end(c, of_law, defect, sum);
-    store_tensor(sum, s_, c);
+    if (kept_.filled()) keep_end(c, of_law, defect, sum);
+    store_tensor(sum, work_.s, c);
 }
 
 /// W and P of a cell with a StoredEnergy whose gradient was set last, `g` of affine faces.
@@ -281,14 +179,14 @@ Response<Dim> CcgSweeps<Dim, Real>::law_response(std::int32_t c, const Matrix<Di
 
 template <int Dim, class Real>
 void CcgSweeps<Dim, Real>::take_ends(const StepEnds<Dim>& ends) {
-    load_change(ends);
+    dt_ = ends.dt;
+    change_.begin(ends);
     if (!finite_.takes_ends() || ends.start.empty()) return;
     static const BoundaryLoad<Dim> none;
     const BoundaryLoad<Dim>& start_load = ends.start_load ? *ends.start_load : none;
     const BoundaryLoad<Dim>& end_load = ends.end_load ? *ends.end_load : none;
     begin_step(ends.start, start_load, ends.dt);
-    advances_ = finite_.any_inelastic();
-    looks_at_end_ = advances_;
+    kept_.try_end();
     end_ = ends.end;
     end_element_ = element_;
     end_element_.tables.load_displacement = plain<double>(end_load.displacement);
@@ -296,7 +194,7 @@ void CcgSweeps<Dim, Real>::take_ends(const StepEnds<Dim>& ends) {
     if (finite_.any_warm()) kept_.end.temperature = end_load.temperature;
     kept_.end.is_set = true;
     kept_.clear_contact();
-    keeps_ = &kept_.end;
+    kept_.fill(Fill::end);
 }
 
 /// Takes the start from where the last step ended, if that is here; what materials remember goes on wherever the step
@@ -305,20 +203,19 @@ template <int Dim, class Real>
 void CcgSweeps<Dim, Real>::begin_step(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load, double dt) {
     dt_ = dt;  // contact asks where faces end before the step is made
     if (finite_.any_inelastic()) {
-        if (has_ended_) std::swap(kept_.start, kept_.end);
-        has_ended_ = looks_at_end_ = false;
+        kept_.begin();
     } else if (is_kept(kept_.end, u, load)) {
         return std::swap(kept_.start, kept_.end);
     }
     if (is_kept(kept_.start, u, load)) return;
     set_start(u, load);
-    keeps_ = nullptr;
+    kept_.fill(Fill::nothing);
 }
 
 template <int Dim, class Real>
 void CcgSweeps<Dim, Real>::end_step() {
-    has_ended_ = looks_at_end_ = finite_.any_inelastic();
-    last_ended_ = plastic_ != nullptr;
+    kept_.commit();
+    change_.keep_end();
 }
 
 template <int Dim, class Real>
@@ -327,7 +224,7 @@ void CcgSweeps<Dim, Real>::set_memory(std::span<const double> values) {
         std::ranges::copy(values, kept->memory->values().begin());
         kept->is_set = false;
     }
-    has_ended_ = looks_at_end_ = false;
+    kept_.drop();
 }
 
 template <int Dim, class Real>
@@ -353,26 +250,26 @@ void CcgSweeps<Dim, Real>::set_start(std::span<const Vector<Dim>> u, const Bound
             if (chunks_[k].has_finite) task(k);
         });
     };
-    keeps_ = &kept_.start;
+    kept_.fill(Fill::start);
     each_chunk([&](std::int32_t k) {
         for_runs(wanted_.loaded[k], [&](std::int32_t c) {
-            store(load_packed<Dim>(u[c]), u_, c);
-            store(load_packed<Dim>(u[c]), keeps_->u, c);
+            store(load_packed<Dim>(u[c]), work_.u, c);
+            store(load_packed<Dim>(u[c]), kept_.start.u, c);
         });
     });
     each_chunk([&](std::int32_t k) { reconstruct_chunk(k); });
     each_chunk([&](std::int32_t k) { displacement_gradients_of_chunk(k); });
     each_chunk([&](std::int32_t k) { stresses_of_chunk(k); });
-    keeps_->load_displacement = load.displacement;
-    if (finite_.any_warm()) keeps_->temperature = load.temperature;
-    keeps_->is_set = true;
+    kept_.start.load_displacement = load.displacement;
+    if (finite_.any_warm()) kept_.start.temperature = load.temperature;
+    kept_.start.is_set = true;
 }
 
 template <int Dim, class Real>
 void CcgSweeps<Dim, Real>::load_end(std::int32_t chunk) {
     for_runs(wanted_.loaded[chunk], [&](std::int32_t c) {
-        store(load_packed<Dim>(end_[c]), u_, c);
-        store(load_packed<Dim>(end_[c]), keeps_->u, c);
+        store(load_packed<Dim>(end_[c]), work_.u, c);
+        store(load_packed<Dim>(end_[c]), kept_.end.u, c);
     });
 }
 
@@ -381,34 +278,31 @@ void CcgSweeps<Dim, Real>::load_end(std::int32_t chunk) {
 template <int Dim, class Real>
 void CcgSweeps<Dim, Real>::keep_end(std::int32_t c, const Response<Dim>& of_law, double of_jumps,
                                     LaneTensor<Dim, Real>& sum) {
-    const Lanes<Dim, Real> direct = load_packed<Dim>(direct_, c);
-    store_tensor(load_tensor<Dim>(g_, c), keeps_->g, c);
-    store_tensor(sum, keeps_->s, c);
-    store(direct, keeps_->direct, c);
-    if (finite_.free_cell(c)) keeps_->free[finite_.free_position(c)] = free_[finite_.free_position(c)];
+    KeptEnd<Dim>& kept = *kept_.filled();
+    const Lanes<Dim, Real> direct = load_packed<Dim>(work_.direct, c);
+    store_tensor(load_tensor<Dim>(work_.g, c), kept.g, c);
+    store_tensor(sum, kept.s, c);
+    store(direct, kept.direct, c);
+    if (finite_.free_cell(c)) kept.free[finite_.free_position(c)] = free_[finite_.free_position(c)];
     if (finite_.has_law(c)) {
-        keeps_->energy[c] = of_law.energy;
-        store_tensor(load_packed<Dim>(of_law.stress), keeps_->stress, c);
+        kept.energy[c] = of_law.energy;
+        store_tensor(load_packed<Dim>(of_law.stress), kept.stress, c);
     }
-    if (end_.empty()) return;
+    if (!kept_.fills_end()) return;
     const std::int32_t inelastic = finite_.inelastic(c);
-    kept_.set_defect(c, inelastic >= 0 && flows_[static_cast<std::size_t>(inelastic)] == flow, of_jumps);
+    kept_.set_defect(c, inelastic >= 0 && fates_[static_cast<std::size_t>(inelastic)] == Fate::flows, of_jumps);
     const LaneTensor<Dim, Real> start = load_tensor<Dim>(kept_.start.s, c);
     for (int j = 0; j < Dim; ++j) sum.col[j] = 0.5 * (start.col[j] + sum.col[j]);
-    store(0.5 * (load_packed<Dim>(kept_.start.direct, c) + direct), direct_, c);
-    if (!steps_ || !viscous_ || !viscous_->contains(c)) return;
+    store(0.5 * (load_packed<Dim>(kept_.start.direct, c) + direct), work_.direct, c);
+    if (!change_.of_linear() || !viscous_ || !viscous_->contains(c)) return;
     const std::int32_t position = finite_.free_position(c);
     const FreeCell<Dim>* free = position < 0 ? nullptr : &finite_.free()[static_cast<std::size_t>(position)];
-    const Matrix<Dim> g_0 = unload(load_tensor<Dim>(kept_.start.g, c)), g_1 = unload(load_tensor<Dim>(g_, c));
+    const Matrix<Dim> g_0 = unload(load_tensor<Dim>(kept_.start.g, c)), g_1 = unload(load_tensor<Dim>(work_.g, c));
     const LaneTensor<Dim, Real> added = load_packed<Dim>(viscous_->stress(c, 0.5 * (g_0 + g_1), g_1 - g_0, dt_, free));
     for (int j = 0; j < Dim; ++j) sum.col[j] += added.col[j];
 }
 
 #define ABUT_INSTANTIATE(Dim)                                                                                 \
-    template void CcgSweeps<Dim>::add_change_of_corrections(const FaceCorrections<Dim>&);                     \
-    template Matrix<Dim> CcgSweeps<Dim>::linear_change(std::int32_t) const;                                   \
-    template bool CcgSweeps<Dim>::makes_change(std::int32_t);                                                 \
-    template Matrix<Dim> CcgSweeps<Dim>::change_of_stage(std::int32_t) const;                                 \
     template void CcgSweeps<Dim>::add_stress(std::int32_t, const Matrix<Dim>&);                               \
     template void CcgSweeps<Dim>::let_flow(std::int32_t);                                                     \
     template void CcgSweeps<Dim>::add_linear_stress(std::int32_t);                                            \
@@ -418,8 +312,6 @@ void CcgSweeps<Dim, Real>::keep_end(std::int32_t c, const Response<Dim>& of_law,
     template void CcgSweeps<Dim>::set_memory(std::span<const double>);                                        \
     template void CcgSweeps<Dim>::load_end(std::int32_t);                                                     \
     template Response<Dim> CcgSweeps<Dim>::law_response(std::int32_t, const Matrix<Dim>&) const;              \
-    template Lanes<Dim> CcgSweeps<Dim>::boundary_change(BoundaryFace) const;                                  \
-    template Lanes<Dim> CcgSweeps<Dim>::face_change(BoundaryFace) const;                                      \
     template LaneTensor<Dim> CcgSweeps<Dim>::finite_stress(std::ptrdiff_t, const LaneTensor<Dim>&) const;     \
     template void CcgSweeps<Dim>::set_finite_displacement_gradient(std::int32_t);                             \
     template void CcgSweeps<Dim>::set_finite_stress(std::int32_t);

@@ -79,6 +79,13 @@ struct KeptEnd {
     void resize(std::size_t n_cells, const FiniteCells<Dim>& finite);
 };
 
+/// Where a step stands for cells that remember. Without such cells it is always `begun`.
+enum class StepStage {
+    begun,  ///< they remember its start
+    tried,  ///< its end has been evaluated. It may be evaluated again, or dropped as another step begins
+    ended,  ///< the next step begins with its end
+};
+
 /// Both ends of a step. The end of one is the start of the next, as long as displacements are the same: nothing is evaluated
 /// twice. Displacements and temperatures say all of it, except what inelastic materials remember.
 template <int Dim>
@@ -88,6 +95,41 @@ public:
     KeptEnds(const CcgCoefficients<Dim, double>& coefficients, const FiniteCells<Dim>& finite);
 
     KeptEnd<Dim> start, end;
+
+    // Stages of cells that remember
+
+    [[nodiscard]] StepStage stage() const { return stage_; }
+    /// The end whose memory cells show.
+    [[nodiscard]] const KeptEnd<Dim>& here() const { return stage_ == StepStage::begun ? start : end; }
+    /// Whether evaluating a cell sets what it remembers at the end.
+    [[nodiscard]] bool advances() const { return advances_; }
+    void begin() {
+        if (stage_ == StepStage::ended) std::swap(start, end);
+        stage_ = StepStage::begun;
+    }
+    /// Until `stop_advancing` or `return_to` cells advance to the end.
+    void try_end() {
+        if (!finite_.any_inelastic()) return;
+        stage_ = StepStage::tried;
+        advances_ = true;
+    }
+    void stop_advancing() { advances_ = false; }
+    void return_to(StepStage stage) {
+        stage_ = stage;
+        advances_ = false;
+    }
+    void commit() { stage_ = finite_.any_inelastic() ? StepStage::ended : StepStage::begun; }
+    void drop() { stage_ = StepStage::begun; }
+
+    // Where the sweeps keep what they evaluate
+
+    enum class Fill { nothing, start, end };
+    void fill(Fill fill) { fill_ = fill; }
+    [[nodiscard]] bool fills_end() const { return fill_ == Fill::end; }
+    /// Null: they look at one state.
+    [[nodiscard]] KeptEnd<Dim>* filled() { return fill_ == Fill::nothing ? nullptr : fill_ == Fill::start ? &start : &end; }
+
+    // What both ends tell of a step
 
     /// Both ends of this cell are set. `flows`: its material may have dissipated energy in the step. `of_capped_jumps`:
     /// what these add [J].
@@ -114,6 +156,9 @@ private:
 
     const CcgCoefficients<Dim, double>& coefficients_;
     const FiniteCells<Dim>& finite_;
+    StepStage stage_ = StepStage::begun;
+    bool advances_ = false;
+    Fill fill_ = Fill::nothing;
     LargeArray<double> defects_;               // by cell: energy, moment
     std::vector<StepDefect<Dim>> of_contact_;  // over |c|, by position in FiniteCells::free; empty without a StoredEnergy
     std::vector<dynamics::Losses> losses_;     // by FiniteCells::inelastic

@@ -32,10 +32,10 @@ double CcgSweeps<Dim, Real>::largest_strain_of_chunk(std::int32_t k) const {
         return std::sqrt(largest);
     };
     const auto norm = [](const auto& tensor) { return squared_norm<Dim>(tensor); };
-    if (chunks_[k].has_finite) return largest_of(g_, [](const auto& g) { return squared_green_strain<Dim>(g); });
-    if (!chunks_[k].simplices) return largest_of(g_, norm);
+    if (chunks_[k].has_finite) return largest_of(work_.g, [](const auto& g) { return squared_green_strain<Dim>(g); });
+    if (!chunks_[k].simplices) return largest_of(work_.g, norm);
     const auto& [inverse_measure, lambda, mu] = coefficients_.cells[chunks_[k].cell];  // all are of one material
-    return largest_of(s_, norm) / (2.0 * mu + std::min(0.0, double{Dim} * lambda));
+    return largest_of(work_.s, norm) / (2.0 * mu + std::min(0.0, double{Dim} * lambda));
 }
 
 template <int Dim, class Real>

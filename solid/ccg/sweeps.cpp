@@ -29,49 +29,21 @@ CcgSweeps<Dim, Real>::CcgSweeps(const CcgArrays<Dim>& arrays, const CcgCoefficie
     : arrays_(arrays),
       coefficients_(coefficients),
       finite_(finite),
+      work_(arrays),
       kept_(arrays, finite),
+      change_(arrays, coefficients, element_,
+              {.finite = finite.any() && !finite.takes_ends(),
+               .damped = viscous && viscous->any(),
+               .metal = plastic && plastic->any(),
+               .shows_gradients = finite.any()}),
       viscous_(viscous && viscous->any() ? viscous : nullptr),
       plastic_(plastic && plastic->any() ? plastic : nullptr),
       capped_(capped && capped->any() ? capped : nullptr),
       thermal_(thermal) {
-    constexpr std::size_t width = lane_width<Dim>;
-    u_.resize(width * arrays.cells.size());
-    of_face_.resize(width * arrays.faces.size());
-    if (!arrays.simplices.all()) {
-        g_.resize(width * Dim * arrays.cells.size());
-        trace_.resize(width * arrays.half_faces.size());
-    }
-    s_.resize(width * Dim * arrays.cells.size());
-    deviation_.resize(width * arrays.cells.size());
-    direct_.resize(width * arrays.cells.size());
-    boundary_y_.resize(width * arrays.boundary_faces.size());
-    affine_y_.resize(width * arrays.affine.faces.size());
-    correction_.resize(width * arrays.boundary_faces.size());
-    pair_gradient_.resize(width * arrays.boundary_faces.size());
     free_.resize(finite.free().size());
-    if (finite.any() || plastic_) g_change_.resize(s_.size());
-    if (plastic_) {
-        wants_change_.assign(arrays.cells.size(), 0);
-        has_change_made_ = wants_change_;
-    }
-    flows_.resize(finite.n_inelastic());
-    const bool has_gradients = finite.any() && !finite.takes_ends();
-    if (has_gradients || viscous_ || plastic_) u_change_.resize(u_.size());
-    if (plastic_) u_end_.resize(u_.size());
-    if (has_gradients) relative_change_.resize(of_face_.size());
+    fates_.resize(finite.n_inelastic());
     element_ = {tables_of(arrays, coefficients), coefficients.units};
-    SweepTables<Dim, Real>& tables = element_.tables;
-    tables.u = Table<double>(u_);
-    tables.of_face = Table<Real>(of_face_);
-    tables.g = Table<Real>(g_);
-    tables.trace = Table<Real>(trace_);
-    tables.s = Table<Real>(s_);
-    tables.deviation = Table<Real>(deviation_);
-    tables.direct = Table<Real>(direct_);
-    tables.boundary_y = Table<Real>(boundary_y_);
-    tables.affine_y = Table<Real>(affine_y_);
-    tables.correction = Table<Real>(correction_);
-    tables.pair_gradient = Table<Real>(pair_gradient_);
+    work_.set(element_.tables);
     set_chunks();
 }
 
@@ -91,7 +63,7 @@ void CcgSweeps<Dim, Real>::set_load(const BoundaryLoad<Dim>& load) {
 template <int Dim, class Real>
 void CcgSweeps<Dim, Real>::gradient(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load,
                                     const FaceCorrections<Dim>& corrections, std::span<Vector<Dim>> result) {
-    run_sweeps([&](std::ptrdiff_t c) { store(load_packed<Dim>(u[c]), u_, c); }, load, corrections, result);
+    run_sweeps([&](std::ptrdiff_t c) { store(load_packed<Dim>(u[c]), work_.u, c); }, load, corrections, result);
 }
 
 template <int Dim, class Real>
@@ -99,7 +71,7 @@ void CcgSweeps<Dim, Real>::mean_gradient(const StepEnds<Dim>& ends, const Bounda
                                          const FaceCorrections<Dim>& corrections, std::span<Vector<Dim>> result) {
     if constexpr (takes_finite) take_ends(ends);
     const auto load_midpoint = [&](std::ptrdiff_t c) {
-        store(0.5 * (load_packed<Dim>(ends.start[c]) + load_packed<Dim>(ends.end[c])), u_, c);
+        store(0.5 * (load_packed<Dim>(ends.start[c]) + load_packed<Dim>(ends.end[c])), work_.u, c);
     };
     run_sweeps(load_midpoint, load, corrections, result);
 }
@@ -108,13 +80,13 @@ template <int Dim, class Real>
 void CcgSweeps<Dim, Real>::gradient_of_packed(LargeArray<double>& u, const BoundaryLoad<Dim>& load,
                                               const FaceCorrections<Dim>& corrections, std::span<Vector<Dim>> result,
                                               const StepEnds<Dim>& ends) {
-    std::swap(u_, u);
-    element_.tables.u = Table<double>(u_);
+    std::swap(work_.u, u);
+    element_.tables.u = Table<double>(work_.u);
     if constexpr (takes_finite) take_ends(ends);
     run_sweeps([](std::ptrdiff_t) {}, load, corrections, result);
 }
 
-/// load_cell(c) sets u_ of a cell.
+/// load_cell(c) sets work_.u of a cell.
 template <int Dim, class Real>
 template <class LoadCell>
 void CcgSweeps<Dim, Real>::run_sweeps(const LoadCell& load_cell, const BoundaryLoad<Dim>& load,
@@ -139,10 +111,10 @@ void CcgSweeps<Dim, Real>::run_sweeps(const LoadCell& load_cell, const BoundaryL
                 return cell_gradients_of_chunk(chunk, result);
         }
     });
-    has_change_ = steps_ = follows_ = false;
-    keeps_ = nullptr;
+    change_.leave();
+    kept_.fill(Fill::nothing);
+    kept_.stop_advancing();
     end_ = {};
-    advances_ = false;
 }
 
 template <int Dim, class Real>
@@ -163,7 +135,7 @@ template <int Dim, class Real>
 void CcgSweeps<Dim, Real>::boundary_displacement(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load,
                                                  std::span<Vector<Dim>> displacement) {
     set_load(load);
-    LargeArray<double> packed(u_.size());  // u_ is of the last gradient
+    LargeArray<double> packed(work_.u.size());  // work_.u is of the last gradient
     parallel_each(arrays_.n_cells(), [&](std::ptrdiff_t c) { store(load_packed<Dim>(u[c]), packed, c); });
     parallel_each(arrays_.n_boundary(), [&](std::ptrdiff_t b) {
         const auto face = static_cast<BoundaryFace>(b);
@@ -177,10 +149,12 @@ template <int Dim, class Real>
 void CcgSweeps<Dim, Real>::evaluate_to_displacement_gradients(const Region<Dim>& region, std::span<const Vector<Dim>> u,
                                                               const BoundaryLoad<Dim>& boundary_load) {
     set_load(boundary_load);
-    for_all(region.input_cells, [&](std::int32_t c) { store(load_packed<Dim>(u[c]), u_, c); });
-    for_all(region.reconstructed, [&](std::int32_t f) { store(element_.reconstructed(u_.data(), f), of_face_, f); });
-    for_all(region.reconstructed_boundary,
-            [&](BoundaryFace b) { store(element_.reconstructed_row(u_.data(), b), of_face_, arrays_.face_of(b)); });
+    for_all(region.input_cells, [&](std::int32_t c) { store(load_packed<Dim>(u[c]), work_.u, c); });
+    for_all(region.reconstructed,
+            [&](std::int32_t f) { store(element_.reconstructed(work_.u.data(), f), work_.of_face, f); });
+    for_all(region.reconstructed_boundary, [&](BoundaryFace b) {
+        store(element_.reconstructed_row(work_.u.data(), b), work_.of_face, arrays_.face_of(b));
+    });
     for_all(region.displacement_gradient_cells, [&](std::int32_t c) { set_any_displacement_gradient(c); });
 }
 
@@ -188,11 +162,10 @@ template <int Dim, class Real>
 void CcgSweeps<Dim, Real>::evaluate_tilted_faces(const Region<Dim>& region, std::span<const Vector<Dim>> u,
                                                  const BoundaryLoad<Dim>& boundary_load, std::span<Vector<Dim>> displacement,
                                                  std::span<Matrix<Dim>> gradient, StepState state) {
-    const bool looked_at_end = looks_at_end_;
-    if (state == StepState::end && finite_.any_inelastic()) looks_at_end_ = advances_ = true;
+    const StepStage stage = kept_.stage();
+    if (state == StepState::end) kept_.try_end();
     evaluate_to_displacement_gradients(region, u, boundary_load);
-    looks_at_end_ = looked_at_end;
-    advances_ = false;
+    kept_.return_to(stage);
     parallel_each(
         std::ssize(region.faces),
         [&](std::ptrdiff_t i) { std::tie(displacement[i], gradient[i]) = tilted_face(region.faces[i]); }, region_grain);
@@ -220,7 +193,7 @@ void CcgSweeps<Dim, Real>::evaluate_cells(const Region<Dim>& region, std::span<c
                                           std::span<Vector<Dim>> result) {
     const auto placed_corrections = placed(corrections);
     set_load(boundary_load);
-    for_all(region.input_cells, [&](std::int32_t c) { store(load_packed<Dim>(u[c]), u_, c); });
+    for_all(region.input_cells, [&](std::int32_t c) { store(load_packed<Dim>(u[c]), work_.u, c); });
     const auto task = [&](int stage, std::int32_t k) { run_task(region, stage, k, result); };
     if (region.chunks.size() == chunks_.size()) return schedule_.run(task);
     for (int stage = 0; stage < n_stages; ++stage) task(stage, 0);
@@ -237,9 +210,9 @@ void CcgSweeps<Dim, Real>::run_task(const Region<Dim>& region, int stage, std::i
             return;
         case reconstruction:
             each(region.reconstructed, &Offsets::reconstructed,
-                 [&](std::int32_t f) { store(element_.reconstructed(u_.data(), f), of_face_, f); });
+                 [&](std::int32_t f) { store(element_.reconstructed(work_.u.data(), f), work_.of_face, f); });
             return each(region.reconstructed_boundary, &Offsets::reconstructed_boundary, [&](BoundaryFace b) {
-                store(element_.reconstructed_row(u_.data(), b), of_face_, arrays_.face_of(b));
+                store(element_.reconstructed_row(work_.u.data(), b), work_.of_face, arrays_.face_of(b));
             });
         case displacement_gradients:
             return each(region.displacement_gradient_cells, &Offsets::displacement_gradient_cell, [&](std::int32_t c) {
@@ -255,7 +228,7 @@ void CcgSweeps<Dim, Real>::run_task(const Region<Dim>& region, int stage, std::i
             each(region.energy_gradient_faces, &Offsets::energy_gradient_face,
                  [&](std::int32_t f) { element_.set_any_face_gradient(f); });
             return each(region.faces, &Offsets::face,
-                        [&](BoundaryFace b) { store(element_.boundary_gradient(b), boundary_y_, number_of(b)); });
+                        [&](BoundaryFace b) { store(element_.boundary_gradient(b), work_.boundary_y, number_of(b)); });
         default:
             for (std::int32_t i = region.chunks[k].cell; i < region.chunks[k + 1].cell; ++i) {
                 const std::int32_t c = region.cells[i];

@@ -12,6 +12,7 @@
 #include "abut/solid/ccg/capped_jumps.hpp"
 #include "abut/solid/ccg/ccg.hpp"
 #include "abut/solid/ccg/cell_moments.hpp"
+#include "abut/solid/ccg/change_in_step.hpp"
 #include "abut/solid/ccg/finite_cells.hpp"
 #include "abut/solid/ccg/kept_ends.hpp"
 #include "abut/solid/ccg/placed_corrections.hpp"
@@ -21,6 +22,7 @@
 #include "abut/solid/ccg/sweep_schedule.hpp"
 #include "abut/solid/ccg/thermal_cells.hpp"
 #include "abut/solid/ccg/viscous_cells.hpp"
+#include "abut/solid/ccg/work_arrays.hpp"
 
 namespace abut::solid {
 
@@ -83,8 +85,8 @@ public:
     /// See Ccg.
     void begin_step(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load, double dt);
     void end_step();
-    [[nodiscard]] std::span<const double> memory_of(std::int32_t index) const { return here().memory->of(index); }
-    [[nodiscard]] std::span<const double> memory() const { return here().memory->values(); }
+    [[nodiscard]] std::span<const double> memory_of(std::int32_t index) const { return kept_.here().memory->of(index); }
+    [[nodiscard]] std::span<const double> memory() const { return kept_.here().memory->values(); }
     void set_memory(std::span<const double> values);
     /// F - I of a cell with a law of its own, its free faces where its energy is least.
     [[nodiscard]] Matrix<Dim> law_gradient(std::int32_t c) const;
@@ -94,16 +96,17 @@ public:
     [[nodiscard]] std::vector<std::int32_t> strained_beyond(std::span<const double> limit_of_body) const;
     [[nodiscard]] StepDefect<Dim> step_defect(std::int32_t cell, const Vector<Dim>& arm) const {
         StepDefect<Dim> defect = kept_.defect(cell);
-        defect.moment += moment<Dim>(arm, Vector<Dim>(unload(load_packed<Dim>(direct_, cell))));
+        defect.moment += moment<Dim>(arm, Vector<Dim>(unload(load_packed<Dim>(work_.direct, cell))));
         return defect;
     }
 
     // Of the last call; displacement gradients and stresses of simplices are made from face and cell displacements.
     [[nodiscard]] Vector<Dim> face_displacement(BoundaryFace b) const {
-        return unload<Dim>(load_packed<Dim>(of_face_, arrays_.face_of(b)) + load_packed<Dim>(u_, arrays_.cell_of(b)));
+        return unload<Dim>(load_packed<Dim>(work_.of_face, arrays_.face_of(b)) +
+                           load_packed<Dim>(work_.u, arrays_.cell_of(b)));
     }
     [[nodiscard]] Vector<Dim> face_gradient(BoundaryFace b) const {
-        return unload<Dim>(element_.units.in_newtons(in_double(load_packed<Dim>(boundary_y_, number_of(b)))));
+        return unload<Dim>(element_.units.in_newtons(in_double(load_packed<Dim>(work_.boundary_y, number_of(b)))));
     }
     [[nodiscard]] Matrix<Dim> displacement_gradient(std::int32_t c) const { return unload(present_gradient(c)); }
     [[nodiscard]] Matrix<Dim> stress(std::int32_t c) const;
@@ -126,6 +129,14 @@ private:
     static constexpr bool takes_finite = std::is_same_v<Real, double>;
     using Vectors = Lanes<Dim, Real>;
     using Tensor = LaneTensor<Dim, Real>;
+
+    using Fill = typename KeptEnds<Dim>::Fill;
+    /// What a step does to a cell that remembers.
+    enum class Fate : char {
+        changes,  // it remembers something else, and dissipates nothing
+        flows,    // it dissipates
+        stays     // it remembers the same, and what it answers is evaluated
+    };
 
     enum Stage { loading, reconstruction, displacement_gradients, stresses, face_gradients, cell_gradients, n_stages };
     /// Chunk of one body, with its begin among the cells, faces and boundary faces.
@@ -150,30 +161,19 @@ private:
     void answer_to_corrections(std::int32_t c);
 
     // One element of a finite body
-    /// The end whose memory is looked at.
-    [[nodiscard]] const KeptEnd<Dim>& here() const { return looks_at_end_ ? kept_.end : kept_.start; }
     /// The stored energy of a cell; null: its material is St. Venant and Kirchhoff's.
     [[nodiscard]] const StoredEnergy<Dim>* law(std::ptrdiff_t cell) const {
         const std::int32_t inelastic = finite_.inelastic(cell);
-        return inelastic < 0 ? finite_.elastic_law(cell) : &here().memory->law(inelastic);
+        return inelastic < 0 ? finite_.elastic_law(cell) : &kept_.here().memory->law(inelastic);
     }
     void advance(std::int32_t c, std::int32_t inelastic, const Matrix<Dim>& g);
     [[nodiscard]] Tensor finite_stress(std::ptrdiff_t c, const Tensor& strain) const;
     [[nodiscard]] Response<Dim> law_response(std::int32_t c, const Matrix<Dim>& g) const;
     void keep_end(std::int32_t c, const Response<Dim>& of_law, double of_jumps, Tensor& sum);
     [[nodiscard]] CellStretch end_stretch(std::int32_t c) const;
-    [[nodiscard]] Vectors boundary_change(BoundaryFace b) const;
-    [[nodiscard]] Vectors face_change(BoundaryFace b) const;
     void set_finite_displacement_gradient(std::int32_t c);
     void set_finite_stress(std::int32_t c);
-    void load_change(const StepEnds<Dim>& ends);
-    void add_change_of_corrections(const FaceCorrections<Dim>& change);
-    [[nodiscard]] Matrix<Dim> linear_change(std::int32_t c) const;
-    [[nodiscard]] bool makes_change(std::int32_t c);
-    [[nodiscard]] Matrix<Dim> change_of_stage(std::int32_t c) const;
     void add_stress(std::int32_t c, const Matrix<Dim>& added);
-    /// Whether a step begins where the last one ended, so that what its cells remember of that end holds.
-    [[nodiscard]] bool follows_last_load(const StepEnds<Dim>& ends);
     [[nodiscard]] Matrix<Dim> elastic_stress_of_stage(std::int32_t c) const;
     void let_flow(std::int32_t c);
     void take_stress_of_flow(std::int32_t c);
@@ -185,7 +185,7 @@ private:
     void set_start(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load);
     void load_end(std::int32_t chunk);
     /// Whether its cells are where the step ends, and not in its middle.
-    [[nodiscard]] bool takes_end(std::int32_t chunk) const { return !end_.empty() && chunks_[chunk].has_finite; }
+    [[nodiscard]] bool takes_end(std::int32_t chunk) const { return kept_.fills_end() && chunks_[chunk].has_finite; }
     void add_moments(std::int32_t begin, std::int32_t end);
     [[nodiscard]] Matrix<Dim> pull_back(std::int32_t c, const Matrix<Dim>& gradient) const;
     [[nodiscard]] double poisson(std::int32_t c) const;
@@ -229,45 +229,26 @@ private:
     const CcgArrays<Dim>& arrays_;
     const CcgCoefficients<Dim, Real>& coefficients_;
     const FiniteCells<Dim>& finite_;
-    // Work arrays: SweepTables.
-    LargeArray<double> u_;
-    LargeArray<Real> of_face_, g_, trace_, s_, deviation_, direct_, boundary_y_, affine_y_, correction_, pair_gradient_;
+    WorkArrays<Dim, Real> work_;
     SweepElements<Vectors> element_;  // of these arrays
     CellMoments<Dim> moments_;        // empty except during a call
-    // Of finite bodies.
-    std::vector<FreeEnd<Dim>> free_;  // by position in FiniteCells::free
-    // Where their mean force is that of both ends
-    KeptEnds<Dim> kept_;
-    KeptEnd<Dim>* keeps_ = nullptr;       // what the sweeps fill; null: they look at one state
-    std::span<const Vector<Dim>> end_;    // of the cells, where the sweeps fill the end of a step; else empty
+    // Of finite bodies
+    std::vector<FreeEnd<Dim>> free_;      // by position in FiniteCells::free
+    KeptEnds<Dim> kept_;                  // where their mean force is that of both ends
+    std::span<const Vector<Dim>> end_;    // of the cells, while the end of a step is filled
     SweepElements<Vectors> end_element_;  // `element_` with the load at the end
-    // Of inelastic materials
-    bool looks_at_end_ = false;  // at kept_.end: where the last step has ended, or while it is filled
-    bool advances_ = false;      // while it is filled
-    bool has_ended_ = false;     // the last step has, and the next one begins with kept_.end
-    std::vector<char> flows_;    // of each at the end: whether it dissipates
-    // Elsewhere: changes from the start of a step to its end
-    LargeArray<double> u_change_;
-    LargeArray<Real> relative_change_;
-    LargeArray<Real> g_change_;
-    bool has_change_ = false;
-    // Of damped materials, and of linear ones that flow; null where there are none
+    std::vector<Fate> fates_;             // at the end, by FiniteCells::inelastic
+    // Elsewhere
+    ChangeInStep<Dim, Real> change_;
+    double dt_ = 0.0;  // of the last step [s]
+    // Null where there are none
     ViscousCells<Dim>* viscous_;
     PlasticCells<Dim>* plastic_;
     CappedJumps<Dim>* capped_;
     const ThermalCells<Dim>* thermal_;
     std::vector<double> temperature_;    // BoundaryLoad::temperature of the last call
-    bool steps_ = false;                 // while the sweeps make a step of theirs
-    bool follows_ = false;               // that step begins where the last one ended
-    std::vector<char> wants_change_;     // cells of `plastic_` that asked for the change of their gradient in the last step
-    std::vector<char> has_change_made_;  // cells whose change is in g_change_
-    bool last_ended_ = false;            // u_end_ is where a step has ended
-    LargeArray<double> u_end_;           // of the last step; empty without `plastic_`
-    std::vector<Vector<Dim>> load_end_;  // BoundaryLoad::displacement there
-    double dt_ = 0.0;                    // of that
-    std::vector<Vector<Dim>> load_change_;  // of û in it beside that by cells; empty: none
-    std::vector<Chunk> chunks_;             // one more at the end
-    std::vector<double> strain_bounds_;     // by chunk, of the last call [-]; empty: nobody asks
+    std::vector<Chunk> chunks_;          // one more at the end
+    std::vector<double> strain_bounds_;  // by chunk, of the last call [-]; empty: nobody asks
     SweepLists wanted_;
     SweepSchedule<n_stages> schedule_;
 };
