@@ -199,7 +199,7 @@ double Solid<Dim>::energy_lost_by(std::span<const BondChange> changes, const End
     return to_middle + energy_at_end(When::middle) - energy_at_end(When::end);
 }
 
-/// What these places lose in the step. Those with a fracture energy open so that it is what their laws take.
+/// Energy that these places lose in the step. Those with a fracture energy open so that it is what their laws take.
 template <int Dim>
 double Solid<Dim>::open(std::vector<BondChange>& changes, const Ends& ends, const BoundaryLoad<Dim>& start_load) {
     const double by_law = bonds_->energy_by_law(changes);

@@ -150,7 +150,7 @@ private:
         ++report_.orderings;
     }
 
-    /// That of the faces that may be in pairs.
+    /// Takes the order of the faces that may be in pairs.
     void take_order() {
         if (!std::exchange(has_new_order_, false) && left_out_.empty() && order_.faces.size() == order_of_all_.faces.size())
             return;

@@ -47,8 +47,8 @@ struct BondChange {
     return left > 0.0 ? left / (left + opening * 2.0 * fracture_energy / strength * stiffness) : 0.0;
 }
 
-/// The share of the mean force of a step. Whole, the place holds `held_0` at its start and `held_1` at its end [J/m^2]. What it
-/// loses as its share falls to the middle at the start, and from there at the end, is `taken` [J/m^2] if that lies between
+/// The share of the mean force of a step. Whole, the place holds `held_0` at its start and `held_1` at its end [J/m^2]. As
+/// its share falls to the middle at the start, and from there at the end, it loses `taken` [J/m^2], if that lies between
 /// what it would lose at either end.
 [[nodiscard]] inline double middle_share(double start, double end, double held_0, double held_1, double taken) {
     if (held_1 <= held_0) return 0.5 * (start + end);

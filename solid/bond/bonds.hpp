@@ -124,8 +124,8 @@ public:
     /// Whether a place broke in the last step that has ended so.
     [[nodiscard]] bool any_broke() const { return any_broke_; }
     [[nodiscard]] double share(std::size_t place) const { return share_[place]; }
-    /// Energy that places with a fracture energy have lost beyond what belongs to their openings; less than 0: they have lost
-    /// less [J].
+    /// Energy that places with a fracture energy have lost beyond what belongs to their openings; less than 0: they have
+    /// lost less [J].
     [[nodiscard]] double beyond_law() const;
     /// Number of the first body that has the same frame, of each that deforms (n_bodies): as places of Bond::of_grains
     /// hold now.
