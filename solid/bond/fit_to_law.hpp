@@ -32,12 +32,12 @@ void find_root(double a, double at_a, double b, double at_b, double tolerance, c
 }
 
 /// Opens places so that what they lose together is what their laws take, to 1e-3 of it: by the share of their mean force,
-/// and where that is not enough by how far they open. `excess(opening)` opens them so, and returns what is lost beyond
+/// and where they lose too little even so by opening less. `excess(opening)` opens them so, and returns what is lost beyond
 /// that, over what laws take of openings of 1 [-]. It is called last with the opening that is chosen: the nearest, if none
 /// fits. `slopes`: by how much it grows with the middle towards 1 and -1, if no place knew of another one.
 template <class Excess>
 void fit_to_law(const Excess& excess, const std::array<double, 2>& slopes) {
-    constexpr double tolerance = 1e-3, least_extent = 0.125, most_extent = 8.0;
+    constexpr double tolerance = 1e-3, least_extent = 0.125;
     const double alone = excess(BondOpening{});
     if (std::abs(alone) <= tolerance) return;
     const double end = alone < 0.0 ? 1.0 : -1.0;  // with the share of the start most is lost
@@ -53,10 +53,10 @@ void fit_to_law(const Excess& excess, const std::array<double, 2>& slopes) {
         find_root(guess, at_guess, 1.0, at_end, tolerance, by_middle);
         return;
     }
-    if (std::abs(at_end) <= tolerance) return;
+    if (at_end >= -tolerance) return;  // opening further would take more, and makes steps unstable
     const auto by_extent = [&](double extent) { return excess(BondOpening{.extent = extent, .middle = end}); };
-    const double extent = end > 0.0 ? least_extent : most_extent, at_extent = by_extent(extent);
-    if (alone * at_extent <= 0.0) find_root(1.0, at_end, extent, at_extent, tolerance, by_extent);
+    const double at_extent = by_extent(least_extent);
+    if (at_extent >= 0.0) find_root(1.0, at_end, least_extent, at_extent, tolerance, by_extent);
 }
 
 }  // namespace abut::solid
