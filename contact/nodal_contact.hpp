@@ -40,6 +40,9 @@ struct NodalOptions {
     /// between two searches. A pair of two bodies that lies inside of each other when it is wanted for the first time is a
     /// contact whose overlap at that moment does not act, until it has been apart.
     std::function<bool(Face, Face)> wanted;
+    /// Which faces of the host nothing can touch, as between bodies that are bonded there; empty: none. They cost a search
+    /// nothing. What it says may change between two searches, and pairs of a face that is laid bare are wanted from then on.
+    std::function<bool(Face)> covered;
 };
 
 /// n_1 . n_2 at which the weight of a pair is a quarter: what looks at each other less is pressed in deeper than others, or

@@ -95,6 +95,7 @@ struct RunBonds {
     std::vector<solid::BondCoverage> coverage;    ///< of each of SolidOptions::bonds
     std::vector<solid::Fragment<Dim>> fragments;  ///< at the end; empty where no bond may break
     double broken_share = 0.0;                    ///< BondView::broken_share at the end [-]
+    double beyond_fracture_energy = 0.0;          ///< BondView::beyond_fracture_energy at the end [J]
 };
 
 /// Observations that warnings come from.

@@ -42,6 +42,11 @@ double BondView<Dim>::broken_share() const {
     return all > 0.0 ? broken / all : 0.0;
 }
 
+template <int Dim>
+double BondView<Dim>::beyond_fracture_energy() const {
+    return solid_.bonds_->beyond_law();
+}
+
 template class BondView<2>;
 template class BondView<3>;
 

@@ -25,6 +25,9 @@ public:
     [[nodiscard]] double share(std::size_t place) const;
     /// Share of the area of all bonds that is broken [-]; 0 without bonds.
     [[nodiscard]] double broken_share() const;
+    /// Energy that places with a fracture energy have dissipated beyond what they should for how far they are open [J]; less
+    /// than 0 where they have dissipated less.
+    [[nodiscard]] double beyond_fracture_energy() const;
 
 private:
     const Solid<Dim>& solid_;

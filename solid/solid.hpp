@@ -256,6 +256,7 @@ private:
     [[nodiscard]] std::vector<BondChange> bonds_that_give_way(const Ends& ends, const BoundaryLoad<Dim>& start_load);
     [[nodiscard]] double energy_lost_by(std::span<const BondChange> changes, const Ends& ends,
                                         const BoundaryLoad<Dim>& start_load);
+    [[nodiscard]] double open(std::vector<BondChange>& changes, const Ends& ends, const BoundaryLoad<Dim>& start_load);
     void flow_faces(std::span<const Vector<Dim>> q_1);
     void end_step(double time);
     void book_losses();

@@ -18,7 +18,7 @@
 namespace abut::solid {
 namespace {
 
-constexpr std::uint32_t version = 9;
+constexpr std::uint32_t version = 10;
 
 template <int Dim>
 std::string kind() {

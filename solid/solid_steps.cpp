@@ -1,5 +1,6 @@
 // The steps of a solid: all cells with one, or each level of them with its own.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "abut/solid/body/bodies.hpp"
 #include "abut/solid/body/trapezoid_closure.hpp"
 #include "abut/solid/bond/bonds.hpp"
+#include "abut/solid/bond/fit_to_law.hpp"
 #include "abut/solid/ccg/largest_motion.hpp"
 #include "abut/solid/contact/contact_driver.hpp"
 #include "abut/solid/load/frame_loads.hpp"
@@ -101,19 +103,20 @@ void Solid<Dim>::mean_force(std::span<const double> q_0, std::span<const double>
 }
 
 /// Follows the bonds along the step. What of them opens takes energy together; the rest waits for the next step. Shares are
-/// the mean of both ends.
+/// those of the mean force.
 template <int Dim>
 std::vector<BondChange> Solid<Dim>::bonds_that_give_way(const Ends& ends, const BoundaryLoad<Dim>& start_load) {
     bonds_->follow(ends.start, start_load, ends.end, loads_->end());
     std::vector<BondChange> changes = bonds_->changes();
     if (changes.empty()) return changes;
-    double lost = energy_lost_by(changes, ends, start_load);
+    double lost = open(changes, ends, start_load);
     while (lost < 0.0) {
         bonds_->set_shares(changes, Bonds<Dim>::When::start);
         keep_half_that_falls_most(changes);
-        lost = changes.empty() ? 0.0 : energy_lost_by(changes, ends, start_load);
+        lost = changes.empty() ? 0.0 : open(changes, ends, start_load);
     }
     dissipated_.in_bonds += lost;
+    bonds_->share_loss(lost, changes);
     bonds_->set_shares(changes, Bonds<Dim>::When::middle);
     static_cast<void>(follow_frames(of_cells(ends.start), of_cells(ends.end)));
     bonds_->follow(ends.start, start_load, ends.end, loads_->end());
@@ -175,7 +178,7 @@ void Solid<Dim>::end_force(std::span<const double> q_0, std::span<const double> 
     finish_step({u_0, u_1}, time, dt, contact::TakenForce::end, 0.5, gradient, force);
 }
 
-/// By the change of their shares to the mean in the step where it starts, and from there where it ends.
+/// By the change of their shares to the middle one in the step where it starts, and from there where it ends.
 template <int Dim>
 double Solid<Dim>::energy_lost_by(std::span<const BondChange> changes, const Ends& ends,
                                   const BoundaryLoad<Dim>& start_load) {
@@ -191,9 +194,27 @@ double Solid<Dim>::energy_lost_by(std::span<const BondChange> changes, const End
         return in_cells + bonds_->energy();
     };
     frames_->stand_at_start();
-    const double at_start = energy_at_start(When::start) - energy_at_start(When::middle);
+    const double to_middle = energy_at_start(When::start) - energy_at_start(When::middle);
     frames_->stand_at_end();
-    return at_start + energy_at_end(When::middle) - energy_at_end(When::end);
+    return to_middle + energy_at_end(When::middle) - energy_at_end(When::end);
+}
+
+/// Energy that these places lose in the step. Those with a fracture energy open so that it is what their laws take.
+template <int Dim>
+double Solid<Dim>::open(std::vector<BondChange>& changes, const Ends& ends, const BoundaryLoad<Dim>& start_load) {
+    const double by_law = bonds_->energy_by_law(changes);
+    if (by_law == 0.0 || !bonds_->have_law(changes)) return energy_lost_by(changes, ends, start_load);
+    const std::vector<BondChange> by_traction = changes;
+    double lost = 0.0;
+    const auto excess = [&](const BondOpening& opening) {
+        for (std::size_t i = 0; i < changes.size(); ++i) changes[i] = bonds_->opened(by_traction[i], opening);
+        lost = energy_lost_by(changes, ends, start_load);
+        return (lost - bonds_->energy_by_law(changes)) / by_law;
+    };
+    std::array<double, 2> slopes = bonds_->rise_of_loss(changes);
+    for (double& slope : slopes) slope /= by_law;
+    fit_to_law(excess, slopes);
+    return lost;
 }
 
 /// Books the work of the step, makes the force of its gradient, and ends it. Where only a share of the work is booked

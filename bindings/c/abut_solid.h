@@ -209,9 +209,10 @@ typedef struct abut_solid_state {
     int64_t sliding_faces;
     double broken_bonds; /* the part of the area of all bonds that is broken; 0 without bonds */
     double work_heat;    /* of temperatures that vary, less what they make the tractions do */
+    double beyond_fracture_energy; /* that bonds dissipated more than theirs; below 0: less */
 } abut_solid_state;
 #define ABUT_SOLID_STATE_INIT \
-    {sizeof(abut_solid_state), 0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0, 0, 0.0, 0.0, 0, 0, 0.0, 0.0}
+    {sizeof(abut_solid_state), 0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0, 0, 0.0, 0.0, 0, 0, 0.0, 0.0, 0.0}
 /* Costs about two forces. */
 ABUT_API int abut_solid_get_state(abut_solid* solid, abut_solid_state* state, abut_error* error);
 /* A number of the ledger by the name of its column in energy.csv (docs/results.md): "work", "dissipated_in_cells", "linear_momentum_x",

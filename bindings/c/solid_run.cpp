@@ -390,7 +390,8 @@ void SolidRun<Dim>::write_state(abut_solid_state& state) {
              .sticking_faces = entry.sticking_faces,
              .sliding_faces = entry.sliding_faces,
              .broken_bonds = solid.bonds().broken_share(),
-             .work_heat = work.heat};
+             .work_heat = work.heat,
+             .beyond_fracture_energy = solid.bonds().beyond_fracture_energy()};
 }
 
 template <int Dim>

@@ -55,14 +55,14 @@ module abut_solid
   end type
 
   type, bind(c), public :: abut_solid_state
-    integer(c_size_t) :: struct_size = 168
+    integer(c_size_t) :: struct_size = 176
     integer(c_int64_t) :: steps = 0
     real(c_double) :: time = 0, dt = 0, stable_dt = 0, pseudo_energy = 0, energy = 0, kinetic = 0, work_steps = 0, &
       work_changes = 0, work_held = 0, restart_jumps = 0, parasitic = 0
     integer(c_int64_t) :: active_pairs = 0, missed_contacts = 0
     real(c_double) :: dissipated = 0, friction_energy = 0
     integer(c_int64_t) :: sticking_faces = 0, sliding_faces = 0
-    real(c_double) :: broken_bonds = 0, work_heat = 0
+    real(c_double) :: broken_bonds = 0, work_heat = 0, beyond_fracture_energy = 0
   end type
 
   public :: abut_solid_create, abut_solid_add_box, abut_solid_add_file, abut_solid_clamp, abut_solid_roller, &

@@ -108,13 +108,14 @@ public:
             const FacetPair pair{Facet{facet_1}, Facet{facet_2}};
             const bool is_wanted = law_.is_wanted(pair);
             if (is_wanted) found_.push_back(pair);
-            if (!is_wanted || std::ranges::binary_search(kept_apart_, pair)) not_seen.push_back(pair);
+            if (!is_wanted || was_kept_apart(pair)) not_seen.push_back(pair);
         }
         keep_contacts(start);
         law_.list(found_, in_contact_, start, std::max(0.5 * candidates_.skin(), candidates_.report().motion));
         pairs_.follow(found_, [&](std::size_t i) { return memory_at_first(i, start); });
         kept_apart_.clear();
         std::ranges::set_difference(not_seen, found_, std::back_inserter(kept_apart_));
+        take_covered();
         if constexpr (LawWithMemory<Law>) law_.set_born_offsets(pairs_.memory());
         law_.clear(step_);
         listed(law_);
@@ -161,12 +162,14 @@ public:
         const double next_skin = candidates_.next_skin();
         const std::vector<Facet> new_facets = new_facets_;
         const std::vector<FacetPair> kept_apart = kept_apart_;
+        const std::vector<Facet> covered = covered_;
         const LawMemory memory = law_memory();
         const auto take_back = [&] {
             list_is_valid_ = false;
             pairs_ = pairs;
             new_facets_ = new_facets;
             kept_apart_ = kept_apart;
+            covered_ = covered;
             set_law_memory(memory);
             report_ = report;
             candidates_.restore_skin(next_skin);
@@ -189,7 +192,7 @@ public:
 
     [[nodiscard]] std::vector<std::byte> state() const {
         return saved(state_key(), {has_searched_, candidates_.next_skin(), report_, pairs_, facets_, new_facets_,
-                                   kept_apart_, law_memory()});
+                                   kept_apart_, covered_, law_memory()});
     }
 
     void restore(std::span<const std::byte> bytes) {
@@ -202,6 +205,7 @@ public:
         has_searched_ = from.has_searched;
         new_facets_ = std::move(from.new_facets);
         kept_apart_ = std::move(from.kept_apart);
+        covered_ = std::move(from.covered);
         drop_list();
     }
 
@@ -220,6 +224,9 @@ public:
         for (std::size_t i = 0; i < old_of_new.size(); ++i)
             if (old_of_new[i] < 0 || before.is_new(Facet{old_of_new[i]})) new_facets.push_back(Facet(i));
         std::vector<FacetPair> kept_apart = carried_over(before.kept_apart_, old_of_new, [](FacetPair) { return true; });
+        std::vector<Facet> covered;
+        for (std::size_t i = 0; i < old_of_new.size(); ++i)
+            if (old_of_new[i] >= 0 && before.was_covered(Facet{old_of_new[i]})) covered.push_back(Facet(i));
         take_over_law_memory(before, old_of_new);
         candidates_.restore_skin(before.candidates_.next_skin());
         report_ = before.report_;
@@ -229,6 +236,7 @@ public:
         facets_ = std::move(facets);
         new_facets_ = std::move(new_facets);
         kept_apart_ = std::move(kept_apart);
+        covered_ = std::move(covered);
         drop_list();
     }
 
@@ -243,6 +251,7 @@ public:
         facets_ = std::move(next.facets_);
         new_facets_ = std::move(next.new_facets_);
         kept_apart_ = std::move(next.kept_apart_);
+        covered_ = std::move(next.covered_);
         report_ = next.report_;
         drop_list();
     }
@@ -295,6 +304,18 @@ private:
                !(facets.is_rigid(facet_1) && facets.is_rigid(facet_2));
     }
 
+    [[nodiscard]] bool was_covered(Facet facet) const { return std::ranges::binary_search(covered_, facet); }
+    /// Whether a host did not want the pair until now, though it could be near.
+    [[nodiscard]] bool was_kept_apart(FacetPair pair) const {
+        return std::ranges::binary_search(kept_apart_, pair) || was_covered(pair.facet_1) || was_covered(pair.facet_2);
+    }
+    void take_covered() {
+        covered_.clear();
+        if constexpr (LawWithMemory<Law>)
+            for (std::int32_t facet = 0; facet < law_.facets().size(); ++facet)
+                if (law_.is_covered(Facet{facet})) covered_.push_back(Facet{facet});
+    }
+
     [[nodiscard]] bool is_new(Facet facet) const { return std::ranges::binary_search(new_facets_, facet); }
 
     /// A pair that a host has kept apart until now may be pressed in; any other one should have been seen before.
@@ -302,7 +323,7 @@ private:
         const auto [facet_1, facet_2] = found_[i];
         const FirstLook first = law_.decide_first(i, start, !has_searched_ || is_new(facet_1) || is_new(facet_2));
         if (first.admission != FirstAdmission::missed) return {.admitted = first.admission == FirstAdmission::admitted};
-        if (std::ranges::binary_search(kept_apart_, found_[i])) return {.admitted = true, .offset = first.overlap};
+        if (was_kept_apart(found_[i])) return {.admitted = true, .offset = first.overlap};
         ++report_.missed_contacts;
         return {};
     }
@@ -335,6 +356,7 @@ private:
     FacetStore facets_;
     std::vector<Facet> new_facets_;      // that no search has seen yet, increasing: the run begins for them
     std::vector<FacetPair> kept_apart_;  // candidates that were not wanted, and in no list since then, increasing
+    std::vector<Facet> covered_;         // that the last search left out, since nothing could touch them, increasing
     Step step_;
     ContactReport report_;
     std::vector<FacetPair> found_;  // work arrays of `search`

@@ -11,7 +11,7 @@
 namespace abut::contact {
 namespace {
 
-constexpr std::uint32_t state_version = 11;
+constexpr std::uint32_t state_version = 12;
 
 /// A new counter needs its place in `ContactReport::fields`, or it is lost where a state is saved; then a new version, too.
 static_assert(sizeof(ContactReport) == 24 * sizeof(double));
@@ -38,6 +38,21 @@ std::vector<FacetPair> pairs_from(StateReader& state, const StateKey& key) {
     return pairs;
 }
 
+void put_facets(StateWriter& state, std::span<const Facet> facets) {
+    state.put(static_cast<std::int32_t>(facets.size()));
+    for (const Facet facet : facets) state.put(number_of(facet));
+}
+
+std::vector<Facet> facets_from(StateReader& state, const StateKey& key, const std::string& which) {
+    const auto n = state.get<std::int32_t>();
+    if (n < 0 || n > key.n_facets)
+        throw BadInput("state of " + key.kind + ": it has " + std::to_string(n) + " " + which + " facets of " +
+                       std::to_string(key.n_facets) + " at most. It is damaged.");
+    std::vector<Facet> facets;
+    for (std::int32_t i = 0; i < n; ++i) facets.push_back(Facet{state.get<std::int32_t>()});
+    return facets;
+}
+
 }  // namespace
 
 std::vector<std::byte> saved(const StateKey& key, const SavedContact& contact) {
@@ -46,8 +61,8 @@ std::vector<std::byte> saved(const StateKey& key, const SavedContact& contact) {
     state.put(static_cast<std::uint8_t>(contact.has_searched));
     state.put(contact.next_skin);
     put_value(state, contact.report);
-    state.put(static_cast<std::int32_t>(contact.new_facets.size()));
-    for (const Facet facet : contact.new_facets) state.put(number_of(facet));
+    put_facets(state, contact.new_facets);
+    put_facets(state, contact.covered);
     contact.pairs.save(state);
     contact.facets.save(state);
     put_pairs(state, contact.kept_apart);
@@ -66,11 +81,8 @@ SavedContact read_saved(const StateKey& key, std::span<const std::byte> bytes) {
     contact.has_searched = state.get<std::uint8_t>() != 0;
     contact.next_skin = state.get<double>();
     get_value(state, contact.report);
-    const auto n_new = state.get<std::int32_t>();
-    if (n_new < 0 || n_new > key.n_facets)
-        throw BadInput("state of " + key.kind + ": it has " + std::to_string(n_new) + " new facets of " +
-                       std::to_string(key.n_facets) + " at most. It is damaged.");
-    for (std::int32_t i = 0; i < n_new; ++i) contact.new_facets.push_back(Facet{state.get<std::int32_t>()});
+    contact.new_facets = facets_from(state, key, "new");
+    contact.covered = facets_from(state, key, "covered");
     contact.pairs = PairStore::restored(state, key.n_facets);
     contact.facets = FacetStore::restored(state, key.n_facets, key.facet_memory);
     contact.kept_apart = pairs_from(state, key);

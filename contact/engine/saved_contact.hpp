@@ -30,6 +30,7 @@ struct SavedContact {
     FacetStore facets;
     std::vector<Facet> new_facets;      ///< that no search has seen yet, increasing
     std::vector<FacetPair> kept_apart;  ///< candidates that a host did not want, and in no list since then, increasing
+    std::vector<Facet> covered;         ///< that the last search left out, increasing
     LawMemory law;
 };
 

@@ -66,7 +66,7 @@ concept EngineLaw = requires(L& law, const L& known, const typename L::State& st
 template <class L>
 concept LawWithMemory = EngineLaw<L> &&
     requires(L& law, const L& known, const typename L::State& state, const typename L::Path& path, FacetPair pair,
-             const LawMemory& memory, std::span<const PairMemory> of_pairs, double dt) {
+             Facet facet, const LawMemory& memory, std::span<const PairMemory> of_pairs, double dt) {
     { known.memory() } -> std::same_as<LawMemory>;
     /// Throws BadInput for what `memory` cannot have given.
     law.set_memory(memory);
@@ -74,6 +74,8 @@ concept LawWithMemory = EngineLaw<L> &&
     law.set_born_offsets(of_pairs);
     /// Whether a pair of facets is no contact, since it lies inside of its body.
     { known.lies_inside(pair) } -> std::same_as<bool>;
+    /// Whether the last search left a facet out, since nothing can touch it.
+    { known.is_covered(facet) } -> std::same_as<bool>;
     /// Whether a facet has turned since the last search by more than lists allow for.
     { known.has_turned(state) } -> std::same_as<bool>;
     /// Looks for pairs that lay inside and have come out at the end of a step. The list does not have them: it ends.

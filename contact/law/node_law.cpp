@@ -80,8 +80,12 @@ void NodeLaw<Dim>::search(CandidateSearch<Dim>& candidates, State x_0, State x_1
             return may_come_together(pair, at_start_, reach) || may_come_together(pair, at_end_, reach);
         };
     }
+    covered_.clear();
+    if (options_.covered)
+        for (std::int32_t facet = 0; facet < facets().size(); ++facet)
+            covered_.push_back(options_.covered(acting().face_of(Facet{facet})) ? 1 : 0);
     try {
-        candidates.search_moved(x_0, x_1, GapOf::overlap, within);
+        candidates.search_moved(x_0, x_1, GapOf::overlap, within, covered_);
     } catch (const Diverged& error) {
         ErrorFacts facts = error.facts();
         const auto facet = static_cast<std::int32_t>(facts.face_1);
@@ -237,16 +241,20 @@ void NodeLaw<Dim>::set_memory(const LawMemory& memory) {
 /// watched. All others are looked at when the next list is made.
 template <int Dim>
 void NodeLaw<Dim>::set_inside_pairs_apart(std::vector<FacetPair>& pairs, State x_0) {
-    std::erase_if(pairs, [&](const FacetPair& facets) {
-        if (!inside_.has(facets)) return false;
-        const NodalPair<Dim> pair = pairs_.make_pair(surface_, facets);
-        if (is_seen_from_outside(pair, x_0)) {
-            inside_.take_away(facets);
-            return false;
+    const std::vector<char> marks = inside_.marks_of(pairs);
+    std::size_t n = 0;
+    for (std::size_t p = 0; p < marks.size(); ++p) {
+        if (marks[p] != 0) {
+            const NodalPair<Dim> pair = pairs_.make_pair(surface_, pairs[p]);
+            if (!is_seen_from_outside(pair, x_0)) {
+                watched_.push_back(pair);
+                continue;
+            }
+            inside_.take_away(pairs[p]);
         }
-        watched_.push_back(pair);
-        return true;
-    });
+        pairs[n++] = pairs[p];
+    }
+    pairs.resize(n);
 }
 
 /// Whether a pair that is no contact since it lay inside has come out at the end of a step: it needs another list.
@@ -255,7 +263,7 @@ bool NodeLaw<Dim>::sees_from_outside(const Path& path) {
     bool any = false;
     for (const NodalPair<Dim>& pair : watched_) {
         const FacetPair of_facets{Facet{pair.facet_1}, Facet{pair.facet_2}};
-        if (!inside_.has(of_facets) || !is_seen_from_outside(pair, path.x_1)) continue;
+        if (!is_seen_from_outside(pair, path.x_1) || !inside_.has(of_facets)) continue;
         inside_.take_away(of_facets);
         any = true;
     }

@@ -51,6 +51,10 @@ public:
     }
 
     void search(CandidateSearch<Dim>& candidates, State x_0, State x_1);
+    /// Whether nothing could touch a facet in the last search.
+    [[nodiscard]] bool is_covered(Facet facet) const {
+        return !covered_.empty() && covered_[static_cast<std::size_t>(facet)] != 0;
+    }
     /// Whether a facet of bodies that touch themselves has turned since the last search by more than lists allow for.
     [[nodiscard]] bool has_turned(State x) const;
     [[nodiscard]] bool is_wanted(FacetPair pair) const {
@@ -113,6 +117,7 @@ private:
     std::vector<NodalPair<Dim>> watched_;  // of these, that may be seen from outside while the list is valid
     PlacedFacets at_start_, at_end_;       // of the step of a search
     std::vector<double> radius_;           // of facets at rest [m]
+    std::vector<char> covered_;            // facets that the last search left out; empty: none
     NodalPairs<Dim> pairs_;
     InterferenceRamps ramps_;
     double looks_away_;  // n_1 . n_2 of two facets of one body that have no weight for as long as a list is valid

@@ -3,11 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "abut/base/error.hpp"
 #include "abut/base/ids.hpp"
+#include "abut/base/sort_unique.hpp"
 #include "abut/contact/pairs/pair.hpp"
-#include "abut/geometry/broad_phase/broad_phase.hpp"
 
 namespace abut::contact {
 namespace {
@@ -57,79 +58,63 @@ double outside_gap(const SurfaceView<Dim>& facets, FacetPair pair) {
 }
 
 template <int Dim>
-InsidePairs<Dim>::InsidePairs(const SurfaceView<Dim>& facets, const std::vector<std::int32_t>& piece) {
+InsidePairs<Dim>::InsidePairs(const SurfaceView<Dim>& facets, std::vector<std::int32_t> piece) {
     if (std::ranges::none_of(piece, [](std::int32_t number) { return number >= 0; })) return;
-    const auto piece_of = [&](std::int32_t facet) { return piece[static_cast<std::size_t>(facets.body[facet])]; };
-    const auto n = static_cast<std::size_t>(facets.size());
-    std::vector<double> reach(n);
-    std::vector<geometry::Box<Dim>> boxes(n);
+    facets_ = facets;
+    piece_ = std::move(piece);
     for (std::int32_t facet = 0; facet < facets.size(); ++facet) {
-        if (piece_of(facet) < 0) continue;
         const double depth = facets.is_rigid(facet) ? 0.0 : facets.cell_depth[facet];
-        reach[facet] = circumradius(facets, facet) + 2.0 * std::sqrt(static_cast<double>(Dim)) * depth;
-        boxes[facet].extend(facets.centroid[facet]);
-        boxes[facet] = boxes[facet].grown(reach[facet]);
+        reach_.push_back(circumradius(facets, facet) + 2.0 * std::sqrt(static_cast<double>(Dim)) * depth);
     }
-    const auto is_inside = [&](std::int32_t facet_1, std::int32_t facet_2) {
-        if (piece_of(facet_1) != piece_of(facet_2)) return false;
-        const double near = reach[facet_1] + reach[facet_2];
-        if ((facets.centroid[facet_2] - facets.centroid[facet_1]).squaredNorm() >= near * near) return false;
-        const double gap = gap_at_rest(facets, facet_1, facet_2);
-        return std::isfinite(gap) && gap < outside_gap(facets, FacetPair{Facet{facet_1}, Facet{facet_2}});
-    };
-    offsets_.assign(n + 1, 0);
-    for (const auto& [facet_1, facet_2] : geometry::overlapping_pairs<Dim>({}, boxes, is_inside)) {
-        ++offsets_[static_cast<std::size_t>(facet_1) + 1];
-        partners_.push_back(facet_2);
-    }
-    for (std::size_t facet = 0; facet < n; ++facet) offsets_[facet + 1] += offsets_[facet];
-    is_seen_.assign(partners_.size(), 0);
 }
 
 template <int Dim>
-std::ptrdiff_t InsidePairs<Dim>::index_of(FacetPair pair) const {
-    if (partners_.empty()) return -1;
-    const auto facet = static_cast<std::size_t>(pair.facet_1);
-    const auto begin = partners_.begin() + static_cast<std::ptrdiff_t>(offsets_[facet]);
-    const auto end = partners_.begin() + static_cast<std::ptrdiff_t>(offsets_[facet + 1]);
-    const auto at = std::lower_bound(begin, end, number_of(pair.facet_2));
-    return at != end && *at == number_of(pair.facet_2) ? at - partners_.begin() : -1;
+bool InsidePairs<Dim>::lies_inside_at_rest(FacetPair pair) const {
+    const std::int32_t facet_1 = number_of(pair.facet_1), facet_2 = number_of(pair.facet_2);
+    const auto piece_of = [&](std::int32_t facet) { return piece_[static_cast<std::size_t>(facets_.body[facet])]; };
+    if (piece_of(facet_1) < 0 || piece_of(facet_1) != piece_of(facet_2)) return false;
+    const double near = reach_[static_cast<std::size_t>(facet_1)] + reach_[static_cast<std::size_t>(facet_2)];
+    if ((facets_.centroid[facet_2] - facets_.centroid[facet_1]).squaredNorm() >= near * near) return false;
+    const double gap = gap_at_rest(facets_, facet_1, facet_2);
+    return std::isfinite(gap) && gap < outside_gap(facets_, pair);
 }
 
 template <int Dim>
 bool InsidePairs<Dim>::has(FacetPair pair) const {
-    const std::ptrdiff_t at = index_of(pair);
-    return at >= 0 && is_seen_[static_cast<std::size_t>(at)] == 0;
+    return !empty() && lies_inside_at_rest(pair) && !std::ranges::binary_search(seen_, pair);
+}
+
+template <int Dim>
+std::vector<char> InsidePairs<Dim>::marks_of(std::span<const FacetPair> pairs) {
+    std::vector<char> answers(pairs.size()), marks(pairs.size());
+    std::size_t at = 0;
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+        while (at < asked_.size() && asked_[at] < pairs[i]) ++at;
+        const bool is_known = at < asked_.size() && asked_[at] == pairs[i];
+        answers[i] = is_known ? answers_[at] : static_cast<char>(lies_inside_at_rest(pairs[i]));
+        marks[i] = static_cast<char>(answers[i] != 0 && !std::ranges::binary_search(seen_, pairs[i]));
+    }
+    asked_.assign(pairs.begin(), pairs.end());
+    answers_ = std::move(answers);
+    return marks;
 }
 
 template <int Dim>
 void InsidePairs<Dim>::take_away(FacetPair pair) {
-    is_seen_[static_cast<std::size_t>(index_of(pair))] = 1;
-}
-
-template <int Dim>
-std::vector<FacetPair> InsidePairs<Dim>::seen() const {
-    std::vector<FacetPair> seen;
-    for (std::size_t facet = 0; facet + 1 < offsets_.size(); ++facet)
-        for (std::size_t i = offsets_[facet]; i < offsets_[facet + 1]; ++i)
-            if (is_seen_[i] != 0) seen.push_back({Facet(facet), Facet{partners_[i]}});
-    return seen;
+    seen_.insert(std::ranges::lower_bound(seen_, pair), pair);
 }
 
 template <int Dim>
 void InsidePairs<Dim>::restore(std::span<const FacetPair> seen) {
-    std::vector<char> is_seen(partners_.size(), 0);
-    for (const FacetPair& pair : seen) {
-        const std::ptrdiff_t at = index_of(pair);
-        if (at < 0)
+    for (const FacetPair& pair : seen)
+        if (empty() || !lies_inside_at_rest(pair))
             throw BadInput("contact: a saved state says that facets " + std::to_string(number_of(pair.facet_1)) + " and " +
                                std::to_string(number_of(pair.facet_2)) +
                                " have been seen from outside, but at rest they do not lie inside of each other. It is of "
                                "other options, or damaged.",
                            {.face_1 = number_of(pair.facet_1), .face_2 = number_of(pair.facet_2)});
-        is_seen[static_cast<std::size_t>(at)] = 1;
-    }
-    is_seen_ = std::move(is_seen);
+    seen_.assign(seen.begin(), seen.end());
+    sort_unique(seen_);
 }
 
 template double inside_gap(const geometry::PairCorners<2>&, const geometry::PairState<2>&);

@@ -1,6 +1,5 @@
 #pragma once
 // Private to the layer.
-#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -19,27 +18,32 @@ template <int Dim>
 class InsidePairs {
 public:
     InsidePairs() = default;
-    /// `piece`: of each body, -1 where nothing is to be marked (n_bodies); facets as they are at rest.
-    InsidePairs(const SurfaceView<Dim>& facets, const std::vector<std::int32_t>& piece);
+    /// `piece`: of each body, -1 where nothing is to be marked (n_bodies); facets as they are at rest, whose arrays must
+    /// outlive it.
+    InsidePairs(const SurfaceView<Dim>& facets, std::vector<std::int32_t> piece);
 
-    /// Whether the pair bears a mark.
+    /// Whether the pair bears a mark. May be asked from several threads at once.
     [[nodiscard]] bool has(FacetPair pair) const;
-    [[nodiscard]] bool empty() const { return partners_.empty(); }
+    [[nodiscard]] bool empty() const { return piece_.empty(); }
+    /// `has` of increasing pairs. Those that it was asked for last cost less.
+    [[nodiscard]] std::vector<char> marks_of(std::span<const FacetPair> pairs);
     /// Takes the mark away; the pair must have one.
     void take_away(FacetPair pair);
 
     /// Pairs whose mark is gone, increasing: with the surface at rest it says which are left.
-    [[nodiscard]] std::vector<FacetPair> seen() const;
+    [[nodiscard]] const std::vector<FacetPair>& seen() const { return seen_; }
     /// Marks as they were when `seen` was this. Throws BadInput for a pair that bears no mark at rest.
     void restore(std::span<const FacetPair> seen);
 
 private:
-    /// Index in `partners_`; -1: it was never marked.
-    [[nodiscard]] std::ptrdiff_t index_of(FacetPair pair) const;
+    [[nodiscard]] bool lies_inside_at_rest(FacetPair pair) const;
 
-    std::vector<std::size_t> offsets_;    // of each facet, into the arrays below
-    std::vector<std::int32_t> partners_;  // of the lower facet of each pair, increasing
-    std::vector<char> is_seen_;
+    SurfaceView<Dim> facets_;
+    std::vector<std::int32_t> piece_;  // of each body; empty: nothing is marked
+    std::vector<double> reach_;        // of each facet of a piece, so far that a pair may lie inside [m]
+    std::vector<FacetPair> seen_;      // increasing
+    std::vector<FacetPair> asked_;     // pairs of the last `marks_of`, and whether they lie inside at rest
+    std::vector<char> answers_;
 };
 
 /// A pair whose gap is not below this is outside of its body [m]: 0, less what rounding adds.

@@ -82,14 +82,17 @@ public:
     void search(std::span<const Vector<Dim>> u_0, std::span<const Vector<Dim>> u_1) {
         drop_list();
         within_ = nullptr;
+        left_out_ = {};
         translated_.set_path(u_0, u_1);
         search_along(translated_);
     }
 
-    void search_moved(PointsView<Dim> x_0, PointsView<Dim> x_1, GapOf gap, const geometry::PairFilter& within) {
+    void search_moved(PointsView<Dim> x_0, PointsView<Dim> x_1, GapOf gap, const geometry::PairFilter& within,
+                      std::span<const char> left_out) {
         drop_list();
         MovedFaces<Dim> moved(surface_, options_, x_0, x_1, gap);
         within_ = &within;
+        left_out_ = left_out;
         search_along(moved);
     }
 
@@ -125,6 +128,7 @@ private:
     void search_along(Faces& faces) {
         check_motion(faces);
         if (report_.searches % searches_per_order == 0) order_by_position(faces);
+        take_order();
         ++report_.searches;
         list_skin_ = skin_.skin();
         make_boxes(faces);
@@ -140,9 +144,18 @@ private:
         std::vector<Vector<Dim>> middles(static_cast<std::size_t>(surface_.size()));
         for (std::size_t face = 0; face < middles.size(); ++face)
             middles[face] = faces.middle(static_cast<std::int32_t>(face));
-        order_ = order_faces<Dim>(surface_, middles);
+        order_of_all_ = order_faces<Dim>(surface_, middles);
+        has_new_order_ = true;
         translated_.forget();
         ++report_.orderings;
+    }
+
+    /// Takes the order of the faces that may be in pairs.
+    void take_order() {
+        if (!std::exchange(has_new_order_, false) && left_out_.empty() && order_.faces.size() == order_of_all_.faces.size())
+            return;
+        order_ = left_out_.empty() ? order_of_all_ : order_without(order_of_all_, left_out_);
+        translated_.forget();
     }
 
     template <class Faces>
@@ -210,7 +223,7 @@ private:
             shared_.is_worth(order_.faces.size()) ? find_shared(faces, list) : find_part(faces, {}, list);
         {
             const Stopwatch watch(report_.seconds_broad_phase);
-            geometry::sort_pairs(list, order_.faces.size());
+            geometry::sort_pairs(list, static_cast<std::size_t>(surface_.size()));
         }
         candidates_ = std::move(list);
         report_.box_pairs = found.counts.box_pairs;
@@ -333,7 +346,7 @@ private:
     /// How many of these candidates half the skin would have found.
     template <class Faces>
     [[nodiscard]] std::int64_t count_at_half_skin(const Faces& faces, std::span<const IndexPair> candidates) {
-        index_of_face_.resize(order_.faces.size());
+        index_of_face_.resize(static_cast<std::size_t>(surface_.size()));
         for (std::size_t i = 0; i < order_.faces.size(); ++i)
             index_of_face_[static_cast<std::size_t>(order_.faces[i])] = static_cast<std::int32_t>(i);
         const double shrinkage = 0.5 * list_skin_ * faces.growth_per_skin();
@@ -354,9 +367,11 @@ private:
     bool list_holds_ = false;
     std::optional<Neighbours> neighbours_;
     const geometry::PairFilter* within_ = nullptr;  // of the present search
+    std::span<const char> left_out_;                // of the present search
     double extent_ = 0.0;                           // of all surfaces at rest [m]
     TranslatedFaces<Dim> translated_;
-    FaceOrder order_;
+    FaceOrder order_of_all_, order_;           // of all faces, and of those that may be in pairs
+    bool has_new_order_ = false;               // `order_` is of another one
     std::vector<Box<Dim>> boxes_;              // in that order
     std::vector<std::int32_t> index_of_face_;  // in that order
     std::vector<IndexPair> candidates_;
@@ -384,8 +399,8 @@ void CandidateSearch<Dim>::search(std::span<const Vector<Dim>> u_0, std::span<co
 }
 template <int Dim>
 void CandidateSearch<Dim>::search_moved(PointsView<Dim> x_0, PointsView<Dim> x_1, GapOf gap,
-                                        const geometry::PairFilter& within) {
-    implementation_->search_moved(x_0, x_1, gap, within);
+                                        const geometry::PairFilter& within, std::span<const char> left_out) {
+    implementation_->search_moved(x_0, x_1, gap, within, left_out);
 }
 template <int Dim>
 std::span<const IndexPair> CandidateSearch<Dim>::candidates() const {

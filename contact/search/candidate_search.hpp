@@ -60,8 +60,9 @@ public:
     /// polygon is all points between its corners. Neighbours, rigid faces and errors as `search`, Diverged names the
     /// vertex too, and the extent that limits its motion is that at rest. Vertices that no face names may hold
     /// anything. `within`: which pairs of faces of one body are wanted; asked from several threads at once, empty: all.
+    /// `left_out`: not 0 for faces that are in no pair (n); empty: all may be.
     void search_moved(PointsView<Dim> x_0, PointsView<Dim> x_1, GapOf gap = GapOf::overlap,
-                      const geometry::PairFilter& within = {});
+                      const geometry::PairFilter& within = {}, std::span<const char> left_out = {});
 
     /// The list: face_1 < face_2, sorted, each once. The same for every broad phase and any number of threads and parts.
     [[nodiscard]] std::span<const geometry::IndexPair> candidates() const;

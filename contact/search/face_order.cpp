@@ -20,6 +20,17 @@ FaceOrder order_faces(const SurfaceView<Dim>& surface, std::span<const Vector<Di
     return order;
 }
 
+FaceOrder order_without(const FaceOrder& order, std::span<const char> left_out) {
+    FaceOrder rest;
+    for (const BodyFaces& body : order.bodies) {
+        const std::size_t begin = rest.faces.size();
+        for (std::size_t i = body.begin; i < body.end; ++i)
+            if (left_out[static_cast<std::size_t>(order.faces[i])] == 0) rest.faces.push_back(order.faces[i]);
+        if (rest.faces.size() > begin) rest.bodies.push_back({begin, rest.faces.size(), body.is_rigid});
+    }
+    return rest;
+}
+
 template FaceOrder order_faces<2>(const SurfaceView<2>&, std::span<const Vector<2>>);
 template FaceOrder order_faces<3>(const SurfaceView<3>&, std::span<const Vector<3>>);
 

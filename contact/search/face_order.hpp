@@ -28,4 +28,7 @@ struct FaceOrder {
 template <int Dim>
 [[nodiscard]] FaceOrder order_faces(const SurfaceView<Dim>& surface, std::span<const Vector<Dim>> middles);
 
+/// Without the faces whose entry in `left_out` (n) is not 0, and without bodies that have no other ones.
+[[nodiscard]] FaceOrder order_without(const FaceOrder& order, std::span<const char> left_out);
+
 }  // namespace abut::contact

@@ -287,6 +287,9 @@ Markup bonds_part(const Figures& figures, const Scene<Dim>& scene) {
                          rows);
     if (figures.summary().at("bonds").contains("dissipated"))
         bonds += table({"", ""}, {figure_row(figures, "dissipated by those that broke", "bonds.dissipated", "J")});
+    if (figures.summary().at("bonds").contains("beyond_fracture_energy"))
+        bonds += table({"", ""},
+                       {figure_row(figures, "of this beyond their fracture energy", "bonds.beyond_fracture_energy", "J")});
     return section("Bonds", bonds);
 }
 

@@ -246,6 +246,7 @@ private:
         if (!solid().bonds().may_break()) return;
         result_.bonds.fragments = solid::fragments<Dim>(*stepper_, solid());
         result_.bonds.broken_share = solid().bonds().broken_share();
+        result_.bonds.beyond_fracture_energy = solid().bonds().beyond_fracture_energy();
     }
     /// Figures of the whole run that solid and watches have.
     void take_figures() {

@@ -35,6 +35,8 @@ inline constexpr double large_eroded_share = 0.01;
 /// The size of Losses::at_splits over the energy in play above which frames of fragments tell in the result [-]: plates and
 /// discs whose grains come apart before they turn have less than 0.001, hard impacts 0.01 to 0.02. docs/limits.md.
 inline constexpr double large_split_share = 0.01;
+/// The size of what bonds dissipated beyond their fracture energy, over what they should have, above which it is told [-].
+inline constexpr double large_fracture_error = 0.01;
 
 /// The part of what cells and jumps between them dissipate by plastic flow that jumps have, above which these yield
 /// more than they should [-]: spheres and bars at their limit loads have 0.01 to 0.05, bars that collide at most 0.06.

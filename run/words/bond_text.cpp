@@ -31,6 +31,11 @@ double cohesive_length(std::span<const solid::BondCoverage> bonds) {
     return least;
 }
 
+double fracture_error(double in_bonds, double beyond) {
+    const double by_law = in_bonds - beyond;
+    return by_law > 0.0 ? std::abs(beyond) / by_law : 0.0;
+}
+
 template std::string bonded_text<2>(std::span<const solid::BondCoverage>);
 template std::string bonded_text<3>(std::span<const solid::BondCoverage>);
 

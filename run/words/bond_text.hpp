@@ -14,5 +14,8 @@ template <int Dim>
 
 /// Least BondCoverage::cohesive_length of some bonds [-]; infinity where none takes a fracture energy.
 [[nodiscard]] double cohesive_length(std::span<const solid::BondCoverage> bonds);
+/// Size of what bonds dissipated beyond their fracture energy, over what they should have [-]: of Losses::in_bonds and
+/// BondView::beyond_fracture_energy, in a unit of both.
+[[nodiscard]] double fracture_error(double in_bonds, double beyond);
 
 }  // namespace abut::run

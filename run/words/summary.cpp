@@ -278,6 +278,7 @@ Json bond_json(const Scene<Dim>& scene, const RunResult<Dim>& result) {
     if (result.energy.dissipated.at_splits != 0.0) bonds["dissipated_at_splits"] = result.energy.dissipated.at_splits;
     if (const double least = cohesive_length(result.bonds.coverage); std::isfinite(least)) bonds["cohesive_length"] = least;
     if (!result.bonds.fragments.empty()) bonds["broken_share"] = result.bonds.broken_share;
+    if (const double beyond = result.bonds.beyond_fracture_energy; beyond != 0.0) bonds["beyond_fracture_energy"] = beyond;
     return {{"bonds", std::move(bonds)}};
 }
 
@@ -387,6 +388,16 @@ std::string loss_line(const RunResult<Dim>& result) {
     return table_line(fmt::format("dissipated, / {}", result.energy.scale.name), fmt::format("{}", fmt::join(parts, ", ")));
 }
 
+/// Nothing where bonds dissipated what they should.
+template <int Dim>
+std::string fracture_error_line(const RunResult<Dim>& result) {
+    const double error = fracture_error(result.energy.dissipated.in_bonds, result.bonds.beyond_fracture_energy);
+    if (!(error > large_fracture_error)) return "";
+    return table_line("off their fracture energy",
+                      fmt::format("bonds dissipated {} by {:.2g} of it",
+                                  result.bonds.beyond_fracture_energy > 0.0 ? "more" : "less", error));
+}
+
 /// Nothing where no bond may break.
 template <int Dim>
 std::string fragment_line(const RunResult<Dim>& result) {
@@ -402,7 +413,8 @@ std::string fragment_line(const RunResult<Dim>& result) {
     return table_line("fragments",
                       fmt::format("{} of {} bonded bodies, the largest {:.3g} of their mass; {:.3g} of the bonds broken",
                                   result.bonds.fragments.size(), bodies, largest / all, result.bonds.broken_share)) +
-           (std::isfinite(cohesive) ? table_line("cohesive length of bonds", fmt::format("{:.3g} cells", cohesive)) : "");
+           (std::isfinite(cohesive) ? table_line("cohesive length of bonds", fmt::format("{:.3g} cells", cohesive)) : "") +
+           fracture_error_line(result);
 }
 
 /// Bodies that were never bonded come first: those of fragments are many, and have their table in the summary.

@@ -16,6 +16,8 @@
 #include "abut/run/watch/fine_motion.hpp"
 #include "abut/run/watch/friction_watch.hpp"
 #include "abut/run/watch/remedies.hpp"
+#include "abut/run/watch/thresholds.hpp"
+#include "abut/run/words/bond_text.hpp"
 #include "abut/run/words/counts.hpp"
 #include "abut/run/words/erosion_text.hpp"
 #include "abut/solid/kinematics/kinematics.hpp"
@@ -280,6 +282,14 @@ void add_lost_parts(Counts& counts, const RunResult<Dim>& result) {
                  "they took frames of their own, {:g} is safe: strains are linear in a frame. Take larger grains, or "
                  "finite kinematics",
                  share, large_split_share));
+    if (const double error = fracture_error(result.energy.dissipated.in_bonds, result.bonds.beyond_fracture_energy);
+        error > large_fracture_error)
+        warn(counts, WarningKind::fracture_energy, error, large_fracture_error,
+             fmt::format(
+                 "bonds that opened dissipated {} than their fracture energy by {:.2g} of it, {:g} is safe: they open "
+                 "within few steps, or cells hold energy of several faces together, though the balance of energy "
+                 "holds. Take smaller cells, so that bonds.cohesive_length is longer, or a smaller step",
+                 result.bonds.beyond_fracture_energy > 0.0 ? "more" : "less", error, large_fracture_error));
 }
 
 template <int Dim>

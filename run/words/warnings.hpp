@@ -55,6 +55,7 @@ enum class WarningKind {
     nothing_touched,        ///< note: the distance of the two that were nearest at the end [m]
     erosion,                ///< share of mass or energy that cells took along which left [-]; threshold: large_eroded_share
     splits,                 ///< size of Losses::at_splits over the energy in play [-]; threshold: large_split_share
+    fracture_energy,        ///< fracture_error [-]; threshold: large_fracture_error
     missed_contacts,        ///< contacts that were missed: the energy is not exact
     inadmissible_overlaps,  ///< note: pairs of faces that overlap without being contacts, far sides of bodies
 };

@@ -14,14 +14,85 @@ bool Bonds<Dim>::any_breaks() const {
     return std::ranges::any_of(bodies_.options().bonds, [](const Bond& bond) { return std::isfinite(bond.strength); });
 }
 
-/// `traction` of the place as if it were whole, `stiffness` of both half cells in its direction.
+/// `whole`: traction of the place as if it were whole, `stiffness` of both half cells in its direction; `held_0`, what it
+/// held at the start of the step [J/m^2]. Under pressure one that has begun to open goes on along the face.
 template <int Dim>
-void Bonds<Dim>::append_change(std::size_t place, const Vector<Dim>& traction, double stiffness, const Vector<Dim>& normal,
-                               std::vector<BondChange>& changes) const {
-    if (share_[place] == 0.0 || traction.dot(normal) <= 0.0) return;
-    const double energy = bodies_.options().bonds[places_[place].bond].fracture_energy;
-    const double share = share_of_bond(places_[place].strength, energy, traction.norm(), stiffness);
-    if (share < share_[place]) changes.push_back({place, share_[place], share});
+void Bonds<Dim>::append_change(std::size_t place, const Vector<Dim>& whole, double stiffness, double held_0,
+                               const Vector<Dim>& normal, std::vector<BondChange>& changes) const {
+    const double pull = whole.dot(normal);
+    if (share_[place] == 0.0 || (pull <= 0.0 && share_[place] == 1.0)) return;
+    const Vector<Dim> traction = pull > 0.0 ? whole : Vector<Dim>(whole - pull * normal);
+    const double energy = fracture_energy(place), strength = places_[place].strength;
+    const double start = share_[place], end = share_of_bond(strength, energy, traction.norm(), stiffness);
+    if (end >= start) return;
+    const double held_1 = 0.5 * traction.squaredNorm() / stiffness;
+    const double opening = energy > 0.0 ? opening_of_bond(strength, energy, end, stiffness) : 1.0;
+    const double taken =
+        energy > 0.0 ? std::max(energy * opening - taken_[place], 0.0) : 0.5 * (start - end) * (held_0 + held_1);
+    changes.push_back({.place = place,
+                       .start = start,
+                       .end = end,
+                       .middle = middle_share(start, end, held_0, held_1, taken),
+                       .opening = opening,
+                       .taken = taken,
+                       .stiffness = stiffness,
+                       .rise = held_1 - held_0});
+}
+
+template <int Dim>
+double Bonds<Dim>::fracture_energy(std::size_t place) const {
+    return bodies_.options().bonds[places_[place].bond].fracture_energy;
+}
+
+template <int Dim>
+BondChange Bonds<Dim>::opened(const BondChange& change, const BondOpening& opening) const {
+    BondChange opened = change;
+    const double energy = fracture_energy(change.place), strength = places_[change.place].strength;
+    if (energy > 0.0 && opening.extent != 1.0) {
+        opened.opening = std::min(std::lerp(opened_[change.place], change.opening, opening.extent), 1.0);
+        opened.taken = std::max(energy * opened.opening - taken_[change.place], 0.0);
+        opened.end = std::min(change.start, share_of_opening(strength, energy, opened.opening, change.stiffness));
+    }
+    opened.middle = std::lerp(change.middle, opening.middle > 0.0 ? opened.start : opened.end, std::abs(opening.middle));
+    return opened;
+}
+
+template <int Dim>
+bool Bonds<Dim>::have_law(std::span<const BondChange> changes) const {
+    return std::ranges::any_of(changes, [&](const BondChange& change) { return fracture_energy(change.place) > 0.0; });
+}
+
+template <int Dim>
+double Bonds<Dim>::energy_by_law(std::span<const BondChange> changes) const {
+    double energy = 0.0;
+    for (const BondChange& change : changes) energy += places_[change.place].area * change.taken;
+    return energy;
+}
+
+template <int Dim>
+std::array<double, 2> Bonds<Dim>::rise_of_loss(std::span<const BondChange> changes) const {
+    std::array<double, 2> rise{};
+    for (const BondChange& change : changes) {
+        rise[0] += places_[change.place].area * change.rise * (change.start - change.middle);
+        rise[1] += places_[change.place].area * change.rise * (change.middle - change.end);
+    }
+    return rise;
+}
+
+template <int Dim>
+void Bonds<Dim>::share_loss(double lost, std::span<BondChange> changes) const {
+    const double by_law = energy_by_law(changes);
+    double area = 0.0;
+    for (const BondChange& change : changes) area += places_[change.place].area;
+    for (BondChange& change : changes) change.taken = by_law > 0.0 ? lost / by_law * change.taken : lost / area;
+}
+
+template <int Dim>
+double Bonds<Dim>::beyond_law() const {
+    double energy = 0.0;
+    for (std::size_t p = 0; p < places_.size(); ++p)
+        energy += places_[p].area * (taken_[p] - fracture_energy(p) * opened_[p]);
+    return energy;
 }
 
 template <int Dim>
@@ -32,12 +103,13 @@ std::vector<BondChange> Bonds<Dim>::changes() const {
         const Vector<Dim> traction = joints_[p].stiffness * jump_1_[p];
         const double energy = traction.dot(jump_1_[p]);
         if (energy > 0.0)
-            append_change(joints_[p].place, traction, traction.squaredNorm() / energy, places_[joints_[p].place].normal,
+            append_change(joints_[p].place, traction, traction.squaredNorm() / energy,
+                          0.5 * jump_0_[p].dot(joints_[p].stiffness * jump_0_[p]), places_[joints_[p].place].normal,
                           changes);
     }
     springs_->for_each_traction(
-        [&](std::size_t place, const Vector<Dim>& traction, double stiffness, const Vector<Dim>& normal) {
-            append_change(place, traction, stiffness, normal, changes);
+        [&](std::size_t place, const Vector<Dim>& traction, double stiffness, double held_0, const Vector<Dim>& normal) {
+            append_change(place, traction, stiffness, held_0, normal, changes);
         });
     std::ranges::sort(changes, {}, &BondChange::place);
     return changes;
@@ -45,8 +117,8 @@ std::vector<BondChange> Bonds<Dim>::changes() const {
 
 template <int Dim>
 void Bonds<Dim>::set_shares(std::span<const BondChange> changes, When when) {
-    for (const auto& [place, start, end] : changes)
-        share_[place] = when == When::start ? start : when == When::end ? end : 0.5 * (start + end);
+    for (const BondChange& change : changes)
+        share_[change.place] = when == When::start ? change.start : when == When::end ? change.end : change.middle;
     in_middle_.clear();
     if (when == When::middle) in_middle_.assign(changes.begin(), changes.end());
 }
@@ -56,6 +128,11 @@ void Bonds<Dim>::end_changes(std::span<const BondChange> changes) {
     any_broke_ = std::ranges::any_of(changes, [](const BondChange& change) { return change.end == 0.0; });
     if (changes.empty()) return;
     set_shares(changes, When::end);
+    for (const BondChange& change : changes) {
+        if (fracture_energy(change.place) == 0.0) continue;
+        taken_[change.place] += change.taken;
+        opened_[change.place] = change.opening;
+    }
     if (any_broke_) leave_out_broken();
     find_opening();
 }
@@ -81,20 +158,20 @@ double Bonds<Dim>::energy_at_end(std::span<const Vector<Dim>> q_1, const Boundar
 template <int Dim>
 void Bonds<Dim>::check_fracture_energy() const {
     const auto check = [&](std::size_t p, double stiffness) {
-        const Bond& bond = bodies_.options().bonds[places_[p].bond];
-        if (bond.fracture_energy == 0.0) return;
+        const double energy = fracture_energy(p);
+        if (energy == 0.0) return;
         const double held = energy_at_strength(places_[p].strength, stiffness);
-        if (bond.fracture_energy > held) return;
+        if (energy > held) return;
         const auto body_at = [&](std::size_t side) {
             return "'" + bodies_.mesh().body_names[static_cast<std::size_t>(places_[p].bodies[side])] + "'";
         };
         throw BadInput(mesh_.name + ": the bond of " + body_at(0) + " and " + body_at(1) + " has a fracture energy of " +
-                           number(bond.fracture_energy) + " J/m^2, but at its strength of " + number(places_[p].strength) +
+                           number(energy) + " J/m^2, but at its strength of " + number(places_[p].strength) +
                            " Pa the half cells beside it hold " + number(held) +
                            " J/m^2, and it would take these at once. Make cells there " +
-                           number(std::ceil(10.0 * held / bond.fracture_energy) / 10.0 + 0.1) +
+                           number(std::ceil(10.0 * held / energy) / 10.0 + 0.1) +
                            " times smaller or more, or leave fracture_energy out.",
-                       {.value = bond.fracture_energy, .allowed = held});
+                       {.value = energy, .allowed = held});
     };
     for (const Joint& joint : joints_) {
         const Vector<Dim>& normal = places_[joint.place].normal;
@@ -116,6 +193,8 @@ void Bonds<Dim>::take_over(const Bonds& before, std::span<const std::int32_t> ol
             throw BadInput(bodies_.mesh().name + ": faces are bonded that were not. Keep bonds as they are.");
         const auto old = static_cast<std::size_t>(from - before.places_.begin());
         share_[p] = before.share_[old];
+        taken_[p] = before.taken_[old];
+        opened_[p] = before.opened_[old];
         loosened_[p] = before.loosened_[old];
         places_[p].strength = from->strength;  // drawn once, whatever numbers the faces have now
     }
@@ -123,16 +202,23 @@ void Bonds<Dim>::take_over(const Bonds& before, std::span<const std::int32_t> ol
     find_opening();
 }
 
-#define ABUT_INSTANTIATE(Dim)                                                                            \
-    template bool Bonds<Dim>::any_breaks() const;                                                        \
-    template void Bonds<Dim>::append_change(std::size_t, const Vector<Dim>&, double, const Vector<Dim>&, \
-                                            std::vector<BondChange>&) const;                             \
-    template std::vector<BondChange> Bonds<Dim>::changes() const;                                        \
-    template void Bonds<Dim>::set_shares(std::span<const BondChange>, When);                             \
-    template void Bonds<Dim>::end_changes(std::span<const BondChange>);                                  \
-    template void Bonds<Dim>::see_end(std::span<const Vector<Dim>>, const BoundaryLoad<Dim>&);           \
-    template double Bonds<Dim>::energy_at_end(std::span<const Vector<Dim>>, const BoundaryLoad<Dim>&);   \
-    template void Bonds<Dim>::check_fracture_energy() const;                                             \
+#define ABUT_INSTANTIATE(Dim)                                                                                    \
+    template bool Bonds<Dim>::any_breaks() const;                                                                \
+    template void Bonds<Dim>::append_change(std::size_t, const Vector<Dim>&, double, double, const Vector<Dim>&, \
+                                            std::vector<BondChange>&) const;                                     \
+    template double Bonds<Dim>::fracture_energy(std::size_t) const;                                              \
+    template BondChange Bonds<Dim>::opened(const BondChange&, const BondOpening&) const;                         \
+    template bool Bonds<Dim>::have_law(std::span<const BondChange>) const;                                       \
+    template double Bonds<Dim>::energy_by_law(std::span<const BondChange>) const;                                \
+    template std::array<double, 2> Bonds<Dim>::rise_of_loss(std::span<const BondChange>) const;                  \
+    template void Bonds<Dim>::share_loss(double, std::span<BondChange>) const;                                   \
+    template double Bonds<Dim>::beyond_law() const;                                                              \
+    template std::vector<BondChange> Bonds<Dim>::changes() const;                                                \
+    template void Bonds<Dim>::set_shares(std::span<const BondChange>, When);                                     \
+    template void Bonds<Dim>::end_changes(std::span<const BondChange>);                                          \
+    template void Bonds<Dim>::see_end(std::span<const Vector<Dim>>, const BoundaryLoad<Dim>&);                   \
+    template double Bonds<Dim>::energy_at_end(std::span<const Vector<Dim>>, const BoundaryLoad<Dim>&);           \
+    template void Bonds<Dim>::check_fracture_energy() const;                                                     \
     template void Bonds<Dim>::take_over(const Bonds&, std::span<const std::int32_t>);
 ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)

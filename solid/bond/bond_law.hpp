@@ -1,14 +1,20 @@
 #pragma once
 // Private to the sources of this layer.
+#include <algorithm>
 #include <cstddef>
 
 namespace abut::solid {
 
-/// The share of the pull of a place at both ends of a step.
+/// The share of the pull of a place at both ends of a step and of its mean force.
 struct BondChange {
     std::size_t place;
     double start;
     double end;
+    double middle;
+    double opening;    ///< at the end, over that of a broken place [-]; 1 without a fracture energy
+    double taken;      ///< what its law takes in the step [J/m^2]
+    double stiffness;  ///< of both half cells in the direction of the traction [Pa/m]
+    double rise;       ///< of what a whole place holds, in the step [J/m^2]
 };
 
 /// Energy per area that half cells of this stiffness in series hold at the strength of a bond [J/m^2].
@@ -26,6 +32,28 @@ struct BondChange {
     const double left = full - traction * compliance;
     if (left <= 0.0 || full <= strength * compliance) return 0.0;  // the half cells hold more than G: it breaks at once
     return left / (full / strength - compliance) / traction;
+}
+
+/// The opening over w_f of a place that has this share [-], half cells of `stiffness` [Pa/m] being in series with it. Its
+/// law has taken as much of the fracture energy, however the place is loaded.
+[[nodiscard]] inline double opening_of_bond(double strength, double fracture_energy, double share, double stiffness) {
+    const double open = strength * (1.0 - share), held = share * 2.0 * fracture_energy / strength * stiffness;
+    return open + held > 0.0 ? open / (open + held) : 1.0;
+}
+
+/// The share of a place with this opening: opening_of_bond the other way round.
+[[nodiscard]] inline double share_of_opening(double strength, double fracture_energy, double opening, double stiffness) {
+    const double left = strength * (1.0 - opening);
+    return left > 0.0 ? left / (left + opening * 2.0 * fracture_energy / strength * stiffness) : 0.0;
+}
+
+/// The share of the mean force of a step. Whole, the place holds `held_0` at its start and `held_1` at its end [J/m^2]. As
+/// its share falls to the middle at the start, and from there at the end, it loses `taken` [J/m^2], if that lies between
+/// what it would lose at either end.
+[[nodiscard]] inline double middle_share(double start, double end, double held_0, double held_1, double taken) {
+    if (held_1 <= held_0) return 0.5 * (start + end);
+    const double middle = (start * held_0 - end * held_1 - taken) / (held_0 - held_1);
+    return std::clamp(middle, end, start);
 }
 
 }  // namespace abut::solid

@@ -51,8 +51,8 @@ public:
     [[nodiscard]] double energy() const;  ///< at the end of the step [J]
     /// The end alone: `energy` is that of it. What springs pull with stays.
     void see_end(std::span<const Vector<Dim>> q_1, const BoundaryLoad<Dim>& load_1, StepState state);
-    /// Calls visit(place, traction, stiffness, normal): in space at the end of the step dV/dx_2 per area of a whole
-    /// place [Pa] and the normal out of the first face; k_12 [Pa/m].
+    /// Calls visit(place, traction, stiffness, held_0, normal): in space at the end of the step dV/dx_2 per area of a whole
+    /// place [Pa] and the normal out of the first face; k_12 [Pa/m], and V per area of a whole one at the start [J/m^2].
     template <class Visit>
     void for_each_traction(const Visit& visit) const {
         for (std::size_t i = 0; i < springs_.size(); ++i) {
@@ -63,6 +63,7 @@ public:
                 (Matrix<Dim>::Identity() + end_.tilt[end.face]).inverse().transpose() * place.normal;
             const double stiffness = spring.stiffness / place.area;
             visit(spring.place, Vector<Dim>(stiffness * (x_1_[i][1] - x_1_[i][0])), stiffness,
+                  0.5 * stiffness * (x_0_[i][1] - x_0_[i][0]).squaredNorm(),
                   Vector<Dim>(frames_.end()[end.body].turn * in_frame));
         }
     }

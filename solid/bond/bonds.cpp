@@ -54,7 +54,9 @@ Bonds<Dim>::Bonds(const Bodies<Dim>& bodies, Ccg<Dim>& ccg, const BodyFrames<Dim
       part_(part),
       places_(bodies.bond_places()),
       share_(places_.size(), 1.0),
-      loosened_(places_.size(), 0.0) {
+      loosened_(places_.size(), 0.0),
+      taken_(places_.size(), 0.0),
+      opened_(places_.size(), 0.0) {
     check_bodies();
     const std::vector<std::size_t> of_joints = held_joints();
     check_metal(of_joints);
@@ -497,6 +499,8 @@ void Bonds<Dim>::save(StateWriter& state) const {
     for (const BondPlace<Dim>& place : places_) strengths.push_back(place.strength);
     state.put_all(std::span<const double>(strengths));
     state.put_all(std::span<const double>(loosened_));
+    state.put_all(std::span<const double>(taken_));
+    state.put_all(std::span<const double>(opened_));
 }
 
 template <int Dim>
@@ -507,14 +511,17 @@ void Bonds<Dim>::restore(StateReader& state) {
                            " places that are bonded, and here are " + std::to_string(share_.size()) +
                            ". Restore it where bonds are the same.",
                        {.value = static_cast<double>(share.size()), .allowed = static_cast<double>(share_.size())});
-    const std::vector<double> strengths = state.get_all<double>();
-    if (strengths.size() != share.size())
-        throw BadInput(mesh_.name + ": the saved state of its bonds is damaged. Take another checkpoint.");
-    const std::vector<double> loosened = state.get_all<double>();
-    if (loosened.size() != share.size())
-        throw BadInput(mesh_.name + ": the saved state of its bonds is damaged. Take another checkpoint.");
+    std::array<std::vector<double>, 4> others;
+    for (std::vector<double>& of_places : others) {
+        of_places = state.get_all<double>();
+        if (of_places.size() != share.size())
+            throw BadInput(mesh_.name + ": the saved state of its bonds is damaged. Take another checkpoint.");
+    }
+    auto& [strengths, loosened, taken, opened] = others;
     share_ = share;
     loosened_ = loosened;
+    taken_ = taken;
+    opened_ = opened;
     leave_out_broken();
     find_opening();
     for (std::size_t p = 0; p < places_.size(); ++p) places_[p].strength = strengths[p];  // drawn once

@@ -14,6 +14,7 @@
 #include "abut/solid/bond/bond_faces.hpp"
 #include "abut/solid/bond/bond_law.hpp"
 #include "abut/solid/bond/bond_springs.hpp"
+#include "abut/solid/bond/fit_to_law.hpp"
 #include "abut/solid/bond/merged_corrections.hpp"
 #include "abut/solid/boundary/bond_places.hpp"
 #include "abut/solid/ccg/ccg.hpp"
@@ -36,8 +37,8 @@ namespace abut::solid {
 /// All of it is quadratic in the displacements of the cells. Where a body may turn: BondSprings. docs/method.md, Bonds.
 ///
 /// A place whose traction t = s K_12 Delta pulls the faces apart and would exceed the strength gives way: its share s
-/// falls, at once to 0 or so that t falls with the opening until all of the fracture energy is taken (BondLaw). In a
-/// step the share is the mean of both ends, and what V loses by its change is dissipated.
+/// falls, at once to 0 or so that t falls with the opening until all of the fracture energy is taken (bond_law.hpp). What V
+/// loses by that is dissipated. In a step the share lies between those of both ends, so that it is what the law takes.
 template <int Dim>
 class Bonds {
 public:
@@ -102,8 +103,19 @@ public:
 
     /// Places that the end of the step that was followed opens further than ever before, increasing.
     [[nodiscard]] std::vector<BondChange> changes() const;
+    /// A change of `changes()` with another extent and another share of the mean force; places without a fracture energy
+    /// break as far as they do.
+    [[nodiscard]] BondChange opened(const BondChange& change, const BondOpening& opening) const;
+    /// Whether one of them takes a fracture energy.
+    [[nodiscard]] bool have_law(std::span<const BondChange> changes) const;
+    [[nodiscard]] double energy_by_law(std::span<const BondChange> changes) const;  ///< of all of them [J]
+    /// By how much all of them lose more as their share of the mean force goes to that of the start of the step, and less as
+    /// it goes to that of its end, if no place knew of another one [J].
+    [[nodiscard]] std::array<double, 2> rise_of_loss(std::span<const BondChange> changes) const;
+    /// Shares what they have lost together [J] among them, as their laws would have it.
+    void share_loss(double lost, std::span<BondChange> changes) const;
     /// From the next call of `stand_at` or `follow` on these places have the share of the start of the step, of its
-    /// end, or the mean of both.
+    /// end, or of its mean force.
     enum class When { start, middle, end };
     void set_shares(std::span<const BondChange> changes, When when);
     /// The step has ended, and these places have the share of its end from now on. Those that are broken cost nothing any
@@ -112,6 +124,9 @@ public:
     /// Whether a place broke in the last step that has ended so.
     [[nodiscard]] bool any_broke() const { return any_broke_; }
     [[nodiscard]] double share(std::size_t place) const { return share_[place]; }
+    /// Energy that places with a fracture energy have lost beyond what belongs to their openings; less than 0: they have
+    /// lost less [J].
+    [[nodiscard]] double beyond_law() const;
     /// Number of the first body that has the same frame, of each that deforms (n_bodies): as places of Bond::of_grains
     /// hold now.
     [[nodiscard]] std::vector<std::int32_t> frame_groups() const;
@@ -183,8 +198,9 @@ private:
     [[nodiscard]] double share_of(const Joint& joint) const { return share_[joint.place]; }
     [[nodiscard]] FaceCorrections<Dim> own_corrections() const { return {faces_->faces_here(), delta_here_, {}, {}}; }
     void check_fracture_energy() const;
-    void append_change(std::size_t place, const Vector<Dim>& traction, double stiffness, const Vector<Dim>& normal,
-                       std::vector<BondChange>& changes) const;
+    [[nodiscard]] double fracture_energy(std::size_t place) const;
+    void append_change(std::size_t place, const Vector<Dim>& traction, double stiffness, double held_0,
+                       const Vector<Dim>& normal, std::vector<BondChange>& changes) const;
     [[nodiscard]] Vector<Dim> bulk_gradient(const BondedFace& of_cell, BoundaryFace face) const;
     void take_excess();
     void push_faces(std::span<Vector<Dim>> gradient);
@@ -197,9 +213,11 @@ private:
     std::vector<BondPlace<Dim>> places_;
     std::vector<double> share_;     // by place, from 1, whole, to 0, broken
     std::vector<double> loosened_;  // by place: its stiffness if it has become a spring [Pa/m]; 0: it has not
+    // By place, where it has a fracture energy: what of it was taken [J/m^2], and its opening over that of a broken place
+    std::vector<double> taken_, opened_;
     bool any_broke_ = false;
     std::vector<std::size_t> opening_;   // first place of each bond of grains in one frame that has begun to open and holds
-    std::vector<BondChange> in_middle_;  // whose share is the mean of both ends of a step
+    std::vector<BondChange> in_middle_;  // whose share is that of the mean force of a step
     std::unique_ptr<BondSprings<Dim>> springs_;
     std::optional<BondFaces<Dim>> faces_;  // of small bodies
     std::vector<BondedFace> of_faces_;     // of each

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <compare>
 #include <limits>
+#include <memory>
 #include <numeric>
 #include <utility>
 
@@ -88,16 +89,16 @@ private:
     std::vector<std::size_t> begin_;  // of each face, one more at the end
 };
 
-/// All pairs of faces except those of which one is bonded to the body of the other, or all over, as the bonds are when it is
-/// asked.
+/// Leaves out pairs of faces of which one is bonded to the body of the other, and faces that are bonded all over, as the
+/// bonds are when it is asked.
 template <int Dim>
-std::function<bool(contact::Face, contact::Face)> wanted_beside(const CornerSurface<Dim>& corners, const Bonds<Dim>& bonds) {
-    if (!bonds.any()) return {};
-    return [of_faces = BondsOfFaces<Dim>(bonds), body_of = corners.bodies_of_faces()](contact::Face face_1,
-                                                                                      contact::Face face_2) {
+void leave_out_bonded(const CornerSurface<Dim>& corners, const Bonds<Dim>& bonds, contact::NodalOptions& options) {
+    if (!bonds.any()) return;
+    const auto of_faces = std::make_shared<const BondsOfFaces<Dim>>(bonds);
+    options.covered = [of_faces](contact::Face face) { return of_faces->covers(face); };
+    options.wanted = [of_faces, body_of = corners.bodies_of_faces()](contact::Face face_1, contact::Face face_2) {
         const auto body = [&](contact::Face face) { return body_of[static_cast<std::size_t>(face)]; };
-        return !of_faces.covers(face_1) && !of_faces.covers(face_2) && !of_faces.joins(face_1, body(face_2)) &&
-               !of_faces.joins(face_2, body(face_1));
+        return !of_faces->joins(face_1, body(face_2)) && !of_faces->joins(face_2, body(face_1));
     };
 }
 
@@ -128,16 +129,18 @@ contact::NodalOptions nodal_options(const Bodies<Dim>& bodies, const CornerSurfa
     contact::CandidateOptions search = contact.search;
     search.ignored_bodies = ignored_pairs(bodies);
     const auto faces_of = [&](std::size_t group) { return corners.faces_in_group(group); };
-    return {.search = std::move(search),
-            .facing = options.facing,
-            .events = contact.events,
-            .gauss = options.gauss,
-            .compression_warning = contact.compression_warning,
-            .compression_limit = contact.compression_limit,
-            .friction = friction_between(options, bodies.mesh().n_bodies(), corners.bodies_of_faces(), faces_of),
-            .interference = interference_between(options, bodies.mesh().n_bodies(), corners.bodies_of_faces(), faces_of),
-            .pieces = bonded_pieces(bodies, bonds),
-            .wanted = wanted_beside(corners, bonds)};
+    contact::NodalOptions nodal{
+        .search = std::move(search),
+        .facing = options.facing,
+        .events = contact.events,
+        .gauss = options.gauss,
+        .compression_warning = contact.compression_warning,
+        .compression_limit = contact.compression_limit,
+        .friction = friction_between(options, bodies.mesh().n_bodies(), corners.bodies_of_faces(), faces_of),
+        .interference = interference_between(options, bodies.mesh().n_bodies(), corners.bodies_of_faces(), faces_of),
+        .pieces = bonded_pieces(bodies, bonds)};
+    leave_out_bonded(corners, bonds, nodal);
+    return nodal;
 }
 
 }  // namespace

@@ -255,14 +255,26 @@ TEST_CASE("the run begins for a new face: it is in contact where its nodes are p
     CHECK_FALSE(deep.step(1.0, at(-0.25), at(-0.25)).is_active());
 }
 
+namespace {
+
+/// Pairs are not wanted, or all faces are covered, while `holds` is true.
+contact::NodalOptions held_apart(contact::NodalOptions options, const bool& holds, bool covers) {
+    if (covers)
+        options.covered = [&holds](Face) { return holds; };
+    else
+        options.wanted = [&holds](Face, Face) { return !holds; };
+    return options;
+}
+
+}  // namespace
+
 TEST_CASE(
     "faces that were held together and lie inside of each other as they are let go bear k A/2 times the square of what they "
     "are pressed in more, and of all of it once they have been apart",
     "[contact][nodal]") {
     const TwoFaces faces;
     bool holds = true;
-    contact::NodalOptions options = with_skin(0.05);
-    options.wanted = [&](Face, Face) { return !holds; };
+    const contact::NodalOptions options = held_apart(with_skin(0.05), holds, GENERATE(false, true));
     const auto at = [&](double y) { return faces.at(0.0, y); };
     NodalContact<2> contact(faces.scene.surface(), options);
     contact.step(1.0, at(-0.05), at(-0.05));
@@ -283,9 +295,8 @@ TEST_CASE("faces that were let go while they were apart are a missed contact whe
           "[contact][nodal]") {
     const TwoFaces faces;
     bool holds = true;
-    contact::NodalOptions options = with_skin(0.05);
+    contact::NodalOptions options = held_apart(with_skin(0.05), holds, GENERATE(false, true));
     options.pieces = {0, 0};
-    options.wanted = [&](Face, Face) { return !holds; };
     NodalContact<2> contact(faces.scene.surface(), options);
     contact.step(1.0, faces.at(0.0, 0.01), faces.at(0.0, 0.01));
     holds = false;

@@ -141,7 +141,7 @@ TEMPLATE_TEST_CASE_SIG("a state that is damaged, of another version, dimension o
     refuses({}, "no state is so short");
     {
         StateWriter other("contact " + std::to_string(Dim) + "D", 99);
-        refuses(std::move(other).finish(), "version 99, 11 is needed");
+        refuses(std::move(other).finish(), "version 99, 12 is needed");
     }
     {
         const auto other_surface = plates<5 - Dim>();

@@ -214,6 +214,37 @@ TEST_CASE("a body whose bonds open over less than a cell is warned of, with E G/
     CHECK(warned(9.0).front() == Approx(0.9).epsilon(1e-9));
 }
 
+TEST_CASE("a plate that bursts dissipates its fracture energy, and a run whose bonds are off it by 2 % is warned of",
+          "[input][pieces][fracture]") {
+    const double energy = 1e-7;
+    const WrittenScene written(
+        "dim = 2\n[bodies.plate]\nshape = \"structured_box\"\nlower = [0, 0]\nupper = [1, 1]\ncounts = "
+        "[12, 12]\nyoung = 1\ndensity = 1\npoisson = 0\nspin = 0.1\nkinematics = \"floating\"\nfracture = {grain = 0.3, "
+        "strength = 1e-3, fracture_energy = 1e-7}\n[run]\ntime = 3\n");
+    const input::SceneFile file(written.path());
+    const run::Scene<2> scene = file.scene<2>();
+    run::RunResult<2> result = run::simulate<2>(scene, file.options());
+    REQUIRE(result.bonds.broken_share == 1.0);
+    double area = 0.0;
+    for (const auto& coverage : result.bonds.coverage) area += coverage.area;
+    CHECK(result.energy.dissipated.in_bonds == Approx(energy * area).epsilon(1e-3));
+    CHECK(result.bonds.beyond_fracture_energy ==
+          Approx(result.energy.dissipated.in_bonds - energy * area).margin(1e-12 * energy));
+    const auto warned = [&] {
+        std::vector<double> values;
+        for (const run::Warning& warning : run::warnings_after(result))
+            if (warning.kind == run::WarningKind::fracture_energy) values.push_back(warning.value);
+        return values;
+    };
+    CHECK(warned().empty());
+    const double off = GENERATE(-0.02, 0.02);
+    result.energy.dissipated.in_bonds = (1.0 + off) * energy * area;
+    result.bonds.beyond_fracture_energy = off * energy * area;
+    REQUIRE(warned().size() == 1);
+    CHECK(warned().front() == Approx(0.02).epsilon(1e-9));
+    CHECK_FALSE(run::without_notes(run::warnings_after(result)).empty());
+}
+
 TEST_CASE("grains that springs hold together are warned of: finite ones and those of metal, and no others",
           "[input][pieces][fracture]") {
     const auto bonds_warned_of = [](const std::string& keys) {

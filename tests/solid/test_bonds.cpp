@@ -465,6 +465,21 @@ TEST_CASE("a bond bears its strength at most as it opens, and less and less", "[
     CHECK(solid::share_of_bond(2.0, 0.0, 2.1, 4.0) == 0.0);
 }
 
+TEST_CASE("the opening of a bond belongs to its share, and its mean share to what its law takes", "[solid][bonds]") {
+    // As above: a share of 0.2 is an opening of 1.2 of 3.
+    CHECK(solid::opening_of_bond(2.0, 3.0, 0.2, 4.0) == Approx(0.4).epsilon(1e-14));
+    CHECK(solid::opening_of_bond(2.0, 3.0, 1.0, 4.0) == 0.0);
+    CHECK(solid::opening_of_bond(2.0, 3.0, 0.0, 4.0) == 1.0);
+    CHECK(solid::share_of_opening(2.0, 3.0, 0.4, 4.0) == Approx(0.2).epsilon(1e-14));
+    CHECK(solid::share_of_opening(2.0, 3.0, 0.0, 4.0) == 1.0);
+    CHECK(solid::share_of_opening(2.0, 3.0, 1.0, 4.0) == 0.0);
+    // By hand: from 1 to m at 1 J/m^2 and from m to 0.2 at 4 J/m^2 it loses 0.2 + 3 m.
+    CHECK(solid::middle_share(1.0, 0.2, 1.0, 4.0, 2.0) == Approx(0.6).epsilon(1e-14));
+    CHECK(solid::middle_share(1.0, 0.2, 1.0, 4.0, 0.1) == 0.2);
+    CHECK(solid::middle_share(1.0, 0.2, 1.0, 4.0, 10.0) == 1.0);
+    CHECK(solid::middle_share(1.0, 0.2, 4.0, 1.0, 2.0) == 0.6);
+}
+
 TEST_CASE("bodies whose bond is broken touch each other", "[solid][bonds]") {
     const auto mesh = blocks<2>().front().mesh;
     auto options = bonded<2>({.young = 1.0, .poisson = 0.3, .density = 1.0}, {1.0, 0.3, 1.0});

@@ -345,28 +345,33 @@ TEST_CASE("a storm of breaks in space is lost with a step that only the body in 
     CHECK(growth_of_energy(dynamics::stable_step(whole).dt) > 2.0);
 }
 
-TEST_CASE("a run whose body has broken in part goes on from its state, bit by bit, with the strengths that were drawn",
-          "[solid][fracture]") {
-    const auto mesh = box_of_grains<2>();
+TEMPLATE_TEST_CASE_SIG(
+    "a run that stops in a storm of breaks goes on from its state, bit by bit, with the strengths that were drawn",
+    "[solid][fracture]", ((int Dim), Dim), 2, 3) {
+    const auto mesh = box_of_grains<Dim>();
     const auto options = [&](std::uint32_t seed) {
-        return of_grains<2>(
-            mesh, {.sides = {}, .strength = 0.01, .fracture_energy = 1.5e-4, .weibull_modulus = 10.0, .seed = seed});
+        return of_grains<Dim>(mesh, {.sides = {},
+                                     .strength = 0.01,
+                                     .fracture_energy = Dim == 2 ? 1.5e-4 : 3e-4,
+                                     .weibull_modulus = 10.0,
+                                     .seed = seed});
     };
-    const auto motions = flung_apart<2>(mesh, 0.15);
-    TurningScene<2> scene(mesh, options(1), motions, 0.9);
-    while (solid::fragments<2>(scene.view(), scene.solid).size() < 2) {
+    const auto motions = flung_apart<Dim>(mesh, 0.15);
+    TurningScene<Dim> scene(mesh, options(1), motions, 0.9);
+    while (solid::fragments<Dim>(scene.view(), scene.solid).size() < 2) {
         REQUIRE(scene.memm.time() < 10.0);
         scene.run(1, 1);
     }
-    REQUIRE(scene.solid.bonds().broken_share() < 1.0);
-    solid::SolidOptions<2> again = options(2);  // faces of another mesh have other numbers, and would draw other strengths
+    const double broken = scene.solid.bonds().broken_share();
+    REQUIRE(broken < 1.0);
+    solid::SolidOptions<Dim> again = options(2);  // faces of another mesh have other numbers, and would draw other strengths
     again.kinematics.assign(again.materials.size(), Kinematics::floating);
-    solid::Solid<2> other(mesh, again);
-    dynamics::Memm<solid::Solid<2>> on(other, std::vector<double>(other.size(), 0.0), std::vector<double>(other.size(), 0.0),
-                                       scene.memm.dt());
+    solid::Solid<Dim> other(mesh, again);
+    dynamics::Memm<solid::Solid<Dim>> on(other, std::vector<double>(other.size(), 0.0),
+                                         std::vector<double>(other.size(), 0.0), scene.memm.dt());
     other.restore(scene.solid.state(), scene.memm.q());
     on.restore(scene.memm.state());
-    const auto strengths = [](const solid::Solid<2>& of) {
+    const auto strengths = [](const solid::Solid<Dim>& of) {
         std::vector<double> values;
         for (const auto& place : of.bonds().places()) values.push_back(place.strength);
         return values;
@@ -374,8 +379,47 @@ TEST_CASE("a run whose body has broken in part goes on from its state, bit by bi
     CHECK(strengths(other) == strengths(scene.solid));
     scene.run(60, 60);
     for (int i = 0; i < 60; ++i) on.step();
+    CHECK(scene.solid.bonds().broken_share() > broken);
     CHECK(std::ranges::equal(on.q(), scene.memm.q()));
     CHECK(other.dissipated().total() == scene.solid.dissipated().total());
+    for (std::size_t p = 0; p < other.bonds().places().size(); ++p)
+        REQUIRE(other.bonds().share(p) == scene.solid.bonds().share(p));
+}
+
+TEST_CASE("fragments that lie inside of each other all at once have missed contacts, and those that meet have none",
+          "[solid][fracture]") {
+    const bool all_at_once = GENERATE(false, true);
+    const auto bar = mesh::structured_box<2>({0.0, 0.0}, {2.0, 1.0}, {16, 8}, CellShape::triangle);
+    std::vector<std::int32_t> grains;
+    for (const Vector<2>& x : bar.cell_centroid) grains.push_back(static_cast<std::int32_t>(x[0]));
+    const auto mesh = mesh::split_body<2>(bar, grains, {"1", "2"});
+    auto options = of_grains<2>(mesh, {.sides = {}, .strength = 1e-3});
+    std::vector<Motion<2>> motions(2);
+    motions[0].velocity[0] = -0.2;
+    TurningScene<2> scene(mesh, options, motions, 0.9);
+    while (scene.memm.time() < 3.0) scene.run(1);
+    REQUIRE(scene.solid.bonds().broken_share() == 1.0);
+    dynamics::IntegratorState state = scene.memm.state();
+    const auto q = as_vectors<2>(std::span<double>(state.q));
+    const auto cells = static_cast<std::size_t>(std::ranges::count(mesh.cell_body, 0));
+    double apart = 1.0;
+    for (std::size_t left = 0; left < cells; ++left)
+        for (std::size_t right = cells; right < q.size(); ++right)
+            apart = std::min(apart, scene.solid.rest_positions()[right][0] + q[right][0] -
+                                        scene.solid.rest_positions()[left][0] - q[left][0]);
+    REQUIRE(apart > 0.3);
+    if (all_at_once)
+        for (std::size_t left = 0; left < cells; ++left) q[left][0] += apart - 0.03;  // a cell is 0.125 wide
+    const auto before = as_vectors<2>(std::span<double>(state.p_before)),
+               after = as_vectors<2>(std::span<double>(state.p_after));
+    for (std::size_t left = 0; left < cells; ++left) {
+        before[left][0] *= -1.0;
+        after[left][0] *= -1.0;
+    }
+    scene.memm.restore(state);
+    scene.run(all_at_once ? 3 : static_cast<int>(2.0 * apart / (0.2 * scene.memm.dt())));
+    CHECK((scene.solid.contact().report().missed_contacts > 0) == all_at_once);
+    if (!all_at_once) CHECK(scene.solid.contact().report().active_pairs_max > 0);
 }
 
 TEST_CASE("a solid that takes a state has the bonds of that state, though as many others broke in it", "[solid][fracture]") {
