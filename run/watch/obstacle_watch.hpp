@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "abut/run/scene.hpp"
+#include "abut/run/values/sightings.hpp"
 
 namespace abut::run {
 

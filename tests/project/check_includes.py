@@ -1,4 +1,4 @@
-"""check_includes.py SOURCE: every source includes, by itself or through what it includes, the header of each type and of each function in
+"""check_includes.py SOURCE: every source and header includes, by itself or through what it includes, the header of each type and of each function in
 a namespace of ours that it names.
 Sources that are compiled together (ABUT_JOIN_SOURCES) see the includes of each other, so that one which lacks its own fails
 only where it is compiled alone. A name that headers give to two things, in a class or outside, is not looked at."""
@@ -17,6 +17,7 @@ NAMED = re.compile(rf"\b(?:typename|{KIND}|using)\s*(\w+)\b(?!;)")
 RETURNS = r"(?!return\b|using\b|friend\b|else\b|case\b|throw\b|delete\b|new\b)[\w:<>,&*\[\]]+"
 FUNCTION = re.compile(rf"^(?:{RETURNS} )*{RETURNS}[ &*]+(\w+)\(", re.MULTILINE)
 MEMBER = re.compile(rf"^ +(?:{RETURNS} )*{RETURNS}[ &*]+(\w+)\(|::(\w+)\([^;]*?\{{|\b(\w+) ?= ?\[|\[(\w+) =", re.MULTILINE)
+PARAMETER = re.compile(r"\b(?:int|class|typename|bool|auto) ([A-Z]\w*)(?= ?[,>=])")
 CALLED = re.compile(r"(?:\b(\w+)::)?(?<![\w.>:])(\w+)(?:<[^<>()]*>)?\(|\b(\w+)::(\w+)(?:<[^<>()]*>)?\(")
 NOT_CODE = re.compile(r'R"(\w*)\(.*?\)\1"|"(?:[^"\\\n]|\\.)*"|//[^\n]*', re.DOTALL)
 TYPE = re.compile(rf"(?:(\w+)(?:<[^<>]*>)?::)?(?<![\w.>:])([A-Z]\w*)\b|\b(\w+)::([A-Z]\w*)\b")
@@ -43,6 +44,10 @@ class Sources:
                 left.append(other)
         return seen
 
+    @functools.cache
+    def members(self, name):
+        return {found for member in MEMBER.findall(self.code(name)) for found in member}
+
     def declaring_headers(self):
         """{function: header} of what one header alone declares in a namespace, and nothing else has the name."""
         headers = [name for name in self.paths if name.endswith(".hpp")]
@@ -50,7 +55,7 @@ class Sources:
         for name in headers:
             for found in FUNCTION.findall(self.code(name)):
                 declaring[found].add(name)
-        others = {found for name in self.paths for member in MEMBER.findall(self.code(name)) for found in member}
+        others = {found for name in self.paths for found in self.members(name)}
         return {found: min(names) for found, names in declaring.items() if len(names) == 1 and found not in others}
 
     def defining_headers(self):
@@ -79,21 +84,19 @@ def functions_called(code):
 
 
 def opened(code, name):
-    """Whether the code looks into an object of this type: a declaration of the type alone does not allow that."""
+    """Whether the code looks into an object of this type. A declaration of the type alone allows that to templates only."""
     objects = re.findall(rf"\b{name}\b(?:<[^<>]*>)?(?: const)? ?[&*]? ?(\w+)\b", code)
     return any(re.search(rf"(?<![\w.>]){found}(?:\.|->)\w", code) for found in set(objects))
 
 
 def missing_in(sources, headers, functions):
     for name in sources.paths:
-        if not name.endswith(".cpp"):
-            continue
         reached = sources.reached(name)
         code = sources.code(name)
-        known = set(NAMED.findall(code))
+        known = {*NAMED.findall(code), *PARAMETER.findall(code), *sources.members(name)}
         declared = {found for other in reached for found in DECLARED.findall(sources.code(other))}
         for found in sorted(set(types_named(code)) - known):
-            if found in headers and headers[found] not in reached and (found not in declared or opened(code, found)):
+            if found in headers and headers[found] not in reached and (found not in declared or name.endswith(".cpp") and opened(code, found)):
                 yield f"{name} names {found} and does not include abut/{headers[found]}"
         known = set(FUNCTION.findall(code))
         for found in sorted(set(functions_called(code)) - known):
@@ -108,7 +111,7 @@ def main():
     assert headers, f"no header below {sys.argv[1]} defines a type: nothing was looked at"
     if wrong := list(missing_in(sources, headers, functions)):
         sys.exit("\n".join(wrong))
-    print(f"{len(sources.paths)} sources include the headers of the {len(headers)} types and {len(functions)} functions that they name")
+    print(f"{len(sources.paths)} sources and headers include the headers of the {len(headers)} types and {len(functions)} functions that they name")
 
 
 main()
