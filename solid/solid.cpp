@@ -175,9 +175,10 @@ std::span<const Vector<Dim>> Solid<Dim>::state_here(std::span<const double> q) {
 }
 
 template <int Dim>
-auto Solid<Dim>::ends_here(std::span<const double> q_0, std::span<const double> q_1) -> Ends {
+auto Solid<Dim>::step_here(std::span<const double> q_0, std::span<const double> q_1, double time, double dt,
+                           contact::TakenForce take) -> Step {
     const auto [start, end] = part_->step(as_vectors<Dim>(q_0), as_vectors<Dim>(q_1));
-    return {start, end};
+    return {start, end, time, dt, take};
 }
 
 /// Array for what `take_result` makes by point.
@@ -233,11 +234,11 @@ void Solid<Dim>::rigid_to_force(std::span<Vector<Dim>> force) const {
 
 /// With their work.
 template <int Dim>
-void Solid<Dim>::add_point_loads(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1, double time, double dt,
-                                 contact::TakenForce take, std::span<Vector<Dim>> force) {
+void Solid<Dim>::add_point_loads(const Step& step, std::span<Vector<Dim>> force) {
     if (!point_loads_->any()) return;
     point_loads_->add(
-        q_0, q_1, time, dt, take, [this](std::int32_t body) { return mean_turn(body); }, force, work_);
+        step.start, step.end, step.time, step.dt, step.take, [this](std::int32_t body) { return mean_turn(body); }, force,
+        work_);
 }
 
 /// Mean turn of the frame of a body or of a rigid one, between both ends of the step or in the state that is evaluated.

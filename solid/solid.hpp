@@ -220,11 +220,16 @@ public:
 
 private:
     // By point of this system or, on several ranks, by point of the part (RankPart): all that is private takes the latter.
-    struct Ends {
-        std::span<const Vector<Dim>> start, end;
+    struct Step {
+        std::span<const Vector<Dim>> start, end;  // [m]
+        double time, dt;                          // of its start, and how long it takes [s]
+        contact::TakenForce take;
+        /// Part of its work from outside that goes with this force; the rest goes with the one before.
+        [[nodiscard]] double share() const { return take == contact::TakenForce::mean ? 1.0 : 0.5; }
     };
     [[nodiscard]] std::span<const Vector<Dim>> state_here(std::span<const double> q);
-    [[nodiscard]] Ends ends_here(std::span<const double> q_0, std::span<const double> q_1);
+    [[nodiscard]] Step step_here(std::span<const double> q_0, std::span<const double> q_1, double time, double dt,
+                                 contact::TakenForce take);
     [[nodiscard]] std::span<Vector<Dim>> result_here(std::span<double> of_points);
     void take_result(std::span<double> of_points) const;
     [[nodiscard]] double potential_here(std::span<const Vector<Dim>> u);
@@ -238,11 +243,10 @@ private:
     void rigid_to_force(std::span<Vector<Dim>> force) const;
     template <class Constrain>
     void constrain_own(std::span<const double> q, std::span<double> p, const Constrain& constrain);
-    void add_point_loads(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1, double time, double dt,
-                         contact::TakenForce take, std::span<Vector<Dim>> force);
+    void add_point_loads(const Step& step, std::span<Vector<Dim>> force);
     [[nodiscard]] Matrix<Dim> mean_turn(std::int32_t body) const;
     void require_start(double time, double dt) const;
-    void follow_loads(std::span<const Vector<Dim>> q_0, double time, double dt);
+    void follow_loads(const Step& step);
     [[nodiscard]] double follow_frames(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1);
     [[nodiscard]] std::span<const Vector<Dim>> in_frames(std::span<const Vector<Dim>> q,
                                                          std::span<const std::int32_t> cells);
@@ -251,12 +255,11 @@ private:
                         std::span<Vector<Dim>> gradient);
     void require_no_collapse();
     void add_work(double share);
-    void finish_step(const Ends& ends, double time, double dt, contact::TakenForce take, double share,
-                     std::span<Vector<Dim>> gradient, std::span<double> force);
-    [[nodiscard]] std::vector<BondChange> bonds_that_give_way(const Ends& ends, const BoundaryLoad<Dim>& start_load);
-    [[nodiscard]] double energy_lost_by(std::span<const BondChange> changes, const Ends& ends,
+    void finish_step(const Step& step, std::span<Vector<Dim>> gradient, std::span<double> force);
+    [[nodiscard]] std::vector<BondChange> bonds_that_give_way(const Step& step, const BoundaryLoad<Dim>& start_load);
+    [[nodiscard]] double energy_lost_by(std::span<const BondChange> changes, const Step& step,
                                         const BoundaryLoad<Dim>& start_load);
-    [[nodiscard]] double open(std::vector<BondChange>& changes, const Ends& ends, const BoundaryLoad<Dim>& start_load);
+    [[nodiscard]] double open(std::vector<BondChange>& changes, const Step& step, const BoundaryLoad<Dim>& start_load);
     void flow_faces(std::span<const Vector<Dim>> q_1);
     void end_step(double time);
     void book_losses();
@@ -272,8 +275,8 @@ private:
     void check_old_cells(const Solid& before, std::span<const std::int32_t> old_cells) const;
     [[nodiscard]] dynamics::IntegratorState motion_of(const Solid& before, const dynamics::IntegratorState& motion,
                                                       std::span<const std::int32_t> old_cells) const;
-    [[nodiscard]] StepEnds<Dim> step_ends(const Ends& ends, const BoundaryLoad<Dim>& start_load, double dt);
-    void add_drag(const Ends& ends, double dt, std::span<Vector<Dim>> force);
+    [[nodiscard]] StepEnds<Dim> step_ends(const Step& step, const BoundaryLoad<Dim>& start_load);
+    void add_drag(const Step& step, std::span<Vector<Dim>> force);
     void add_contact_impulse(const dynamics::FreeFlight& flight, double time, double dt, std::span<Vector<Dim>> impulse);
     [[nodiscard]] FaceCorrections<Dim> corrections();
 

@@ -69,8 +69,9 @@ template <int Dim>
 void Solid<Dim>::mean_force(std::span<const double> q_0, std::span<const double> q_1, double time, double dt,
                             std::span<double> force) {
     require_start(time, dt);
-    const auto [u_0, u_1] = ends_here(q_0, q_1);
-    follow_loads(u_0, time, dt);
+    const Step step = step_here(q_0, q_1, time, dt, contact::TakenForce::mean);
+    const auto u_0 = step.start, u_1 = step.end;
+    follow_loads(step);
     const BoundaryLoad<Dim>& start_load = loads_->vary() ? loads_->start() : loads_->end();
     ccg_.begin_step(of_cells(u_0), start_load, dt);
     bodies_->rigid().follow(u_0, u_1);
@@ -82,7 +83,7 @@ void Solid<Dim>::mean_force(std::span<const double> q_0, std::span<const double>
 
     const Stopwatch watch(times_.bulk);
     const auto gradient = result_here(force);
-    StepEnds<Dim> ends = step_ends({u_0, u_1}, start_load, dt);
+    StepEnds<Dim> ends = step_ends(step, start_load);
     const auto take_gradient = [&](const BoundaryLoad<Dim>& load) {
         const ProcessorStopwatch of_cells(times_.own_cells);
         if (frames_->any())
@@ -91,13 +92,13 @@ void Solid<Dim>::mean_force(std::span<const double> q_0, std::span<const double>
             ccg_.mean_gradient(ends, load, corrections(), gradient);
         bonds_->add_gradient(gradient);
     };
-    const std::vector<BondChange> changes = bonds_that_give_way({u_0, u_1}, start_load);
+    const std::vector<BondChange> changes = bonds_that_give_way(step, start_load);
     ends.change = bonds_->change();
     if (loads_->vary())
         take_gradient(loads_->mean());
     else
         take_gradient(loads_->end());
-    finish_step({u_0, u_1}, time, dt, contact::TakenForce::mean, 1.0, gradient, force);
+    finish_step(step, gradient, force);
     bonds_->end_changes(changes);
     part_frames(u_1);
 }
@@ -105,21 +106,21 @@ void Solid<Dim>::mean_force(std::span<const double> q_0, std::span<const double>
 /// Follows the bonds along the step. What of them opens takes energy together; the rest waits for the next step. Shares are
 /// those of the mean force.
 template <int Dim>
-std::vector<BondChange> Solid<Dim>::bonds_that_give_way(const Ends& ends, const BoundaryLoad<Dim>& start_load) {
-    bonds_->follow(ends.start, start_load, ends.end, loads_->end());
+std::vector<BondChange> Solid<Dim>::bonds_that_give_way(const Step& step, const BoundaryLoad<Dim>& start_load) {
+    bonds_->follow(step.start, start_load, step.end, loads_->end());
     std::vector<BondChange> changes = bonds_->changes();
     if (changes.empty()) return changes;
-    double lost = open(changes, ends, start_load);
+    double lost = open(changes, step, start_load);
     while (lost < 0.0) {
         bonds_->set_shares(changes, Bonds<Dim>::When::start);
         keep_half_that_falls_most(changes);
-        lost = changes.empty() ? 0.0 : open(changes, ends, start_load);
+        lost = changes.empty() ? 0.0 : open(changes, step, start_load);
     }
     dissipated_.in_bonds += lost;
     bonds_->share_loss(lost, changes);
     bonds_->set_shares(changes, Bonds<Dim>::When::middle);
-    static_cast<void>(follow_frames(of_cells(ends.start), of_cells(ends.end)));
-    bonds_->follow(ends.start, start_load, ends.end, loads_->end());
+    static_cast<void>(follow_frames(of_cells(step.start), of_cells(step.end)));
+    bonds_->follow(step.start, start_load, step.end, loads_->end());
     return changes;
 }
 
@@ -152,9 +153,10 @@ void Solid<Dim>::end_force(std::span<const double> q_0, std::span<const double> 
                            std::span<double> force) {
     require({Feature::end_forces});
     require_start(time, dt);
-    const auto [u_0, u_1] = ends_here(q_0, q_1);
+    const Step step = step_here(q_0, q_1, time, dt, contact::TakenForce::end);
+    const auto u_0 = step.start, u_1 = step.end;
     const auto gradient = result_here(force);
-    follow_loads(u_0, time, dt);
+    follow_loads(step);
     bodies_->rigid().follow(u_0, u_1);
     const double motion = follow_frames(of_cells(u_0), of_cells(u_1));
     if (contact_) contact_->follow(u_0, u_1, motion, time, dt);
@@ -175,22 +177,22 @@ void Solid<Dim>::end_force(std::span<const double> q_0, std::span<const double> 
         ccg_.step_gradient(in_frames(u_1, all_cells_), loads_->end(), corrections(), gradient);
         bonds_->add_gradient(gradient);
     }
-    finish_step({u_0, u_1}, time, dt, contact::TakenForce::end, 0.5, gradient, force);
+    finish_step(step, gradient, force);
 }
 
 /// By the change of their shares to the middle one in the step where it starts, and from there where it ends.
 template <int Dim>
-double Solid<Dim>::energy_lost_by(std::span<const BondChange> changes, const Ends& ends,
+double Solid<Dim>::energy_lost_by(std::span<const BondChange> changes, const Step& step,
                                   const BoundaryLoad<Dim>& start_load) {
     using When = typename Bonds<Dim>::When;
     const auto energy_at_start = [&](When when) {
         bonds_->set_shares(changes, when);
-        return stored_energy(ends.start, start_load);
+        return stored_energy(step.start, start_load);
     };
     const auto energy_at_end = [&](When when) {
         bonds_->set_shares(changes, when);
-        const double in_cells = stored_energy(ends.end, loads_->end()) - bonds_->energy();
-        bonds_->see_end(ends.end, loads_->end());  // free faces of finite metal are where the step brings them
+        const double in_cells = stored_energy(step.end, loads_->end()) - bonds_->energy();
+        bonds_->see_end(step.end, loads_->end());  // free faces of finite metal are where the step brings them
         return in_cells + bonds_->energy();
     };
     frames_->stand_at_start();
@@ -201,14 +203,14 @@ double Solid<Dim>::energy_lost_by(std::span<const BondChange> changes, const End
 
 /// Energy that these places lose in the step. Those with a fracture energy open so that it is what their laws take.
 template <int Dim>
-double Solid<Dim>::open(std::vector<BondChange>& changes, const Ends& ends, const BoundaryLoad<Dim>& start_load) {
+double Solid<Dim>::open(std::vector<BondChange>& changes, const Step& step, const BoundaryLoad<Dim>& start_load) {
     const double by_law = bonds_->energy_by_law(changes);
-    if (by_law == 0.0 || !bonds_->have_law(changes)) return energy_lost_by(changes, ends, start_load);
+    if (by_law == 0.0 || !bonds_->have_law(changes)) return energy_lost_by(changes, step, start_load);
     const std::vector<BondChange> by_traction = changes;
     double lost = 0.0;
     const auto excess = [&](const BondOpening& opening) {
         for (std::size_t i = 0; i < changes.size(); ++i) changes[i] = bonds_->opened(by_traction[i], opening);
-        lost = energy_lost_by(changes, ends, start_load);
+        lost = energy_lost_by(changes, step, start_load);
         return (lost - bonds_->energy_by_law(changes)) / by_law;
     };
     std::array<double, 2> slopes = bonds_->rise_of_loss(changes);
@@ -220,26 +222,25 @@ double Solid<Dim>::open(std::vector<BondChange>& changes, const Ends& ends, cons
 /// Books the work of the step, makes the force of its gradient, and ends it. Where only a share of the work is booked
 /// the rest belongs to a force before: at the end of a step to that at its start.
 template <int Dim>
-void Solid<Dim>::finish_step(const Ends& ends, double time, double dt, contact::TakenForce take, double share,
-                             std::span<Vector<Dim>> gradient, std::span<double> force) {
-    const bool is_mean = take == contact::TakenForce::mean;
+void Solid<Dim>::finish_step(const Step& step, std::span<Vector<Dim>> gradient, std::span<double> force) {
+    const bool is_mean = step.take == contact::TakenForce::mean;
     require_no_collapse();
-    add_work(share);
+    add_work(step.share());
     if (contact_) {
-        contact_->add_impulses(dt);
+        contact_->add_impulses(step.dt);
         work_ += contact_->interference_work();
     }
-    to_force(is_mean ? ends.start : ends.end, ends.end, gradient);
-    if (closure_ && is_mean) closure_->add(ends.start, ends.end, gradient);
-    if (is_mean) add_drag(ends, dt, gradient);
+    to_force(is_mean ? step.start : step.end, step.end, gradient);
+    if (closure_ && is_mean) closure_->add(step.start, step.end, gradient);
+    if (is_mean) add_drag(step, gradient);
     work_ += frame_loads_->work();
-    add_point_loads(ends.start, ends.end, time, dt, take, gradient);
-    outside_->add_step(ends.start, ends.end, [this](std::int32_t body) { return mean_turn(body); });
+    add_point_loads(step, gradient);
+    outside_->add_step(step.start, step.end, [this](std::int32_t body) { return mean_turn(body); });
     take_result(force);
     evaluations_ += part_->n_all_cells();
     book_losses();
-    flow_faces(ends.end);
-    end_step(time + dt);
+    flow_faces(step.end);
+    end_step(step.time + step.dt);
 }
 
 template <int Dim>
@@ -262,14 +263,15 @@ void Solid<Dim>::require_start(double time, double dt) const {
 }
 
 template <int Dim>
-void Solid<Dim>::follow_loads(std::span<const Vector<Dim>> q_0, double time, double dt) {
+void Solid<Dim>::follow_loads(const Step& step) {
     if (!loads_->vary()) return;
     using Jump = typename Loads<Dim>::Jump;
     double held_change = 0.0;  // of what V has less for loads from outside
     const auto follow_jump = [&](Jump jump) {
-        if (contact_) contact_->follow_jump(q_0, time);
+        if (contact_) contact_->follow_jump(step.start, step.time);
         if (!outside_->any()) return;
-        held_change = jump == Jump::tractions ? outside_->held_change(q_0) : outside_->held_change_of_heat(q_0);
+        held_change =
+            jump == Jump::tractions ? outside_->held_change(step.start) : outside_->held_change_of_heat(step.start);
     };
     const auto book = [&](Jump jump, double change) {
         work_ += change;
@@ -280,10 +282,10 @@ void Solid<Dim>::follow_loads(std::span<const Vector<Dim>> q_0, double time, dou
             outside_->add_heat(change, held_change);
     };
     const bool any_jumps = loads_->begin_step(
-        time, dt, outside_->any(), [&] { return potential_here(q_0); }, follow_jump, book);
+        step.time, step.dt, outside_->any(), [&] { return potential_here(step.start); }, follow_jump, book);
     if (!any_jumps) return;
     if (frame_loads_->any()) frame_loads_->take(loads_->end());
-    if (contact_) contact_->jumped(q_0, time);
+    if (contact_) contact_->jumped(step.start, step.time);
 }
 
 /// Fills midpoint_ where a body turns. No cell moves farther in its frame than what is returned [m]; without contact nobody
@@ -334,21 +336,22 @@ void Solid<Dim>::require(FeatureSet of_use) const {
 
 /// Bodies of Kinematics::finite are where they are, and what is linear is asked for in its frame.
 template <int Dim>
-StepEnds<Dim> Solid<Dim>::step_ends(const Ends& ends, const BoundaryLoad<Dim>& start_load, double dt) {
-    if (!any_memory() || !frames_->any()) return {of_cells(ends.start), of_cells(ends.end), &start_load, &loads_->end(), dt};
-    for (std::vector<Vector<Dim>>& in_frame : ends_in_frames_) in_frame.resize(of_cells(ends.start).size());
-    frames_->displacement(all_cells_, of_cells(ends.start), frames_->start(), ends_in_frames_[0]);
-    frames_->displacement(all_cells_, of_cells(ends.end), frames_->end(), ends_in_frames_[1]);
-    return {ends_in_frames_[0], ends_in_frames_[1], &start_load, &loads_->end(), dt};
+StepEnds<Dim> Solid<Dim>::step_ends(const Step& step, const BoundaryLoad<Dim>& start_load) {
+    if (!any_memory() || !frames_->any())
+        return {of_cells(step.start), of_cells(step.end), &start_load, &loads_->end(), step.dt};
+    for (std::vector<Vector<Dim>>& in_frame : ends_in_frames_) in_frame.resize(of_cells(step.start).size());
+    frames_->displacement(all_cells_, of_cells(step.start), frames_->start(), ends_in_frames_[0]);
+    frames_->displacement(all_cells_, of_cells(step.end), frames_->end(), ends_in_frames_[1]);
+    return {ends_in_frames_[0], ends_in_frames_[1], &start_load, &loads_->end(), step.dt};
 }
 
 /// Adds the forces of Damping::mass.
 template <int Dim>
-void Solid<Dim>::add_drag(const Ends& ends, double dt, std::span<Vector<Dim>> force) {
+void Solid<Dim>::add_drag(const Step& step, std::span<Vector<Dim>> force) {
     if (!ccg_.any_damped()) return;
     const auto n_cells = static_cast<std::ptrdiff_t>(bodies_->n_cells());
     parallel_each(n_cells, [&](std::ptrdiff_t c) {
-        force[c] += ccg_.drag(static_cast<std::int32_t>(c), bodies_->masses()[c], ends.end[c] - ends.start[c], dt);
+        force[c] += ccg_.drag(static_cast<std::int32_t>(c), bodies_->masses()[c], step.end[c] - step.start[c], step.dt);
     });
 }
 
