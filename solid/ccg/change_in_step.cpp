@@ -71,7 +71,7 @@ bool ChangeInStep<Dim, Real>::follows_last_load(const StepEnds<Dim>& ends) {
     return same;
 }
 
-/// Of û_f less u_c, prescribed displacements fixed.
+/// Change of û_f less u_c, prescribed displacements fixed.
 template <int Dim, class Real>
 Lanes<Dim, Real> ChangeInStep<Dim, Real>::of_cells_behind(BoundaryFace face) const {
     const BoundaryReconstruction<Dim>& boundary = arrays_.boundary;

@@ -38,19 +38,19 @@ public:
     /// Whether the step begins where the last one ended, and prescribed displacements do not change. Known to metal.
     [[nodiscard]] bool follows() const { return follows_; }
 
-    /// Of u_c.
+    /// Change of u_c.
     [[nodiscard]] Lanes<Dim, Real> of_cell(std::int32_t c) const { return load_packed<Dim>(u_, c); }
-    /// Of u_f less u_c of the first cell.
+    /// Change of u_f less u_c of the first cell.
     [[nodiscard]] Lanes<Dim, Real> reconstructed(std::int32_t f) const { return element_.reconstructed(u_.data(), f); }
-    /// Of û_f less u_c, with that of prescribed displacements.
+    /// Change of û_f less u_c, with that of prescribed displacements.
     [[nodiscard]] Lanes<Dim, Real> of_face(BoundaryFace b) const;
 
     // Gradients of cells whose strains are linear. Few bodies ask, each for some of its cells.
 
     /// Made for this call.
     [[nodiscard]] Matrix<Dim> made_gradient(std::int32_t c) const;
-    /// Makes it before stresses ask: where it `is_needed`, and where `ask` named the cell in the last step, as what flows mostly
-    /// goes on.
+    /// Makes it before stresses ask: where it `is_needed`, and where `ask` named the cell in the last step, as what flows
+    /// mostly goes on.
     void prepare_gradient(std::int32_t c, bool is_needed);
     void ask(std::int32_t c) { asks_[static_cast<std::size_t>(c)] = 1; }
     /// As it was prepared, or made for this call, with the same bits.

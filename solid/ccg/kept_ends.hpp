@@ -79,7 +79,7 @@ struct KeptEnd {
     void resize(std::size_t n_cells, const FiniteCells<Dim>& finite);
 };
 
-/// Where a step stands for cells that remember. Without such cells it is always `begun`.
+/// Stage of a step for cells that remember. Without such cells it is always `begun`.
 enum class StepStage {
     begun,  ///< they remember its start
     tried,  ///< its end has been evaluated. It may be evaluated again, or dropped as another step begins

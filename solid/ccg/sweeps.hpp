@@ -131,7 +131,7 @@ private:
     using Tensor = LaneTensor<Dim, Real>;
 
     using Fill = typename KeptEnds<Dim>::Fill;
-    /// What a step does to a cell that remembers.
+    /// Effect of a step on a cell that remembers.
     enum class Fate : char {
         changes,  // it remembers something else, and dissipates nothing
         flows,    // it dissipates

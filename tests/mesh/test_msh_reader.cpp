@@ -364,6 +364,7 @@ TEST_CASE("files of other programs are refused with the command that converts th
     CHECK_THROWS_WITH(read_mesh<3>("part.unv"), Contains("Convert it: gmsh part.unv -save -o part.msh"));
     CHECK_THROWS_WITH(read_mesh<3>("part.key"), Contains("No converter is known. Write the mesh as .unv, .inp or .bdf"));
     CHECK_THROWS_WITH(read_mesh<2>("part.geo"), Contains("Convert it: gmsh part.geo -3 -o part.msh"));
-    CHECK_THROWS_WITH(read_mesh<3>("part.step"), Contains("gmsh part.step -setstring Geometry.OCCTargetUnit M -3 -o part.msh"));
+    CHECK_THROWS_WITH(read_mesh<3>("part.step"),
+                      Contains("gmsh part.step -setstring Geometry.OCCTargetUnit M -3 -o part.msh"));
     CHECK_THROWS_WITH(read_surface("part.vtk"), Contains("Convert it: meshio convert part.vtk part.vtu"));
 }
