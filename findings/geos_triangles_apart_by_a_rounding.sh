@@ -3,7 +3,8 @@
 # Packages of Debian 12: libgeos-c1v5=3.11.1-1, libgeos3.11.1=3.11.1-1, python3-shapely=1.8.5-2+b1. Needs python3.
 # Guess: the overlay of GEOS 3.11 is robust. The area is that of the triangle, up to roundings.
 # Seen: in some pairs the intersection is one or two points, of area 0, and the union of two such pairs has twice the area of each.
-#   Ten of 5,000 random pairs whose corners differ by 1e-17 to 1e-9 lose everything; the others are right to 1e-8, by which they differ. No error is raised.
+#   Ten of 5,000 random pairs whose corners differ by 1e-17 to 1e-9 lose everything;
+#   the others are right to 1e-8, by which they differ. No error is raised.
 set -euo pipefail
 work=$(mktemp -d) && trap 'rm -rf "$work"' EXIT && cd "$work"
 apt-get -qq -y --no-install-recommends --download-only --reinstall -o APT::Sandbox::User=root -o Debug::NoLocking=1 -o Dir::Cache::archives="$work" \

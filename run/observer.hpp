@@ -26,7 +26,7 @@ public:
     virtual void begin(const Scene<Dim>&, const RunResult<Dim>&) {}
     /// An entry of the ledger: at the start, every `interval` steps and at the end. It is in `result.ledger` already.
     virtual void record(const dynamics::LedgerEntry<Dim>&, const RunResult<Dim>&) {}
-    /// State after each step, and at the start, before anything else is asked or shown of it.
+    /// State at the start and after each step: after `record`, before anything is asked of it.
     virtual void note(const Moment<Dim>&) {}
     /// True if `see` has something to do at the start (0) or after this step: else it is not called. On several ranks the
     /// values of all cells are brought together for it, on rank 0.
@@ -53,7 +53,7 @@ public:
     /// Asked at the start and after each step but the last: true makes it the last one, which is recorded in any case.
     [[nodiscard]] virtual bool asks_to_stop() const { return false; }
     /// A step could not be ended, or the run has diverged: nothing follows but the error, whatever is thrown here. The last
-    /// sound state is shown.
+    /// sound state is shown; where Failure::not_evaluated says why not, displacements and velocities of the cells alone.
     virtual void fail(const Failure&, const Sight<Dim>& /*sound*/) {}
 
     // Frames in pieces: each rank looks at its own cells, and nothing is brought together

@@ -28,7 +28,7 @@ Vector<Dim> cross(const AxialVector<Dim>& spin, const Vector<Dim>& arm) {
                 spin.x() * arm.y() - spin.y() * arm.x()};
 }
 
-/// By body, (n_bodies, Dim) [m].
+/// Centroids of the bodies, (n_bodies, Dim) [m].
 template <int Dim>
 std::vector<double> centroids(const mesh::Mesh<Dim>& mesh) {
     std::vector<Vector<Dim>> sums(mesh.body_names.size(), Vector<Dim>::Zero());

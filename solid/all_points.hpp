@@ -35,6 +35,7 @@ public:
         body_ = body_kept_;
     }
     AllPoints(const AllPoints&) = delete;
+    AllPoints& operator=(const AllPoints&) = delete;
 
     [[nodiscard]] std::size_t size() const { return mass_.size(); }
     [[nodiscard]] std::span<const Vector<Dim>> rest() const { return as_vectors<Dim>(rest_); }  ///< [m]

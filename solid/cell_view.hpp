@@ -42,7 +42,8 @@ public:
     /// cell and this times X - x_c. On several ranks of an own cell, without the others.
     [[nodiscard]] Matrix<Dim> displacement_gradient(std::int32_t cell, std::span<const double> q) const;
     /// Reports on the stencils of the faces of all ranks, each counted where its first cell is an own one. A call of all
-    /// ranks; on several `worst_face` and `lowered_faces` are those of this one, numbered as in Solid::ccg.
+    /// ranks. On several `worst_weight` is of all, `worst_face` and `lowered_faces` are those of this rank, numbered as in
+    /// Solid::ccg.
     [[nodiscard]] StencilReports stencils() const;
     /// Largest deformation of cells of large strains in all steps so far. H~ does not show where they collapse: a step in
     /// which det F of one falls to 0.1 throws Diverged.

@@ -108,12 +108,14 @@ void Solid<Dim>::mean_force(std::span<const double> q_0, std::span<const double>
 template <int Dim>
 std::vector<BondChange> Solid<Dim>::bonds_that_give_way(const Step& step, const BoundaryLoad<Dim>& start_load) {
     bonds_->follow(step.start, start_load, step.end, loads_->end());
-    std::vector<BondChange> changes = bonds_->changes();
-    if (changes.empty()) return changes;
+    std::vector<BondChange> by_traction = bonds_->changes();
+    if (by_traction.empty()) return by_traction;
+    std::vector<BondChange> changes = by_traction;
     double lost = open(changes, step, start_load);
     while (lost < 0.0) {
-        bonds_->set_shares(changes, Bonds<Dim>::When::start);
-        keep_half_that_falls_most(changes);
+        bonds_->set_shares(by_traction, Bonds<Dim>::When::start);
+        keep_half_that_falls_most(by_traction);
+        changes = by_traction;
         lost = changes.empty() ? 0.0 : open(changes, step, start_load);
     }
     dissipated_.in_bonds += lost;
@@ -180,7 +182,7 @@ void Solid<Dim>::end_force(std::span<const double> q_0, std::span<const double> 
     finish_step(step, gradient, force);
 }
 
-/// By the change of their shares to the middle one in the step where it starts, and from there where it ends.
+/// Energy that V loses as these shares go to the middle one where the step starts, and from there on where it ends [J].
 template <int Dim>
 double Solid<Dim>::energy_lost_by(std::span<const BondChange> changes, const Step& step,
                                   const BoundaryLoad<Dim>& start_load) {

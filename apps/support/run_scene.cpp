@@ -1,7 +1,9 @@
 #include "apps/support/run_scene.hpp"
 
 #include <fmt/format.h>
+#if __has_include(<malloc.h>)
 #include <malloc.h>
+#endif
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/task_arena.h>
 #include <spdlog/spdlog.h>

@@ -209,7 +209,7 @@ typedef struct abut_solid_state {
     int64_t sliding_faces;
     double broken_bonds; /* the part of the area of all bonds that is broken; 0 without bonds */
     double work_heat;    /* of temperatures that vary, less what they make the tractions do */
-    double beyond_fracture_energy; /* that bonds dissipated more than theirs; below 0: less */
+    double beyond_fracture_energy; /* energy that bonds dissipated beyond their fracture energies; below 0: less */
 } abut_solid_state;
 #define ABUT_SOLID_STATE_INIT \
     {sizeof(abut_solid_state), 0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0, 0, 0.0, 0.0, 0, 0, 0.0, 0.0, 0.0}

@@ -58,7 +58,8 @@ public:
     /// Whether a facet of bodies that touch themselves has turned since the last search by more than lists allow for.
     [[nodiscard]] bool has_turned(State x) const;
     [[nodiscard]] bool is_wanted(FacetPair pair) const {
-        return surface_.may_meet(number_of(pair.facet_1), number_of(pair.facet_2)) &&
+        return !is_covered(pair.facet_1) && !is_covered(pair.facet_2) &&
+               surface_.may_meet(number_of(pair.facet_1), number_of(pair.facet_2)) &&
                (!options_.wanted || options_.wanted(acting().face_of(pair.facet_1), acting().face_of(pair.facet_2)));
     }
     void list(std::vector<FacetPair>& pairs, std::span<const FacetPair> in_contact, State x_0, double reach);

@@ -60,7 +60,7 @@ public:
     /// polygon is all points between its corners. Neighbours, rigid faces and errors as `search`, Diverged names the
     /// vertex too, and the extent that limits its motion is that at rest. Vertices that no face names may hold
     /// anything. `within`: which pairs of faces of one body are wanted; asked from several threads at once, empty: all.
-    /// `left_out`: not 0 for faces that are in no pair (n); empty: all may be.
+    /// `left_out`: not 0 for faces that are in no pair (n), looked at during the call alone; empty: all may be.
     void search_moved(PointsView<Dim> x_0, PointsView<Dim> x_1, GapOf gap = GapOf::overlap,
                       const geometry::PairFilter& within = {}, std::span<const char> left_out = {});
 

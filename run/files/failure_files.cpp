@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::array<std::string_view, 3> axis_names{"x", "y", "z"};
 
-/// By which the state is shown: in the lost one, else in the sound one.
+/// Speeds of the cells by which the state is shown [m/s]: those of the lost one, else of the sound one.
 template <int Dim>
 std::vector<double> speeds(const Failure& failure, const Sight<Dim>& sound) {
     if (failure.lost) return failure.lost_speed;

@@ -51,7 +51,7 @@ public:
     Frames& operator=(const Frames&) = delete;
 
     void begin(const Scene<Dim>& scene, const RunResult<Dim>& result) override;
-    /// Writes a frame if one is due at this step.
+    /// Writes a frame.
     void see(const Sight<Dim>& sight) override;
     void see_at_time(const Sight<Dim>& sight) override;
     void cells_left(const solid::Solid<Dim>& solid, std::span<const std::int32_t> first_cells) override;

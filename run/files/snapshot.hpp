@@ -64,6 +64,7 @@ public:
     [[nodiscard]] const BodyPolygons& polygons() const { return polygons_; }
     /// Goes on with the rest of the scene's mesh, once cells have left; `first_cells`: the numbers of its cells there.
     void take_cells(const mesh::Mesh<Dim>& left, std::span<const std::int32_t> first_cells);
+    /// Snapshot of what is seen. Its cost is proportional to the cells.
     [[nodiscard]] Snapshot taken(std::string what, const Sight<Dim>& sight) const;
 
 private:

@@ -286,7 +286,7 @@ Markup bonds_part(const Figures& figures, const Scene<Dim>& scene) {
                           "of the smaller side", "largest gap [m]"},
                          rows);
     if (figures.summary().at("bonds").contains("dissipated"))
-        bonds += table({"", ""}, {figure_row(figures, "dissipated by those that broke", "bonds.dissipated", "J")});
+        bonds += table({"", ""}, {figure_row(figures, "dissipated by those that opened or broke", "bonds.dissipated", "J")});
     if (figures.summary().at("bonds").contains("beyond_fracture_energy"))
         bonds += table({"", ""},
                        {figure_row(figures, "of this beyond their fracture energy", "bonds.beyond_fracture_energy", "J")});

@@ -93,6 +93,7 @@ void Soundness<Dim>::tell(const dynamics::IntegratorState& own_sound, Failure fa
         sight.moment = {.steps = own_sound.steps, .time = own_sound.time};
         sight.mesh = &whole;
         sight.options = &solid.options();
+        sight.any_turns = solid.moment_arms() == dynamics::MomentArms::mid_step;
         sight.displacement = std::move(motions.displacement);
         sight.velocity = std::move(motions.velocity);
     }

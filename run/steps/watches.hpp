@@ -16,8 +16,8 @@
 
 namespace abut::run {
 
-/// Watches of a run: each looks when it is due, and what they find is in Start::result. Functions that take the
-/// run are calls of all ranks.
+/// Watches of a run: each looks when it is due, and what they find is in Start::result. The constructor and
+/// functions that take the run are calls of all ranks.
 template <int Dim>
 class Watches {
 public:

@@ -76,7 +76,7 @@ template <int Dim>
 std::vector<Vector<Dim>> Sight<Dim>::vertex_displacement() const {
     std::vector<Vector<Dim>> result(mesh->vertices.size(), Vector<Dim>::Zero());
     std::vector<int> n_cells(mesh->vertices.size(), 0);
-    for (std::size_t c = 0; c < displacement.size(); ++c)
+    for (std::size_t c = 0; c < displacement_gradient.size(); ++c)
         for (const std::int32_t vertex : mesh->cell_vertices[static_cast<std::int32_t>(c)]) {
             const auto v = static_cast<std::size_t>(vertex);
             result[v] += displacement[c] + displacement_gradient[c] * (mesh->vertices[v] - mesh->cell_centroid[c]);

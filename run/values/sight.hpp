@@ -30,16 +30,19 @@ struct Sight {
     std::vector<double> bond;                   ///< left_of_bonds (n_boundary); empty without bonds
     std::vector<solid::ActingPair<Dim>> pairs;  ///< that push each other
 
-    /// Displacement of the vertices (n_vertices) [m]: CellView::vertex_displacement.
+    /// Displacement of the vertices (n_vertices) [m]: CellView::vertex_displacement; 0 where there are no gradients.
     [[nodiscard]] std::vector<Vector<Dim>> vertex_displacement() const;
 };
 
-/// Whether a solid was evaluated last in the state that is to be seen: then it is not done again, and of cells alone nothing
-/// is evaluated.
-enum class Evaluated : std::uint8_t { no, yes, cells_alone };
+/// Evaluations that a solid needs before it is seen.
+enum class Evaluated : std::uint8_t {
+    no,          ///< it is evaluated in this state
+    yes,         ///< it was evaluated last in this state; contact is evaluated, and leaves other stresses behind
+    cells_alone  ///< nothing is evaluated: faces are where contact has moved them last; no contact, bonds and pairs
+};
 
 /// Bodies at the node of `run`, on rank 0; without values on the others. A call of all ranks. `whole`, the mesh of the
-/// cells of all ranks, is looked at on rank 0 alone.
+/// cells of all ranks, is looked at on rank 0 alone. `Evaluated::no` leaves the solid evaluated in this state.
 template <int Dim>
 [[nodiscard]] Sight<Dim> sight_of(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid, const mesh::Mesh<Dim>& whole,
                                   Evaluated evaluated = Evaluated::no);

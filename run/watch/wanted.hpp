@@ -8,7 +8,7 @@ namespace abut::run {
 struct Wanted {
     bool stop = false;
     bool see = false;
-    bool look = false;  // at the solid itself
+    bool look = false;  ///< at the solid itself
     bool checkpoint = false;
     bool measure = false;     ///< the surfaces
     std::int64_t piece = -1;  ///< of this frame

@@ -25,7 +25,7 @@ void Bonds<Dim>::append_change(std::size_t place, const Vector<Dim>& whole, doub
     const double energy = fracture_energy(place), strength = places_[place].strength;
     const double start = share_[place], end = share_of_bond(strength, energy, traction.norm(), stiffness);
     if (end >= start) return;
-    const double held_1 = 0.5 * traction.squaredNorm() / stiffness;
+    const double held_1 = 0.5 * whole.squaredNorm() / stiffness;
     const double opening = energy > 0.0 ? opening_of_bond(strength, energy, end, stiffness) : 1.0;
     const double taken =
         energy > 0.0 ? std::max(energy * opening - taken_[place], 0.0) : 0.5 * (start - end) * (held_0 + held_1);

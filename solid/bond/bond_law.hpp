@@ -12,7 +12,7 @@ struct BondChange {
     double end;
     double middle;
     double opening;    ///< at the end, over that of a broken place [-]; 1 without a fracture energy
-    double taken;      ///< what its law takes in the step [J/m^2]
+    double taken;      ///< what its law takes in the step; after Bonds::share_loss what it has lost [J/m^2]
     double stiffness;  ///< of both half cells in the direction of the traction [Pa/m]
     double rise;       ///< of what a whole place holds, in the step [J/m^2]
 };

@@ -32,9 +32,10 @@ void find_root(double a, double at_a, double b, double at_b, double tolerance, c
 }
 
 /// Opens places so that what they lose together is what their laws take, to 1e-3 of it: by the share of their mean force,
-/// and where they lose too little even so by opening less. `excess(opening)` opens them so, and returns what is lost beyond
-/// that, over what laws take of openings of 1 [-]. It is called last with the opening that is chosen: the nearest, if none
-/// fits. `slopes`: by how much it grows with the middle towards 1 and -1, if no place knew of another one.
+/// and where they lose too little even so by opening less, an eighth of that at least. `excess(opening)` opens them so, and
+/// returns what is lost beyond that, over what laws take of openings of 1 [-]. It is called last with the opening that is
+/// chosen: the nearest, if none fits. `slopes`: by how much it grows with the middle towards 1 and -1, if no place knew of
+/// another one.
 template <class Excess>
 void fit_to_law(const Excess& excess, const std::array<double, 2>& slopes) {
     constexpr double tolerance = 1e-3, least_extent = 0.125;

@@ -47,20 +47,20 @@ public:
 
     // Gradients of cells whose strains are linear. Few bodies ask, each for some of its cells.
 
-    /// Made for this call.
+    /// Change of the gradient, made for this call.
     [[nodiscard]] Matrix<Dim> made_gradient(std::int32_t c) const;
     /// Makes it before stresses ask: where it `is_needed`, and where `ask` named the cell in the last step, as what flows
     /// mostly goes on.
     void prepare_gradient(std::int32_t c, bool is_needed);
     void ask(std::int32_t c) { asks_[static_cast<std::size_t>(c)] = 1; }
-    /// As it was prepared, or made for this call, with the same bits.
+    /// Change of the gradient as it was prepared, or made for this call: bitwise identical.
     [[nodiscard]] Matrix<Dim> gradient(std::int32_t c) const;
 
-    // Of finite bodies; prescribed displacements are in their ends.
+    // Finite bodies; prescribed displacements are in their ends.
 
     void reconstruct_finite(std::int32_t f) { store(reconstructed(f), relative_, f); }
     void reconstruct_finite(BoundaryFace b) { store(of_cells_behind(b), relative_, arrays_.face_of(b)); }
-    /// 0 where no step is made.
+    /// Sets `gradient_of_finite` of a cell: 0 where no step is made.
     void set_gradient_of_finite(std::int32_t c);
     [[nodiscard]] LaneTensor<Dim, Real> gradient_of_finite(std::int32_t c) const { return load_tensor<Dim>(gradient_, c); }
 
@@ -75,7 +75,7 @@ private:
     const CcgCoefficients<Dim, Real>& coefficients_;
     const SweepElements<Lanes<Dim, Real>>& element_;
     Readers readers_;
-    // Of this step
+    // Step that is made
     bool of_finite_ = false, of_linear_ = false, follows_ = false;
     LargeArray<double> u_;           // by cell
     LargeArray<Real> relative_;      // of u_f, by face; of finite bodies

@@ -121,7 +121,7 @@ public:
     void commit() { stage_ = finite_.any_inelastic() ? StepStage::ended : StepStage::begun; }
     void drop() { stage_ = StepStage::begun; }
 
-    // Where the sweeps keep what they evaluate
+    // Arrays that the sweeps fill
 
     enum class Fill { nothing, start, end };
     void fill(Fill fill) { fill_ = fill; }
@@ -129,7 +129,7 @@ public:
     /// Null: they look at one state.
     [[nodiscard]] KeptEnd<Dim>* filled() { return fill_ == Fill::nothing ? nullptr : fill_ == Fill::start ? &start : &end; }
 
-    // What both ends tell of a step
+    // Results of both ends of a step
 
     /// Both ends of this cell are set. `flows`: its material may have dissipated energy in the step. `of_capped_jumps`:
     /// what these add [J].

@@ -29,6 +29,7 @@ struct StencilReport {
     void add(std::int32_t face, double lowest_weight);
 };
 
+/// Reports on all faces of a solid: CellView::stencils.
 struct StencilReports {
     StencilReport interior;  ///< of faces between cells
     StencilReport boundary;  ///< of boundary faces whose displacement is extrapolated

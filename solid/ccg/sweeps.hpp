@@ -232,13 +232,13 @@ private:
     WorkArrays<Dim, Real> work_;
     SweepElements<Vectors> element_;  // of these arrays
     CellMoments<Dim> moments_;        // empty except during a call
-    // Of finite bodies
+    // Finite bodies
     std::vector<FreeEnd<Dim>> free_;      // by position in FiniteCells::free
     KeptEnds<Dim> kept_;                  // where their mean force is that of both ends
     std::span<const Vector<Dim>> end_;    // of the cells, while the end of a step is filled
     SweepElements<Vectors> end_element_;  // `element_` with the load at the end
     std::vector<Fate> fates_;             // at the end, by FiniteCells::inelastic
-    // Elsewhere
+    // Change and length of the step
     ChangeInStep<Dim, Real> change_;
     double dt_ = 0.0;  // of the last step [s]
     // Null where there are none

@@ -170,6 +170,29 @@ TEST_CASE("pairs that are not wanted do not touch", "[contact][nodal]") {
     CHECK(some.last().pairs.size() < found.size());
 }
 
+TEST_CASE("covered faces are in no pair, and the others touch as before", "[contact][nodal]") {
+    const auto scene = two_boxes<2>(3, 4, 0.02);
+    NodalContact<2> all(scene.surface());
+    all.step(1.0, scene.rest, scene.rest);
+    const auto closed = placed<2>(scene, 1, shifted<2>({0.0, -0.03}));
+    const auto found = all.step(1.0, scene.rest, closed).pairs;
+    REQUIRE(found.size() > 3);
+    const Face covered = found[0].face_1;
+    NodalContact<2> some(scene.surface(), {.covered = [&](Face face) { return face == covered; }});
+    some.step(1.0, scene.rest, scene.rest);
+    std::vector<contact::PairStep<2>> expected;
+    for (const auto& pair : found)
+        if (pair.face_1 != covered && pair.face_2 != covered) expected.push_back(pair);
+    const auto left = some.step(1.0, scene.rest, closed).pairs;
+    REQUIRE(left.size() == expected.size());
+    for (std::size_t i = 0; i < left.size(); ++i) {
+        CHECK(left[i].face_1 == expected[i].face_1);
+        CHECK(left[i].face_2 == expected[i].face_2);
+        CHECK(left[i].force == expected[i].force);
+    }
+    CHECK(some.report().candidates < all.report().candidates);
+}
+
 TEMPLATE_TEST_CASE_SIG("forces have the same bits for any number of threads and every broad phase", "[contact][nodal]",
                        ((int Dim), Dim), 2, 3) {
     const auto scene = two_boxes<Dim>(Dim == 2 ? 300 : 8, Dim == 2 ? 350 : 9, 0.002);

@@ -237,12 +237,13 @@ TEST_CASE("a plate that bursts dissipates its fracture energy, and a run whose b
         return values;
     };
     CHECK(warned().empty());
-    const double off = GENERATE(-0.02, 0.02);
-    result.energy.dissipated.in_bonds = (1.0 + off) * energy * area;
-    result.bonds.beyond_fracture_energy = off * energy * area;
-    REQUIRE(warned().size() == 1);
-    CHECK(warned().front() == Approx(0.02).epsilon(1e-9));
-    CHECK_FALSE(run::without_notes(run::warnings_after(result)).empty());
+    for (const double off : {-0.02, 0.02}) {
+        result.energy.dissipated.in_bonds = (1.0 + off) * energy * area;
+        result.bonds.beyond_fracture_energy = off * energy * area;
+        REQUIRE(warned().size() == 1);
+        CHECK(warned().front() == Approx(0.02).epsilon(1e-9));
+        CHECK_FALSE(run::without_notes(run::warnings_after(result)).empty());
+    }
 }
 
 TEST_CASE("grains that springs hold together are warned of: finite ones and those of metal, and no others",

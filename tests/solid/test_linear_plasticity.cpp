@@ -96,7 +96,7 @@ double mean_stretch(const TurningScene<Dim>& scene) {
 
 }  // namespace
 
-TEMPLATE_TEST_CASE_SIG("metal that loads pull beyond yield stretches as the closed form says, in three cells of any shape",
+TEMPLATE_TEST_CASE_SIG("metal that loads pull beyond yield stretches as uniaxial tension says, in three cells of any shape",
                        "[solid][material][patch]", ((int Dim), Dim), 2, 3) {
     // All but the innermost of 27 bricks have free faces, and jumps would hold them back if they did not see these flow.
     // The load rises slowly: what swings would be kept by flow.
