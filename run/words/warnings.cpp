@@ -286,9 +286,10 @@ void add_lost_parts(Counts& counts, const RunResult<Dim>& result) {
         error > large_fracture_error)
         warn(counts, WarningKind::fracture_energy, error, large_fracture_error,
              fmt::format(
-                 "bonds that opened dissipated {} than their fracture energy by {:.2g} of it, {:g} is safe: they open "
-                 "within few steps, or cells hold energy of several faces together, though the balance of energy "
-                 "holds. Take smaller cells, so that bonds.cohesive_length is longer, or a smaller step",
+                 "bonds that opened dissipated {} than their fracture energy by {:.2g} of it, {:g} is safe, though the "
+                 "balance of energy holds: they opened within few steps, or cells hold energy of several faces together. "
+                 "Take smaller cells where bonds.cohesive_length is a few of them, or a smaller step. Neither helps where "
+                 "faces were sheared while they were pressed together: these do not begin to give way, and hold more",
                  result.bonds.beyond_fracture_energy > 0.0 ? "more" : "less", error, large_fracture_error));
 }
 
