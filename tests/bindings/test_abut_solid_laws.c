@@ -41,7 +41,7 @@ static abut_array array_of(double* data, int64_t n, int64_t item) {
 }
 
 /* Held at one end, and flying away from it: behind an elastic front at c, with sigma_y, comes a slower one at sqrt(E_t/rho), E_t being the
-   slope of the curve beyond sigma_y; behind it the bar stands. */
+   slope of the curve beyond sigma_y; behind it the bar stands. The bar is slender, as the inertia of its sides is not in this. */
 static void a_bar_of_metal_that_is_pulled_has_the_two_fronts_of_its_bilinear_curve(void) {
     const double yield = 1e-4, slope = 0.1, speed = 5.0 * yield, time = 0.8, slow = sqrt(slope);
     const double plateau = yield + slow * (speed - yield), alpha = (plateau - yield) * (1.0 / slope - 1.0); /* rho, E, c are 1 */
@@ -49,7 +49,7 @@ static void a_bar_of_metal_that_is_pulled_has_the_two_fronts_of_its_bilinear_cur
         enum { n = 200, n_cells = 4 * n };
         abut_error error = ABUT_ERROR_INIT;
         abut_solid* solid = NULL;
-        const double lower[3] = {0.0, 0.0, 0.0}, upper[3] = {1.0, 0.01, 0.01}, velocity[3] = {speed, 0.0, 0.0};
+        const double lower[3] = {0.0, 0.0, 0.0}, upper[3] = {1.0, 0.005, 0.005}, velocity[3] = {speed, 0.0, 0.0};
         const int32_t counts[3] = {n, 2, 2};
         CHECK(abut_solid_create(3, &solid, &error) == ABUT_OK);
         CHECK(abut_solid_add_box(solid, "bar", lower, upper, counts, material, velocity, &error) == ABUT_OK);
@@ -83,7 +83,7 @@ static void a_bar_of_metal_that_is_pulled_has_the_two_fronts_of_its_bilinear_cur
         CHECK(fabs(front / (slow * state.time) - 1.0) < 0.01);
         double in_cells = 0.0;
         CHECK(abut_solid_get_number(solid, "dissipated_in_cells", &in_cells, &error) == ABUT_OK);
-        CHECK(in_cells > 0.1 * start.kinetic && in_cells <= state.dissipated);
+        CHECK(in_cells > 0.1 * start.kinetic && fabs(state.dissipated / in_cells - 1.0) < 0.005); /* faces give or take little */
         CHECK(fabs(state.pseudo_energy + state.dissipated - start.pseudo_energy) < 1e-13 * start.kinetic);
         abut_solid_destroy(solid);
     }
