@@ -20,7 +20,7 @@ namespace abut::solid {
 /// nothing else holds a cell it stays elastic: at edges, and under contact, of finite bodies along the normals of faces
 /// alone. docs/method.md, Metal that yields.
 ///
-/// Where strains are linear J also goes with the free faces of both cells: they flow, and the traces do not know it.
+/// J of cells whose strains are linear also goes with the free faces of both: they flow, and the traces do not know it.
 ///
 /// Each half-face remembers J as its cell sees it: of a finite body as a vector of the material, which F turns. That of
 /// the twin is its negative, bit by bit, since both come from the same sums. Only a step that has ended is remembered.

@@ -68,16 +68,9 @@ class Sources:
         return {found: name for name in headers for found in DEFINED.findall(self.code(name)) if named[found] == {name}}
 
 
-def types_named(code):
-    """Types that stand alone or behind a namespace: what belongs to another type comes with that."""
-    for found in TYPE.finditer(code):
-        scope, name = (found[1], found[2]) if found[2] else (found[3], found[4])
-        if scope is None or scope in LAYERS + ("abut",):
-            yield name
-
-
-def functions_called(code):
-    for found in CALLED.finditer(code):
+def standing_alone(pattern, code):
+    """Names that stand alone or behind a namespace: what belongs to a type comes with that."""
+    for found in pattern.finditer(code):
         scope, name = (found[1], found[2]) if found[2] else (found[3], found[4])
         if scope is None or scope in LAYERS + ("abut",):
             yield name
@@ -95,11 +88,13 @@ def missing_in(sources, headers, functions):
         code = sources.code(name)
         known = {*NAMED.findall(code), *PARAMETER.findall(code), *sources.members(name)}
         declared = {found for other in reached for found in DECLARED.findall(sources.code(other))}
-        for found in sorted(set(types_named(code)) - known):
-            if found in headers and headers[found] not in reached and (found not in declared or name.endswith(".cpp") and opened(code, found)):
+        for found in sorted(set(standing_alone(TYPE, code)) - known):
+            if found not in headers or headers[found] in reached:
+                continue
+            if found not in declared or name.endswith(".cpp") and opened(code, found):
                 yield f"{name} names {found} and does not include abut/{headers[found]}"
         known = set(FUNCTION.findall(code))
-        for found in sorted(set(functions_called(code)) - known):
+        for found in sorted(set(standing_alone(CALLED, code)) - known):
             if found in functions and functions[found] not in reached:
                 yield f"{name} calls {found} and does not include abut/{functions[found]}"
 

@@ -114,6 +114,18 @@ struct Bar {
     }
 };
 
+template <int Dim>
+dynamics::Ledger<Dim> ledger_until_torn(Bar<Dim>& bar) {
+    dynamics::Ledger<Dim> ledger;
+    ledger.record(dynamics::measure(bar.memm, bar.solid));
+    while (bar.solid.bonds().broken_share() < 1.0) {
+        REQUIRE(bar.memm.time() < 2.0);
+        bar.memm.step();
+        ledger.record(dynamics::measure(bar.memm, bar.solid));
+    }
+    return ledger;
+}
+
 }  // namespace
 
 TEMPLATE_TEST_CASE_SIG(
@@ -127,13 +139,7 @@ TEMPLATE_TEST_CASE_SIG(
     const CellShape in_space = of_simplices ? CellShape::tetrahedron : CellShape::hexahedron;
     CAPTURE(of_simplices, torn.time, torn.velocity);
     Bar<Dim> bar(spall, size, Dim == 2 ? flat : in_space);
-    dynamics::Ledger<Dim> ledger;
-    ledger.record(dynamics::measure(bar.memm, bar.solid));
-    while (bar.solid.bonds().broken_share() < 1.0) {
-        REQUIRE(bar.memm.time() < 2.0);
-        bar.memm.step();
-        ledger.record(dynamics::measure(bar.memm, bar.solid));
-    }
+    const dynamics::Ledger<Dim> ledger = ledger_until_torn(bar);
     const auto fragments = solid::fragments<Dim>(dynamics::RunView<Dim>(bar.memm), bar.solid);
     REQUIRE(fragments.size() == 2);
     CHECK(bar.memm.time() == Approx(torn.time).epsilon(0.01));
@@ -153,13 +159,7 @@ TEMPLATE_TEST_CASE_SIG(
     Spall spall{.begin = 0.3, .width = 0.5, .strength = 0.0085, .is_square = true, .has_corners = has_corners};
     spall.energy = cells * size * spall.strength * spall.strength;
     Bar<Dim> bar(spall, size, Dim == 2 ? CellShape::quadrangle : CellShape::hexahedron);
-    dynamics::Ledger<Dim> ledger;
-    ledger.record(dynamics::measure(bar.memm, bar.solid));
-    while (bar.solid.bonds().broken_share() < 1.0) {
-        REQUIRE(bar.memm.time() < 2.0);
-        bar.memm.step();
-        ledger.record(dynamics::measure(bar.memm, bar.solid));
-    }
+    const dynamics::Ledger<Dim> ledger = ledger_until_torn(bar);
     double area = 0.0;
     for (const auto& place : bar.solid.bonds().places()) area += place.area;
     const double beyond = bar.solid.dissipated().in_bonds - spall.energy * area;
