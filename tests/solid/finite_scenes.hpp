@@ -1,6 +1,7 @@
 #pragma once
 // Bodies of Kinematics::finite: states, steps and collisions that their tests share.
 #include <algorithm>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -86,7 +87,8 @@ double fall_of_dissipation(TurningScene<Dim>& scene, int steps, Kinds... kinds) 
     for (int step = 0; step < steps; ++step) {
         const dynamics::Losses before = scene.solid.dissipated();
         scene.run(1);
-        (raise(fall, before.*kinds - scene.solid.dissipated().*kinds), ...);
+        const dynamics::Losses after = scene.solid.dissipated();
+        (raise(fall, std::invoke(kinds, before) - std::invoke(kinds, after)), ...);
     }
     return fall;
 }
