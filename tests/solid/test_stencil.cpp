@@ -1,5 +1,9 @@
 #include <Eigen/LU>
+#include <algorithm>
+#include <array>
 #include <catch2/catch.hpp>
+#include <map>
+#include <vector>
 
 #include "abut/base/eigen.hpp"
 #include "abut/solid/ccg/stencil.hpp"
@@ -39,6 +43,32 @@ mesh::Mesh<Dim> moved_bricks(const Vector<Dim>& upper, const std::array<int, Dim
     soup.body_names = box.body_names;
     for (const Vector<Dim>& x : box.vertices) soup.vertices.push_back(move(x));
     return mesh::build_mesh(std::move(soup));
+}
+
+/// Cells of the stencil of each face, by its vertices, of a mesh whose vertices have been moved and keep their numbers.
+template <int Dim>
+std::map<std::vector<std::int32_t>, std::array<std::int32_t, Dim + 1>> stencils_of_faces(const mesh::Mesh<Dim>& mesh,
+                                                                                         const Matrix<Dim>& motion) {
+    mesh::CellSoup<Dim> soup;
+    soup.name = mesh.name;
+    soup.cell_shape = mesh.cell_shape;
+    soup.cell_vertices = mesh.cell_vertices;
+    soup.cell_body = mesh.cell_body;
+    soup.body_names = mesh.body_names;
+    for (const Vector<Dim>& x : mesh.vertices) soup.vertices.push_back(motion * x);
+    const auto moved = mesh::build_mesh(std::move(soup), {.reorder = false});
+    solid::StencilReport report;
+    const auto stencils = solid::select_stencils<Dim>(moved, all_faces(moved), report);
+    std::map<std::vector<std::int32_t>, std::array<std::int32_t, Dim + 1>> of_faces;
+    for (std::int32_t f = 0; f < moved.n_faces(); ++f) {
+        const auto vertices = moved.face_vertices[f];
+        std::vector<std::int32_t> key(vertices.begin(), vertices.end());
+        std::ranges::sort(key);
+        auto cells = stencils[static_cast<std::size_t>(f)].cells;
+        std::ranges::sort(cells);
+        of_faces.emplace(std::move(key), cells);
+    }
+    return of_faces;
 }
 
 /// A simplex of cell centroids around a face's point.
@@ -256,6 +286,32 @@ TEST_CASE("a mesh has the same stencils in any unit of length and anywhere, also
     const auto plain = stencils_of(1.0, Vector<3>::Zero());
     for (const double unit : {1e-9, 1e-3, 1e9}) CHECK(stencils_of(unit, Vector<3>::Zero()) == plain);
     for (const double offset : {1.0, 1e2, 1e6}) CHECK(stencils_of(1.0, offset * Vector<3>(1.0, -0.7, 0.3)) == plain);
+}
+
+TEMPLATE_TEST_CASE_SIG(
+    "rounding has no say in stencils: a mesh that is turned or mirrored and keeps its numbers has the same ones",
+    "[solid][stencil]", ((int Dim), Dim), 2, 3) {
+    // Grids of cubes, and cells around a centre: of half of the faces of tetrahedra, and all of a fan, simplices are equally
+    // good and not the same.
+    std::vector<NamedMesh<Dim>> meshes = boxes<Dim>();
+    std::array<int, Dim> counts;
+    counts.fill(6);
+    for (NamedMesh<Dim>& named : meshes)
+        if (const CellShape shape = named.mesh.cell_shape.front(); named.name.find("gmsh") == std::string::npos)
+            named.mesh = mesh::structured_box<Dim>(Vector<Dim>::Zero(), Vector<Dim>::Ones(), counts, shape);
+    if constexpr (Dim == 2)
+        for (const int sectors : {8, 12, 24})
+            meshes.push_back({"fan of " + std::to_string(sectors), mesh::fan_disc({0.2, -0.1}, 0.3, sectors)});
+    for (const auto& [name, mesh] : meshes) {
+        const auto stencils = stencils_of_faces<Dim>(mesh, Matrix<Dim>::Identity());
+        for (const double angle : {0.7, 2.5})
+            for (const double side : {1.0, -1.0}) {
+                CAPTURE(name, angle, side);
+                Matrix<Dim> motion = turned_by<Dim>(angle);
+                motion.col(0) = side * motion.col(0);
+                CHECK(stencils_of_faces<Dim>(mesh, motion) == stencils);
+            }
+    }
 }
 
 TEST_CASE("no interior face of a uniform grid extrapolates", "[solid][stencil]") {
