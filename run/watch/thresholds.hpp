@@ -28,8 +28,12 @@ inline constexpr double large_strain = 0.2;
 inline constexpr double large_kinematic_flow = 0.6;
 
 /// The size of Losses::on_faces over `in_cells` above which free faces that flow along take more than they should [-]:
-/// a bar eight cells across has 0.02, boxes three cells across that collide 0.16. docs/limits.md.
-inline constexpr double large_face_loss = 0.1;
+/// a bar eight cells across has 0.02, boxes three cells across that collide 0.16. A finite block that planes press far
+/// beyond yield bears 5 % too much with 0.06, and 7 % with 0.12. docs/limits.md.
+inline constexpr double large_face_loss = 0.05;
+/// Energy that plastic flow gives back from record to record over what it has dissipated at most, above which it is told
+/// [-]. Metal that is pulled, bent or rolled has none. docs/limits.md.
+inline constexpr double large_returned_flow = 0.01;
 /// Share of mass or of the energy in play that cells which leave may take along [-].
 inline constexpr double large_eroded_share = 0.01;
 /// The size of Losses::at_splits over the energy in play above which frames of fragments tell in the result [-]: plates and

@@ -16,6 +16,7 @@
 #include "abut/run/watch/fine_motion.hpp"
 #include "abut/run/watch/friction_watch.hpp"
 #include "abut/run/watch/remedies.hpp"
+#include "abut/run/watch/returned_flow.hpp"
 #include "abut/run/watch/thresholds.hpp"
 #include "abut/run/words/bond_text.hpp"
 #include "abut/run/words/counts.hpp"
@@ -253,8 +254,17 @@ void add_plastic_losses(Counts& counts, const RunResult<Dim>& result) {
              fmt::format(
                  "free faces that flow along with their cells take {:.2g} of what plastic flow dissipates out of contact "
                  "and of jumps between cells, {:g} is safe: cells at the surface are too large for what happens "
-                 "there, though the balance of energy holds. Take smaller cells",
+                 "there, though the balance of energy holds. Finite metal that is pressed far beyond yield bears 5 % "
+                 "too much at 0.06, and 7 % at 0.12. Take smaller cells, or kinematics \"floating\" where nothing bends "
+                 "far",
                  share, large_face_loss));
+    if (const ReturnedFlow returned = returned_flow(result.ledger); returned.share > large_returned_flow)
+        warn(counts, WarningKind::returned_flow, returned.share, large_returned_flow,
+             fmt::format(
+                 "plastic flow gave energy back in {}, {:.2g} of what it dissipates, {:g} is safe: faces that contact "
+                 "pushes flow along with cells that are too large, though the balance of energy holds. Take smaller "
+                 "cells, or a lower speed",
+                 counted(returned.records, "record"), returned.share, large_returned_flow));
     if (const double share = loss.in_jumps / (loss.in_cells + loss.in_jumps); share > large_jump_loss)
         warn(counts, WarningKind::jump_loss, share, large_jump_loss,
              fmt::format("jumps between cells dissipate {:.2g} of what plastic flow does in all, {:g} is safe: they yield "

@@ -44,6 +44,7 @@ enum class WarningKind {
     alternating_slip,  ///< force of sliding faces over its limit [-]; threshold: least_sliding_share
     weak_friction,  ///< time in which bodies slid with too little friction [s]; threshold: weak_friction_time of that of the run
     face_loss,      ///< size of what RunEnergy::dissipated has `on_faces` over that in cells [-]; threshold: large_face_loss
+    returned_flow,  ///< ReturnedFlow::share [-]; threshold: large_returned_flow
     jump_loss,      ///< part of the plastic dissipation that jumps between cells have [-]; threshold: large_jump_loss
     energy_excess,          ///< Ledger::energy_excess over the energy in play [-]; threshold: large_energy_excess
     parasitic,              ///< Ledger::parasitic over Accounts::speed [-]; threshold: large_parasitic_share

@@ -161,6 +161,32 @@ TEST_CASE("free faces that take much of what plastic flow dissipates are told of
     }
 }
 
+TEST_CASE("plastic flow that gives energy back from record to record is told of, with faces and jumps as a whole",
+          "[run][warnings]") {
+    using dynamics::Losses;
+    const auto warnings_of = [](const std::vector<Losses>& records) {
+        run::RunResult<2> result;
+        for (const Losses& losses : records) {
+            dynamics::LedgerEntry<2> entry{};
+            entry.losses = losses;
+            result.ledger.record(entry);
+        }
+        return run::warnings_after(result);
+    };
+    // Faces may give back what cells take, and damping what it has held.
+    CHECK(warnings_of({{}, {.in_cells = 1.0}, {.in_cells = 1.5, .on_faces = -0.5}}).empty());
+    CHECK(warnings_of({{}, {.in_cells = 1.0, .lagged = 0.5}, {.in_cells = 1.0}}).empty());
+    // Twice 0.02 of 2 J, of which 0.01 are safe.
+    const auto warnings = warnings_of({{},
+                                       {.in_cells = 1.0},
+                                       {.in_cells = 1.0, .on_faces = -0.04},
+                                       {.in_cells = 1.5, .in_jumps = 0.54, .on_faces = -0.04},
+                                       {.in_cells = 1.5, .in_jumps = 0.54, .on_faces = -0.08}});
+    REQUIRE(kinds(warnings) == std::vector{WarningKind::returned_flow});
+    CHECK(warnings.front().value == Approx(0.04));
+    CHECK_THAT(warnings.front().text, Catch::Contains("2 records") && Catch::Contains("smaller cells"));
+}
+
 TEST_CASE("jumps that yield where cells hardly flow are told of, and stand in the summary where no cell does",
           "[run][warnings]") {
     run::RunResult<2> result;
