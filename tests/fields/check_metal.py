@@ -149,10 +149,10 @@ def flow_that_gives_energy_back_in_coarse_boxes_is_warned_of_and_finer_ones_give
         require(run.warns_of("plastic flow gave energy back") == falls, f"{across} across: {run.said}")
 
 
-def tell_table(programs):
+def tell_table(folder):
     for shape, counts in TABLE.items():
         for across in counts:
-            ratio, share = figures_of(pressed_block(programs, shape, across), 3 if shape in SPACE else 2)
+            ratio, share = figures_of(pressed_block(folder, shape, across), 3 if shape in SPACE else 2)
             print(f"| {shape} | {across} | {ratio:.3f} | {share:.3f} |", flush=True)
 
 
