@@ -137,7 +137,8 @@ private:
         Vector<Dim> displacement = Vector<Dim>::Zero();
         Matrix<Dim> gradient = Matrix<Dim>::Zero();  // where a body turns
     };
-    /// Of the cells here; those of copies come from their owners, except in rigid bodies, which share no vertex between ranks.
+    /// Motion of the cells here: owners tell that of copies, except in rigid bodies, which share no vertex between
+    /// ranks.
     [[nodiscard]] std::vector<Carried> carried_by_cells() const {
         std::vector<Carried> carried(mesh_.cell_measure.size());
         for (std::size_t i = 0; i < piece_.cells.size(); ++i) {
