@@ -72,7 +72,8 @@ std::string bars(int n_ranks) {
 
 }  // namespace
 
-TEST_CASE("ranks other than the first never hold the whole mesh, and the first holds hardly more", "[ranks][memory]") {
+TEST_CASE("ranks other than the first never hold the whole mesh, and the first never as much as 2.5 of it",
+          "[ranks][memory]") {
     const ranks::Communicator& all = apps::rank_session()->all();
     const input::SceneFile file(input::SceneText{.toml = bars(all.size())});
     const std::size_t before = n_bytes;
@@ -82,14 +83,14 @@ TEST_CASE("ranks other than the first never hold the whole mesh, and the first h
     const auto most = static_cast<double>(most_bytes - before), now = static_cast<double>(n_bytes - before);
     const double whole = all.largest(static_cast<double>(mesh::bytes_of(scene.mesh).size()));
 
-    // Copies of a bar are eight layers at each cut: a part of half a rank's 32 layers has 48 in the middle.
+    // Copies of a bar are eight layers at each cut: a part has 64 layers of its own, and up to 80.
     const double part = static_cast<double>(mesh::bytes_of(share.get()->part).size());
     const bool is_first = all.rank() == 0;
     INFO(all.rank() << ": whole " << whole << ", part " << part << ", most " << most << ", now " << now);
     CHECK(all.largest(is_first ? 0.0 : now / part) < 1.5);
     CHECK(all.largest(is_first ? 0.0 : most / part) < 2.5);
     CHECK(all.largest(is_first ? 0.0 : most / whole) < 0.8);
-    CHECK(all.largest(is_first ? most / (whole + 2.0 * part) : 0.0) < 1.3);
+    CHECK(all.largest(is_first ? most / whole : 0.0) < 2.5);
 }
 
 /// Ranks other than the first are silent: what they find wrong, the first says.
