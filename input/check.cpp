@@ -188,7 +188,8 @@ private:
 /// of the scene where a pilot run would choose them.
 template <int Dim>
 void check_run(const Settings& settings, CheckedScene& checked) {
-    const run::Scene<Dim> scene = make_scene<Dim>(settings, checked.faults);
+    Answers mesh;
+    const run::Scene<Dim> scene = make_scene<Dim>(settings, mesh, checked.faults);
     if (!checked.faults.empty()) return;
     run::RunOptions options = run::with_defaults<Dim>(run::with_restart(settings.options, scene));
     if (options.kinematics == run::BodyKinematics::automatic) options.kinematics = run::BodyKinematics::scene;

@@ -28,8 +28,8 @@ std::vector<std::vector<std::int32_t>> pieces_of(const mesh::Mesh<Dim>& mesh) {
 template <int Dim>
 class Pieces {
 public:
-    Pieces(run::Scene<Dim>& scene, const Settings& settings, std::vector<Fault>& faults)
-        : scene_(scene), settings_(settings), faults_(faults) {}
+    Pieces(run::Scene<Dim>& scene, const Settings& settings, Answers& answers, std::vector<Fault>& faults)
+        : scene_(scene), settings_(settings), answers_(answers), faults_(faults) {}
 
     void join(const std::vector<std::int32_t>& piece) {
         check(piece);
@@ -98,6 +98,14 @@ private:
                                          body.name)});
     }
     void turn_about_common_centroid(const std::vector<std::int32_t>& piece) {
+        const std::vector<Vector<Dim>> arms = answers_.of([&] { return arms_of(piece); });
+        for (std::size_t i = 0; i < piece.size(); ++i) {
+            const auto body = static_cast<std::size_t>(piece[i]);
+            scene_.velocity[body] += turned_with(scene_.spin[body], arms[i]);
+        }
+    }
+    /// From the centroid of the piece to those of its bodies [m].
+    [[nodiscard]] std::vector<Vector<Dim>> arms_of(const std::vector<std::int32_t>& piece) const {
         const mesh::Mesh<Dim>& mesh = scene_.mesh;
         std::vector<double> mass(piece.size(), 0.0);
         std::vector<Vector<Dim>> centre(piece.size(), Vector<Dim>::Zero());
@@ -115,10 +123,8 @@ private:
             centre[i] /= mass[i];
         }
         common /= all;
-        for (std::size_t i = 0; i < piece.size(); ++i) {
-            const auto body = static_cast<std::size_t>(piece[i]);
-            scene_.velocity[body] += turned_with(scene_.spin[body], Vector<Dim>(centre[i] - common));
-        }
+        for (Vector<Dim>& arm : centre) arm -= common;
+        return centre;
     }
     static Vector<2> turned_with(const AxialVector<2>& spin, const Vector<2>& arm) {
         return {-spin[0] * arm[1], spin[0] * arm[0]};
@@ -127,19 +133,20 @@ private:
 
     run::Scene<Dim>& scene_;
     const Settings& settings_;
+    Answers& answers_;
     std::vector<Fault>& faults_;
 };
 
 }  // namespace
 
 template <int Dim>
-void join_parts(run::Scene<Dim>& scene, const Settings& settings, std::vector<Fault>& faults) {
-    Pieces<Dim> pieces(scene, settings, faults);
+void join_parts(run::Scene<Dim>& scene, const Settings& settings, Answers& mesh, std::vector<Fault>& faults) {
+    Pieces<Dim> pieces(scene, settings, mesh, faults);
     for (const auto& pair : scene.mesh.report.joined_bodies) pieces.bond(pair);
     for (const auto& piece : pieces_of(scene.mesh)) pieces.join(piece);
 }
 
-template void join_parts<2>(run::Scene<2>&, const Settings&, std::vector<Fault>&);
-template void join_parts<3>(run::Scene<3>&, const Settings&, std::vector<Fault>&);
+template void join_parts<2>(run::Scene<2>&, const Settings&, Answers&, std::vector<Fault>&);
+template void join_parts<3>(run::Scene<3>&, const Settings&, Answers&, std::vector<Fault>&);
 
 }  // namespace abut::input

@@ -2,6 +2,7 @@
 // Private to the layer.
 #include <vector>
 
+#include "abut/base/answers.hpp"
 #include "abut/input/fault.hpp"
 #include "abut/input/settings.hpp"
 #include "abut/run/scene.hpp"
@@ -13,6 +14,6 @@ namespace abut::input {
 /// rigid, or moves otherwise than the piece. Grains of a body that may break are bonded as its `fracture` says, and touch
 /// each other; faults where they do not turn.
 template <int Dim>
-void join_parts(run::Scene<Dim>& scene, const Settings& settings, std::vector<Fault>& faults);
+void join_parts(run::Scene<Dim>& scene, const Settings& settings, Answers& mesh, std::vector<Fault>& faults);
 
 }  // namespace abut::input

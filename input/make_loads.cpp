@@ -139,18 +139,22 @@ void require_symmetric(const run::Scene<Dim>& scene, std::int32_t body, solid::K
 
 /// Bodies that a plane cuts have rollers on their faces there.
 template <int Dim>
-void add_symmetry(run::Scene<Dim>& scene, const Settings& settings, const SymmetrySettings& symmetry) {
+void add_symmetry(run::Scene<Dim>& scene, const Settings& settings, const SymmetrySettings& symmetry, Answers& answers) {
     const Vector<Dim> normal = head<Dim>(symmetry.normal).normalized(), gravity = head<Dim>(settings.gravity);
     if (std::abs(normal.dot(gravity)) > 1e-12 * gravity.norm())
         throw BadInput(
             fmt::format("has a normal along which gravity is {:.6g} m/s^2, 0 m/s^2 is needed: the other half would fall "
                         "to the other side. Turn one of them, or take an obstacle.",
                         normal.dot(gravity)));
-    require_in_front<Dim>(scene.mesh, head<Dim>(symmetry.point), normal);
-    const std::vector<std::int32_t> faces = faces_on<Dim>(scene.mesh, head<Dim>(symmetry.point), normal);
-    if (faces.empty() && !settings.contact)
+    std::vector<std::int32_t> faces;
+    const bool has_faces = answers.of([&] {
+        require_in_front<Dim>(scene.mesh, head<Dim>(symmetry.point), normal);
+        faces = faces_on<Dim>(scene.mesh, head<Dim>(symmetry.point), normal);
+        return !faces.empty();
+    });
+    if (!has_faces && !settings.contact)
         throw BadInput("has no face of a body on it, and contact is off: it does nothing. Move it to a face.");
-    if (faces.empty()) return;
+    if (!has_faces) return;
     const auto of_all = run::kinematics_of_all(settings.options.kinematics);
     std::int32_t last = -1;
     for (const std::int32_t face : faces) {
@@ -166,48 +170,53 @@ void add_symmetry(run::Scene<Dim>& scene, const Settings& settings, const Symmet
 }
 
 template <int Dim>
-void add_symmetries(run::Scene<Dim>& scene, const Settings& settings, std::vector<Fault>& faults) {
+void add_symmetries(run::Scene<Dim>& scene, const Settings& settings, Answers& answers, std::vector<Fault>& faults) {
     for (const SymmetrySettings& symmetry : settings.symmetries) try {
-            add_symmetry(scene, settings, symmetry);
+            add_symmetry(scene, settings, symmetry, answers);
         } catch (const BadInput& error) {
             faults.push_back({symmetry.where, symmetry.path + " " + error.what()});
         }
 }
 
-/// Cuts a group into groups of faces with one normal each, which are appended to those of the mesh; their indices.
+/// Cuts a group into groups of faces with one normal each.
 template <int Dim>
-std::vector<std::size_t> cut_by_normal(mesh::Mesh<Dim>& mesh, const std::string& group, const std::string& name) {
+std::vector<std::vector<std::int32_t>> cut_by_normal(const mesh::Mesh<Dim>& mesh, const std::string& group) {
     std::vector<std::int32_t> faces = mesh.group(group).faces;
     const auto normal = [&](std::int32_t face) -> const Vector<Dim>& { return mesh.face_normal[face]; };
     std::ranges::stable_sort(
         faces, [&](std::int32_t a, std::int32_t b) { return std::ranges::lexicographical_compare(normal(a), normal(b)); });
-    std::vector<std::size_t> parts;
+    std::vector<std::vector<std::int32_t>> parts;
     for (const std::int32_t face : faces) {
-        if (parts.empty() || normal(mesh.groups[parts.back()].faces.front()) != normal(face)) {
-            parts.push_back(mesh.groups.size());
-            mesh.groups.push_back({fmt::format("{}, part {}", name, parts.size()), {}});
-        }
-        mesh.groups[parts.back()].faces.push_back(face);
+        if (parts.empty() || normal(parts.back().front()) != normal(face)) parts.emplace_back();
+        parts.back().push_back(face);
     }
-    for (const std::size_t part : parts) std::ranges::sort(mesh.groups[part].faces);
+    for (std::vector<std::int32_t>& part : parts) std::ranges::sort(part);
     return parts;
 }
 
-/// A condition for each normal.
+/// A condition for each normal, on a group of its own.
 template <int Dim>
-void add_pressure(run::Scene<Dim>& scene, const TractionSettings& traction) {
+void add_pressure(run::Scene<Dim>& scene, const TractionSettings& traction, Answers& answers) {
+    std::vector<std::vector<std::int32_t>> parts;
+    const std::vector<Vector<Dim>> normals = answers.of([&] {
+        std::vector<Vector<Dim>> of_parts;
+        parts = cut_by_normal(scene.mesh, traction.group);
+        for (const auto& part : parts) of_parts.push_back(scene.mesh.face_normal[part.front()]);
+        return of_parts;
+    });
+    parts.resize(normals.size());
     const Formula& pressure = *traction.pressure;
-    for (const std::size_t part : cut_by_normal(scene.mesh, traction.group, "tractions." + traction.name)) {
-        const mesh::BoundaryGroup& group = scene.mesh.groups[part];
-        const Vector<Dim> normal = scene.mesh.face_normal[group.faces.front()];
-        solid::TractionCondition<Dim> condition{.group = group.name, .value = Vector<Dim>::Zero(), .history = {}};
+    for (std::size_t i = 0; i < normals.size(); ++i) {
+        scene.mesh.groups.push_back({fmt::format("tractions.{}, part {}", traction.name, i + 1), std::move(parts[i])});
+        solid::TractionCondition<Dim> condition{
+            .group = scene.mesh.groups.back().name, .value = Vector<Dim>::Zero(), .history = {}};
         condition.follows = true;  // nothing else is a pressure on a body that turns; of others it makes no difference
         if (pressure.varies())
-            condition.history = [pressure, normal](double time, const Vector<Dim>& x) {
+            condition.history = [pressure, normal = normals[i]](double time, const Vector<Dim>& x) {
                 return Vector<Dim>(-pressure(time, in_3d<Dim>(x)) * normal);
             };
         else
-            condition.value = -pressure.value() * normal;
+            condition.value = -pressure.value() * normals[i];
         scene.solid.boundary.traction.push_back(std::move(condition));
     }
 }
@@ -222,12 +231,13 @@ bool can_follow(const TractionSettings& traction, const Movers<Dim>& movers, std
 }
 
 template <int Dim>
-void add_tractions(run::Scene<Dim>& scene, const Settings& settings, const Names<Dim>& names, std::vector<Fault>& faults) {
+void add_tractions(run::Scene<Dim>& scene, const Settings& settings, const Names<Dim>& names, Answers& answers,
+                   std::vector<Fault>& faults) {
     const Movers<Dim> movers(scene, settings);
     for (const TractionSettings& traction : settings.tractions) {
         if (!names.has_group(traction.group, traction.where, "tractions." + traction.name + ".group")) continue;
         if (!can_follow(traction, movers, faults)) continue;
-        if (traction.pressure) add_pressure(scene, traction);
+        if (traction.pressure) add_pressure(scene, traction, answers);
         if (!traction.value) continue;
         solid::TractionCondition<Dim> condition;
         condition.group = traction.group;
@@ -275,16 +285,16 @@ void add_moments(run::Scene<Dim>& scene, const Settings& settings, const Names<D
 }  // namespace
 
 template <int Dim>
-void add_loads(run::Scene<Dim>& scene, const Settings& settings, std::vector<Fault>& faults) {
+void add_loads(run::Scene<Dim>& scene, const Settings& settings, Answers& mesh, std::vector<Fault>& faults) {
     const Names<Dim> names(scene.mesh, settings.bodies, faults);
-    add_symmetries(scene, settings, faults);
+    add_symmetries(scene, settings, mesh, faults);
     add_supports(scene, settings, names, faults);
-    add_tractions(scene, settings, names, faults);
+    add_tractions(scene, settings, names, mesh, faults);
     add_springs(scene, settings, names);
     add_moments(scene, settings, names);
 }
 
-template void add_loads<2>(run::Scene<2>&, const Settings&, std::vector<Fault>&);
-template void add_loads<3>(run::Scene<3>&, const Settings&, std::vector<Fault>&);
+template void add_loads<2>(run::Scene<2>&, const Settings&, Answers&, std::vector<Fault>&);
+template void add_loads<3>(run::Scene<3>&, const Settings&, Answers&, std::vector<Fault>&);
 
 }  // namespace abut::input

@@ -13,6 +13,7 @@
 #include "abut/contact/surface/obstacle.hpp"
 #include "abut/geometry/box.hpp"
 #include "abut/geometry/health/surface_health.hpp"
+#include "abut/geometry/points.hpp"
 #include "abut/input/check_obstacle.hpp"
 #include "abut/input/values.hpp"
 #include "abut/mesh/io/read_surface.hpp"
@@ -115,11 +116,9 @@ Shell<3> shell_of_file(const ObstacleSettings& obstacle, const std::filesystem::
     return shell;
 }
 
-/// Plane that has no end in the table, as far as the bodies can be expected to get; where it is already.
+/// Plane that has no end in the table, as far as the bodies in this box can be expected to get; where it is already.
 template <int Dim>
-Shell<Dim> endless_plane(const ObstacleSettings& obstacle, const mesh::Mesh<Dim>& mesh) {
-    geometry::Box<Dim> box;
-    for (const Vector<Dim>& x : mesh.vertices) box.extend(x);
+Shell<Dim> endless_plane(const ObstacleSettings& obstacle, geometry::Box<Dim> box) {
     const Matrix<Dim> turn = rotation<Dim>(obstacle.turn);
     const Vector<Dim> point = turn * head<Dim>(obstacle.point) + head<Dim>(obstacle.place);
     if (box.empty()) box.extend(point);  // a fault has left no body
@@ -199,20 +198,32 @@ void set_in_motion(contact::RigidObstacle<Dim>& obstacle, const ObstacleSettings
     };
 }
 
+/// Box around all bodies of a scene.
 template <int Dim>
-void add_obstacle(run::Scene<Dim>& scene, const ObstacleSettings& settings, const Settings& all,
+geometry::Box<Dim> box_of_bodies(const run::Scene<Dim>& scene, Answers& answers) {
+    const auto [lower, upper] = answers.of([&] {
+        const geometry::Box<Dim> box = geometry::box_of<Dim>(scene.mesh.vertices);
+        return std::pair(box.lower, box.upper);
+    });
+    return {lower, upper};
+}
+
+template <int Dim>
+void add_obstacle(run::Scene<Dim>& scene, const ObstacleSettings& settings, const Settings& all, Answers& answers,
                   mesh::IgnoredPairs may_overlap, std::vector<Fault>& faults) {
-    Shell<Dim> shell =
-        is_endless(settings) ? endless_plane<Dim>(settings, scene.mesh) : shell_of<Dim>(settings, all.file.parent_path());
+    Shell<Dim> shell = is_endless(settings) ? endless_plane<Dim>(settings, box_of_bodies(scene, answers))
+                                            : shell_of<Dim>(settings, all.file.parent_path());
     if (!is_endless(settings)) place<Dim>(shell.faces, settings);
     if (settings.inside) turn_inside_out<Dim>(shell.faces);
     contact::RigidObstacle<Dim> obstacle{.faces = std::move(shell.faces), .path = {}};
     set_in_motion(obstacle, settings);
     const auto number = static_cast<std::int32_t>(scene.mesh.n_bodies() + (&settings - all.obstacles.data()));
-    if (all.contact && !settings.is_symmetry)  // which says so itself
+    answers.check([&] {
+        if (!all.contact || settings.is_symmetry) return;  // which says so itself
         check_outside<Dim>(scene.mesh, obstacle,
                            {.settings = settings, .closed = shell.closed, .endless = is_endless(settings), .number = number},
                            may_overlap, faults);
+    });
     scene.solid.obstacles.push_back(std::move(obstacle));
     scene.outputs.obstacles.push_back(settings.name);
 }
@@ -220,7 +231,7 @@ void add_obstacle(run::Scene<Dim>& scene, const ObstacleSettings& settings, cons
 }  // namespace
 
 template <int Dim>
-void add_obstacles(run::Scene<Dim>& scene, const Settings& settings, mesh::IgnoredPairs may_overlap,
+void add_obstacles(run::Scene<Dim>& scene, const Settings& settings, Answers& mesh, mesh::IgnoredPairs may_overlap,
                    std::vector<Fault>& faults) {
     for (const ObstacleSettings& obstacle : settings.obstacles) {
         if (obstacle.shape == ObstacleShape::none) continue;
@@ -230,14 +241,14 @@ void add_obstacles(run::Scene<Dim>& scene, const Settings& settings, mesh::Ignor
             continue;
         }
         try {
-            add_obstacle(scene, obstacle, settings, may_overlap, faults);
+            add_obstacle(scene, obstacle, settings, mesh, may_overlap, faults);
         } catch (const Error& error) {
             faults.push_back({obstacle.where, fmt::format("obstacles.{}: {}", obstacle.name, error.what())});
         }
     }
 }
 
-template void add_obstacles<2>(run::Scene<2>&, const Settings&, mesh::IgnoredPairs, std::vector<Fault>&);
-template void add_obstacles<3>(run::Scene<3>&, const Settings&, mesh::IgnoredPairs, std::vector<Fault>&);
+template void add_obstacles<2>(run::Scene<2>&, const Settings&, Answers&, mesh::IgnoredPairs, std::vector<Fault>&);
+template void add_obstacles<3>(run::Scene<3>&, const Settings&, Answers&, mesh::IgnoredPairs, std::vector<Fault>&);
 
 }  // namespace abut::input

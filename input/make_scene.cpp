@@ -23,7 +23,10 @@
 #include "abut/input/make_obstacle.hpp"
 #include "abut/input/names.hpp"
 #include "abut/input/values.hpp"
+#include "abut/mesh/combine.hpp"
 #include "abut/mesh/interpenetration.hpp"
+#include "abut/mesh/mesh_bytes.hpp"
+#include "abut/mesh/outline.hpp"
 #include "abut/run/files/probes.hpp"
 #include "abut/solid/body_interference.hpp"
 
@@ -92,21 +95,29 @@ std::string of_pattern(const BodySettings& body, const std::string& message) {
 }
 
 template <int Dim>
-void add_bodies(run::Scene<Dim>& scene, const Settings& settings, std::vector<Fault>& faults) {
+void add_bodies(run::Scene<Dim>& scene, const Settings& settings, Answers& answers, std::vector<Fault>& faults) {
     std::vector<mesh::Mesh<Dim>> meshes;
     std::set<std::string> failed;  // patterns: the first of their copies says what is wrong with all
     for (const BodySettings& body : settings.bodies) {
         if (body.shape == Shape::none || failed.contains(body.pattern)) continue;
+        std::vector<std::string> names;
         try {
-            meshes.push_back(make_body<Dim>(body, settings.file.parent_path(), settings.meshes.get()));
+            names = answers.of([&] {
+                meshes.push_back(make_body<Dim>(body, settings.file.parent_path(), settings.meshes.get()));
+                return meshes.back().body_names;
+            });
         } catch (const Error& error) {
             faults.push_back({body.where, body.pattern.empty() ? error.what() : of_pattern(body, error.what())});
             if (!body.pattern.empty()) failed.insert(body.pattern);
             continue;
         }
-        append_bodies(scene, body, meshes.back().body_names, settings, faults);
+        append_bodies(scene, body, names, settings, faults);
     }
-    if (!meshes.empty()) scene.mesh = mesh::combine<Dim>(meshes);
+    const std::vector<std::byte> outline = answers.of([&] {
+        if (!meshes.empty()) scene.mesh = mesh::combine<Dim>(std::move(meshes));
+        return mesh::bytes_of(mesh::outline_of(scene.mesh));
+    });
+    if (answers.are_given()) scene.mesh = mesh::mesh_in<Dim>(outline);
 }
 
 /// Words behind the depth of two bodies where the search for cells that overlap ended early.
@@ -222,7 +233,7 @@ std::vector<std::array<std::int32_t, 2>> may_overlap(const run::Scene<Dim>& scen
 
 /// Pairs by their numbers (PairSides). Those that are not there because of a fault are left out.
 template <int Dim>
-void add_pairs(run::Scene<Dim>& scene, const Settings& settings, std::vector<Fault>& faults) {
+void add_pairs(run::Scene<Dim>& scene, const Settings& settings, const Answers& answers, std::vector<Fault>& faults) {
     using Numbers = typename PairSides<Dim>::Numbers;
     const PairSides<Dim> sides(scene, settings, faults);
     for (const IgnoredPair& pair : settings.ignored_pairs) {
@@ -258,13 +269,16 @@ void add_pairs(run::Scene<Dim>& scene, const Settings& settings, std::vector<Fau
         if (has_friction && std::ranges::any_of(scene.solid.body_friction, is_same_pair))
             faults.push_back({pair.where, fmt::format("contact.pairs: '{}' and '{}' have two laws of friction; give one.",
                                                       names[0], names[1])});
-        else if (!sides.may_touch(both, scene.solid.ignored_pairs))
-            faults.push_back(
-                {pair.where, fmt::format("contact.pairs: '{}' and '{}' have {} and never touch: they "
-                                         "are of bodies in ignored_pairs, of one body without self = true, or "
-                                         "obstacles. Leave {} out, or let them touch.",
-                                         names[0], names[1], has_friction ? "a law of friction" : "an interference",
-                                         has_friction ? "the law" : "it")});
+        else
+            answers.check([&] {
+                if (sides.may_touch(both, scene.solid.ignored_pairs)) return;
+                faults.push_back(
+                    {pair.where, fmt::format("contact.pairs: '{}' and '{}' have {} and never touch: they "
+                                             "are of bodies in ignored_pairs, of one body without self = true, or "
+                                             "obstacles. Leave {} out, or let them touch.",
+                                             names[0], names[1], has_friction ? "a law of friction" : "an interference",
+                                             has_friction ? "the law" : "it")});
+            });
         if (has_friction) scene.solid.body_friction.push_back({both, pair.friction});
     }
 }
@@ -330,7 +344,7 @@ private:
 
 /// Sides by their numbers, as pairs have them.
 template <int Dim>
-void add_bonds(run::Scene<Dim>& scene, const Settings& settings, std::vector<Fault>& faults) {
+void add_bonds(run::Scene<Dim>& scene, const Settings& settings, Answers& answers, std::vector<Fault>& faults) {
     const Names<Dim> names(scene.mesh, settings.bodies, faults);
     const PairSides<Dim> sides(scene, settings, faults);
     BoxesOfSides<Dim> boxes(scene.mesh, settings.obstacles.size());
@@ -344,7 +358,7 @@ void add_bonds(run::Scene<Dim>& scene, const Settings& settings, std::vector<Fau
         if (numbers.size() != 2) continue;
         if (bond.is_of_copies) {
             bool& one_holds = holds[bond.where];
-            if (!boxes.are_side_by_side(numbers[0], numbers[1])) continue;
+            if (!answers.of([&] { return boxes.are_side_by_side(numbers[0], numbers[1]); })) continue;
             one_holds = true;
         }
         scene.solid.bonds.push_back(
@@ -358,7 +372,7 @@ void add_bonds(run::Scene<Dim>& scene, const Settings& settings, std::vector<Fau
 }
 
 template <int Dim>
-void add_outputs(run::Scene<Dim>& scene, const Settings& settings, std::vector<Fault>& faults) {
+void add_outputs(run::Scene<Dim>& scene, const Settings& settings, const Answers& answers, std::vector<Fault>& faults) {
     const Names<Dim> names(scene.mesh, settings.bodies, faults);
     for (const ProbeSettings& probe : settings.probes) {
         const std::string path = "output.probes." + probe.name;
@@ -372,7 +386,9 @@ void add_outputs(run::Scene<Dim>& scene, const Settings& settings, std::vector<F
             faults.push_back(
                 {probe.where, path + ".contact is of a body as a whole, and 'point' is given, too. Leave one of them out."});
         try {
-            if (made.position) static_cast<void>(run::cell_at<Dim>(scene.mesh, *body, *made.position));
+            answers.check([&] {
+                if (made.position) static_cast<void>(run::cell_at<Dim>(scene.mesh, *body, *made.position));
+            });
         } catch (const BadInput& error) {
             faults.push_back({probe.where, fmt::format("{}.point: {}", path, error.what())});
         }
@@ -386,16 +402,16 @@ void add_outputs(run::Scene<Dim>& scene, const Settings& settings, std::vector<F
 }  // namespace
 
 template <int Dim>
-run::Scene<Dim> make_scene(const Settings& settings, std::vector<Fault>& faults) {
+run::Scene<Dim> make_scene(const Settings& settings, Answers& mesh, std::vector<Fault>& faults) {
     run::Scene<Dim> scene;
-    add_bodies(scene, settings, faults);
-    add_pairs(scene, settings, faults);
+    add_bodies(scene, settings, mesh, faults);
+    add_pairs(scene, settings, mesh, faults);
     take_friction_from_mirrors(scene, settings);
-    add_bonds(scene, settings, faults);
-    join_parts(scene, settings, faults);
-    add_loads(scene, settings, faults);
-    add_obstacles<Dim>(scene, settings, may_overlap(scene, settings), faults);
-    add_outputs(scene, settings, faults);
+    add_bonds(scene, settings, mesh, faults);
+    join_parts(scene, settings, mesh, faults);
+    add_loads(scene, settings, mesh, faults);
+    add_obstacles<Dim>(scene, settings, mesh, may_overlap(scene, settings), faults);
+    add_outputs(scene, settings, mesh, faults);
     scene.contact = settings.contact;
     if (!scene.contact) {
         for (solid::Bond& bond : scene.solid.bonds)  // groups are counted behind obstacles
@@ -406,7 +422,9 @@ run::Scene<Dim> make_scene(const Settings& settings, std::vector<Fault>& faults)
         scene.solid.body_friction.clear();
         scene.solid.interference.clear();
     }
-    if (scene.contact) check_apart<Dim>(scene.mesh, settings, may_overlap(scene, settings), faults);
+    mesh.check([&] {
+        if (scene.contact) check_apart<Dim>(scene.mesh, settings, may_overlap(scene, settings), faults);
+    });
     if (settings.energy_scale > 0.0) scene.energy_scale = {"H0", settings.energy_scale};
     scene.title = settings.title;
     scene.comment = settings.comment;
@@ -415,7 +433,7 @@ run::Scene<Dim> make_scene(const Settings& settings, std::vector<Fault>& faults)
     return scene;
 }
 
-template run::Scene<2> make_scene<2>(const Settings&, std::vector<Fault>&);
-template run::Scene<3> make_scene<3>(const Settings&, std::vector<Fault>&);
+template run::Scene<2> make_scene<2>(const Settings&, Answers&, std::vector<Fault>&);
+template run::Scene<3> make_scene<3>(const Settings&, Answers&, std::vector<Fault>&);
 
 }  // namespace abut::input

@@ -28,16 +28,24 @@ std::string SceneFile::name() const { return settings_->file.stem().string(); }
 
 template <int Dim>
 run::Scene<Dim> SceneFile::scene() const {
+    Answers mesh;
+    return scene<Dim>(mesh);
+}
+
+template <int Dim>
+run::Scene<Dim> SceneFile::scene(Answers& mesh) const {
     if (Dim != settings_->dim)
         throw Misuse(fmt::format("{}: a scene of dimension {} was asked for, it has {}. Ask for that.",
                                  settings_->file.string(), Dim, settings_->dim));
     std::vector<Fault> faults;
-    run::Scene<Dim> scene = make_scene<Dim>(*settings_, faults);
+    run::Scene<Dim> scene = make_scene<Dim>(*settings_, mesh, faults);
     if (!faults.empty()) throw SceneError(std::move(faults));
     return scene;
 }
 
 template run::Scene<2> SceneFile::scene<2>() const;
 template run::Scene<3> SceneFile::scene<3>() const;
+template run::Scene<2> SceneFile::scene<2>(Answers&) const;
+template run::Scene<3> SceneFile::scene<3>(Answers&) const;
 
 }  // namespace abut::input

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "abut/base/answers.hpp"
 #include "abut/input/fault.hpp"
 #include "abut/input/given_meshes.hpp"
 #include "abut/run/result.hpp"
@@ -49,6 +50,10 @@ public:
     /// that no mesh has, and for bodies that overlap; Misuse if `Dim` is not the dimension.
     template <int Dim>
     [[nodiscard]] run::Scene<Dim> scene() const;
+    /// For several processes that have the same file: the first one makes the scene and keeps answers about its mesh. The
+    /// others are given these, make no mesh, and have the outline of it in their scene (mesh::outline_of).
+    template <int Dim>
+    [[nodiscard]] run::Scene<Dim> scene(Answers& mesh) const;
 
 private:
     std::shared_ptr<const Settings> settings_;

@@ -14,16 +14,11 @@ namespace {
 
 using geometry::Box;
 
-/// The cells of one body and their boxes.
+/// Cells of one body and their boxes.
 template <int Dim>
 struct BoxedCells {
     std::vector<std::int32_t> cells;
     std::vector<Box<Dim>> boxes;
-
-    void append(std::int32_t cell, const Box<Dim>& box) {
-        cells.push_back(cell);
-        boxes.push_back(box);
-    }
 };
 
 template <int Dim>
@@ -34,11 +29,25 @@ Box<Dim> box_of(const Mesh<Dim>& mesh, std::int32_t cell) {
 }
 
 template <int Dim>
-std::vector<BoxedCells<Dim>> cells_by_body(const Mesh<Dim>& mesh) {
-    std::vector<BoxedCells<Dim>> bodies(static_cast<std::size_t>(mesh.n_bodies()));
+std::vector<Box<Dim>> boxes_of_bodies(const Mesh<Dim>& mesh) {
+    std::vector<Box<Dim>> boxes(static_cast<std::size_t>(mesh.n_bodies()));
     for (std::int32_t cell = 0; cell < mesh.n_cells(); ++cell)
-        bodies[static_cast<std::size_t>(mesh.cell_body[static_cast<std::size_t>(cell)])].append(cell, box_of(mesh, cell));
-    return bodies;
+        boxes[static_cast<std::size_t>(mesh.cell_body[static_cast<std::size_t>(cell)])].extend(box_of(mesh, cell));
+    return boxes;
+}
+
+/// The cells of a body that reach into a box: mostly few, where bodies meet with their sides.
+template <int Dim>
+BoxedCells<Dim> cells_in(const Mesh<Dim>& mesh, std::int32_t body, const Box<Dim>& region) {
+    const auto of_body = std::ranges::equal_range(mesh.cell_body, body);
+    BoxedCells<Dim> found;
+    for (auto cell = of_body.begin() - mesh.cell_body.begin(); cell < of_body.end() - mesh.cell_body.begin(); ++cell) {
+        const Box<Dim> box = box_of(mesh, static_cast<std::int32_t>(cell));
+        if (!box.overlaps(region)) continue;
+        found.cells.push_back(static_cast<std::int32_t>(cell));
+        found.boxes.push_back(box);
+    }
+    return found;
 }
 
 template <int Dim>
@@ -95,7 +104,7 @@ std::string cell_labels(const Mesh<Dim>& mesh, const Interpenetration& pair) {
 template <int Dim>
 std::vector<Interpenetration> find_interpenetrations(const Mesh<Dim>& mesh, geometry::BroadPhase broad_phase,
                                                      IgnoredPairs ignored, InterpenetrationLimits limits) {
-    const auto bodies = cells_by_body(mesh);
+    const std::vector<Box<Dim>> of_bodies = boxes_of_bodies(mesh);
     std::vector<Interpenetration> found;
     for (std::int32_t body_1 = 0; body_1 < mesh.n_bodies(); ++body_1)
         for (std::int32_t body_2 = body_1 + 1; body_2 < mesh.n_bodies(); ++body_2) {
@@ -103,9 +112,10 @@ std::vector<Interpenetration> find_interpenetrations(const Mesh<Dim>& mesh, geom
                     return pair == std::array{body_1, body_2} || pair == std::array{body_2, body_1};
                 }))
                 continue;
-            const auto& part_1 = bodies[static_cast<std::size_t>(body_1)];
-            const auto& part_2 = bodies[static_cast<std::size_t>(body_2)];
-            if (!geometry::bounding_box<Dim>(part_1.boxes).overlaps(geometry::bounding_box<Dim>(part_2.boxes))) continue;
+            const Box<Dim>&box_1 = of_bodies[static_cast<std::size_t>(body_1)],
+                  &box_2 = of_bodies[static_cast<std::size_t>(body_2)];
+            if (!box_1.overlaps(box_2)) continue;
+            const BoxedCells<Dim> part_1 = cells_in(mesh, body_1, box_2), part_2 = cells_in(mesh, body_2, box_1);
             const std::int64_t enough = std::min(limits.in_all - std::ssize(found), limits.of_two_bodies);
             const std::int64_t before = std::ssize(found);
             for (const auto& [i, k] : geometry::overlapping_pairs<Dim>({broad_phase}, part_1.boxes, part_2.boxes)) {

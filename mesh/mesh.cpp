@@ -15,6 +15,7 @@
 #include "abut/geometry/box.hpp"
 #include "abut/mesh/cell_shape.hpp"
 #include "abut/mesh/checks.hpp"
+#include "abut/mesh/combine.hpp"
 #include "abut/mesh/measures.hpp"
 #include "abut/mesh/own_vertices.hpp"
 #include "abut/mesh/quality.hpp"
@@ -311,6 +312,27 @@ std::int32_t count_coincident_vertices(const Mesh<Dim>& mesh) {
     return count;
 }
 
+/// `is_done(i)` is called once the whole has all of mesh i.
+template <int Dim, class IsDone>
+Mesh<Dim> combined(std::span<const Mesh<Dim>> meshes, const IsDone& is_done) {
+    Mesh<Dim> result;
+    reserve_all(result, meshes);
+    append_names(result, meshes);
+    std::vector<std::string> names;
+    std::swap(names, result.body_names);  // bodies are counted while the meshes come in
+    for (std::size_t i = 0; i < meshes.size(); ++i) {
+        append_report(result.report, meshes[i].report, result.n_bodies());
+        append_cells_and_faces(result, meshes[i]);
+        append(result.body_names, meshes[i].body_names);
+        result.name += (result.name.empty() ? "" : "+") + meshes[i].name;
+        is_done(i);
+    }
+    result.body_names = std::move(names);
+    check_names(result);
+    result.report.n_coincident_vertices = count_coincident_vertices(result);
+    return result;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -362,21 +384,16 @@ Mesh<Dim> build_mesh(CellSoup<Dim> soup, const MeshOptions& options) {
 
 template <int Dim>
 Mesh<Dim> combine(std::span<const Mesh<Dim>> meshes) {
-    Mesh<Dim> result;
-    reserve_all(result, meshes);
-    append_names(result, meshes);
-    std::vector<std::string> names;
-    std::swap(names, result.body_names);  // bodies are counted while the meshes come in
-    for (const auto& mesh : meshes) {
-        append_report(result.report, mesh.report, result.n_bodies());
-        append_cells_and_faces(result, mesh);
-        append(result.body_names, mesh.body_names);
-        result.name += (result.name.empty() ? "" : "+") + mesh.name;
+    return combined<Dim>(meshes, [](std::size_t) {});
+}
+
+template <int Dim>
+Mesh<Dim> combine(std::vector<Mesh<Dim>>&& meshes) {
+    if (meshes.size() == 1) {
+        check_names(meshes.front());
+        return std::move(meshes.front());
     }
-    result.body_names = std::move(names);
-    check_names(result);
-    result.report.n_coincident_vertices = count_coincident_vertices(result);
-    return result;
+    return combined<Dim>(meshes, [&](std::size_t i) { meshes[i] = {}; });
 }
 
 template struct Mesh<2>;
@@ -384,6 +401,8 @@ template struct Mesh<3>;
 template Mesh<2> build_mesh<2>(CellSoup<2>, const MeshOptions&);
 template Mesh<3> build_mesh<3>(CellSoup<3>, const MeshOptions&);
 template Mesh<2> combine<2>(std::span<const Mesh<2>>);
+template Mesh<2> combine<2>(std::vector<Mesh<2>>&&);
 template Mesh<3> combine<3>(std::span<const Mesh<3>>);
+template Mesh<3> combine<3>(std::vector<Mesh<3>>&&);
 
 }  // namespace abut::mesh

@@ -35,6 +35,20 @@ void check(const Mesh<Dim>& mesh, std::span<const int> owner, int layers, std::s
                            {.cell = c});
 }
 
+/// Appends the cells that are not taken and share a vertex with one of these: only where bodies are pinched are they not
+/// neighbours across few faces.
+template <int Dim>
+void append_around(const Mesh<Dim>& mesh, std::span<const std::int32_t> own, const std::vector<bool>& taken,
+                   std::vector<std::int32_t>& cells) {
+    std::vector<bool> is_own(mesh.vertices.size(), false);
+    for (const std::int32_t c : own)
+        for (const std::int32_t v : mesh.cell_vertices[c]) is_own[static_cast<std::size_t>(v)] = true;
+    for (std::int32_t c = 0; c < mesh.n_cells(); ++c)
+        if (!taken[static_cast<std::size_t>(c)] &&
+            std::ranges::any_of(mesh.cell_vertices[c], [&](std::int32_t v) { return is_own[static_cast<std::size_t>(v)]; }))
+            cells.push_back(c);
+}
+
 /// Own cells and copies, increasing.
 template <int Dim>
 std::vector<std::int32_t> cells_of_part(const Mesh<Dim>& mesh, std::span<const int> owner, int rank, int layers,
@@ -49,6 +63,7 @@ std::vector<std::int32_t> cells_of_part(const Mesh<Dim>& mesh, std::span<const i
         cells.push_back(c);
         if (!of_whole) outermost.push_back(c);
     }
+    const std::vector<std::int32_t> own = outermost;
     for (int layer = 0; layer < layers; ++layer) {
         next.clear();
         for (const std::int32_t c : outermost)
@@ -61,6 +76,7 @@ std::vector<std::int32_t> cells_of_part(const Mesh<Dim>& mesh, std::span<const i
         std::swap(outermost, next);
         cells.insert(cells.end(), outermost.begin(), outermost.end());
     }
+    append_around(mesh, own, taken, cells);
     std::ranges::sort(cells);
     return cells;
 }

@@ -11,15 +11,24 @@
 namespace abut::ranks {
 namespace {
 
-/// The points that this rank hands to Zoltan: a part of all in their order.
+/// The points that this rank hands to Zoltan: those from `begin` on among all in their order.
 template <int Dim>
 struct Slice {
     std::span<const Vector<Dim>> points;
-    std::span<const double> weights;  // empty: all 1
-    std::size_t begin, end;
+    std::span<const double> weights;  // of these
+    bool has_weights;                 // else all weigh 1
+    std::size_t begin;
 
-    [[nodiscard]] std::size_t size() const { return end - begin; }
+    [[nodiscard]] std::size_t size() const { return points.size(); }
 };
+
+/// First point of the slice of each rank, one more at the end.
+std::vector<std::size_t> slice_begin(const Communicator& communicator, std::size_t n_points) {
+    const auto n_ranks = static_cast<std::size_t>(communicator.size());
+    std::vector<std::size_t> begin;
+    for (std::size_t rank = 0; rank <= n_ranks; ++rank) begin.push_back(n_points * rank / n_ranks);
+    return begin;
+}
 
 template <int Dim>
 int n_points(void* slice, int* error) {
@@ -34,7 +43,7 @@ void list_points(void* data, int, int, ZOLTAN_ID_PTR numbers, ZOLTAN_ID_PTR loca
     for (std::size_t i = 0; i < slice.size(); ++i) {
         numbers[i] = static_cast<ZOLTAN_ID_TYPE>(slice.begin + i);
         local[i] = static_cast<ZOLTAN_ID_TYPE>(i);
-        if (has_weights > 0) weights[i] = static_cast<float>(slice.weights[slice.begin + i]);
+        if (has_weights > 0) weights[i] = static_cast<float>(slice.weights[i]);
     }
     *error = ZOLTAN_OK;
 }
@@ -50,7 +59,7 @@ void list_coordinates(void* data, int, int, int n, ZOLTAN_ID_PTR, ZOLTAN_ID_PTR 
                       int* error) {
     const auto& slice = *static_cast<const Slice<Dim>*>(data);
     for (int i = 0; i < n; ++i)
-        for (int k = 0; k < Dim; ++k) coordinates[i * Dim + k] = slice.points[slice.begin + local[i]][k];
+        for (int k = 0; k < Dim; ++k) coordinates[i * Dim + k] = slice.points[local[i]][k];
     *error = ZOLTAN_OK;
 }
 
@@ -58,22 +67,25 @@ struct Destroy {
     void operator()(Zoltan_Struct* zoltan) const { Zoltan_Destroy(&zoltan); }
 };
 
-template <int Dim>
-void check(const Communicator& communicator, std::span<const Vector<Dim>> points, std::span<const double> weights) {
-    std::array<std::int64_t, 1> of_first{std::ssize(points)};
+void check_weights(std::size_t n_points, std::span<const double> weights) {
+    if (!weights.empty() && weights.size() != n_points)
+        throw BadInput("partition: " + std::to_string(weights.size()) + " weights are given for " +
+                       std::to_string(n_points) + " points. Give one per point, or none.");
+    for (std::size_t i = 0; i < weights.size(); ++i)
+        if (!(weights[i] >= 0.0) || std::isinf(weights[i]))
+            throw BadInput("partition: the weight of point " + std::to_string(i) + " is " + std::to_string(weights[i]) +
+                               ", finite and >= 0 is allowed.",
+                           {.value = weights[i], .allowed = 0.0});
+}
+
+void check(const Communicator& communicator, std::size_t n_points, std::span<const double> weights) {
+    std::array<std::int64_t, 1> of_first{static_cast<std::int64_t>(n_points)};
     broadcast<std::int64_t>(communicator, of_first);
     agreed(communicator, [&] {
-        if (std::ssize(points) != of_first[0])
-            throw BadInput("partition: " + std::to_string(points.size()) + " points are given, but " +
+        if (static_cast<std::int64_t>(n_points) != of_first[0])
+            throw BadInput("partition: " + std::to_string(n_points) + " points are given, but " +
                            std::to_string(of_first[0]) + " on rank 0. Give all ranks the same.");
-        if (!weights.empty() && weights.size() != points.size())
-            throw BadInput("partition: " + std::to_string(weights.size()) + " weights are given for " +
-                           std::to_string(points.size()) + " points. Give one per point, or none.");
-        for (std::size_t i = 0; i < weights.size(); ++i)
-            if (!(weights[i] >= 0.0) || std::isinf(weights[i]))
-                throw BadInput("partition: the weight of point " + std::to_string(i) + " is " + std::to_string(weights[i]) +
-                                   ", finite and >= 0 is allowed.",
-                               {.value = weights[i], .allowed = 0.0});
+        check_weights(n_points, weights);
     });
 }
 
@@ -85,18 +97,9 @@ void require_zoltan(const Communicator& communicator, int result, const char* ca
     });
 }
 
-}  // namespace
-
+/// The rank of each point of a slice. A call of all ranks.
 template <int Dim>
-std::vector<int> partition(const Communicator& communicator, std::span<const Vector<Dim>> points,
-                           std::span<const double> weights) {
-    check(communicator, points, weights);
-    if (communicator.size() == 1) return std::vector<int>(points.size(), 0);
-    const auto begin_of = [&](int rank) {
-        return points.size() * static_cast<std::size_t>(rank) / static_cast<std::size_t>(communicator.size());
-    };
-    Slice<Dim> slice{points, weights, begin_of(communicator.rank()), begin_of(communicator.rank() + 1)};
-
+std::vector<std::int32_t> ranks_of(const Communicator& communicator, Slice<Dim>& slice) {
     float version = 0.0f;
     require_zoltan(communicator, Zoltan_Initialize(0, nullptr, &version), "Zoltan_Initialize");
     const std::unique_ptr<Zoltan_Struct, Destroy> zoltan(Zoltan_Create(handle(communicator)));
@@ -105,7 +108,7 @@ std::vector<int> partition(const Communicator& communicator, std::span<const Vec
     set("DEBUG_LEVEL", "0");
     set("LB_METHOD", "RCB");
     set("RETURN_LISTS", "PARTS");
-    set("OBJ_WEIGHT_DIM", weights.empty() ? "0" : "1");
+    set("OBJ_WEIGHT_DIM", slice.has_weights ? "1" : "0");
     set("RCB_OUTPUT_LEVEL", "0");
     Zoltan_Set_Num_Obj_Fn(zoltan.get(), n_points<Dim>, &slice);
     Zoltan_Set_Obj_List_Fn(zoltan.get(), list_points<Dim>, &slice);
@@ -123,7 +126,56 @@ std::vector<int> partition(const Communicator& communicator, std::span<const Vec
     Zoltan_LB_Free_Part(&import_ids, &import_local, &import_ranks, &import_parts);
     Zoltan_LB_Free_Part(&export_ids, &export_local, &export_ranks, &export_parts);
     require_zoltan(communicator, result, "Zoltan_LB_Partition");
-    return gather_to_all<std::int32_t>(communicator, mine).values;
+    return mine;
+}
+
+/// The values of this rank's slice of points, of `width` numbers each, from all of rank 0.
+std::vector<double> slice_of_first(const Communicator& communicator, const std::vector<std::size_t>& begin,
+                                   std::size_t width, std::span<const double> of_all) {
+    std::vector<int> counts;
+    for (std::size_t rank = 0; rank + 1 < begin.size(); ++rank)
+        counts.push_back(as_count(width * (begin[rank + 1] - begin[rank])));
+    const std::vector<int> offsets = offsets_of(counts);
+    std::vector<double> mine(static_cast<std::size_t>(counts[static_cast<std::size_t>(communicator.rank())]));
+    require(MPI_Scatterv(of_all.data(), counts.data(), offsets.data(), MPI_DOUBLE, mine.data(), as_count(mine.size()),
+                         MPI_DOUBLE, 0, handle(communicator)),
+            "MPI_Scatterv");
+    return mine;
+}
+
+}  // namespace
+
+template <int Dim>
+std::vector<int> partition(const Communicator& communicator, std::span<const Vector<Dim>> points,
+                           std::span<const double> weights) {
+    check(communicator, points.size(), weights);
+    if (communicator.size() == 1) return std::vector<int>(points.size(), 0);
+    const std::vector<std::size_t> begins = slice_begin(communicator, points.size());
+    const auto rank = static_cast<std::size_t>(communicator.rank());
+    const std::size_t begin = begins[rank], n = begins[rank + 1] - begin;
+    Slice<Dim> slice{points.subspan(begin, n), weights.empty() ? weights : weights.subspan(begin, n), !weights.empty(),
+                     begin};
+    return gather_to_all<std::int32_t>(communicator, ranks_of(communicator, slice)).values;
+}
+
+template <int Dim>
+std::vector<int> partition_of_first(const Communicator& communicator, std::span<const Vector<Dim>> points,
+                                    std::span<const double> weights) {
+    const bool is_first = communicator.rank() == 0;
+    agreed(communicator, [&] {
+        if (is_first) check_weights(points.size(), weights);
+    });
+    if (communicator.size() == 1) return std::vector<int>(points.size(), 0);
+    std::array<std::int64_t, 2> known{std::ssize(points), weights.empty() ? 0 : 1};
+    broadcast<std::int64_t>(communicator, known);
+    const std::vector<std::size_t> begin = slice_begin(communicator, static_cast<std::size_t>(known[0]));
+    const std::span<const double> coordinates(points.empty() ? nullptr : points.front().data(), Dim * points.size());
+    const std::vector<double> of_slice = slice_of_first(communicator, begin, Dim, coordinates);
+    std::vector<double> weights_of_slice;
+    if (known[1] != 0) weights_of_slice = slice_of_first(communicator, begin, 1, weights);
+    Slice<Dim> slice{as_vectors<Dim>(std::span(of_slice)), weights_of_slice, known[1] != 0,
+                     begin[static_cast<std::size_t>(communicator.rank())]};
+    return gather_to_first<std::int32_t>(communicator, ranks_of(communicator, slice)).values;
 }
 
 SharedPoints shared_points(const Communicator& communicator, int dimension, std::int32_t n_points,
@@ -143,7 +195,11 @@ SharedPoints shared_points(const Communicator& communicator, int dimension, std:
     return points;
 }
 
-template std::vector<int> partition(const Communicator&, std::span<const Vector<2>>, std::span<const double>);
-template std::vector<int> partition(const Communicator&, std::span<const Vector<3>>, std::span<const double>);
+#define ABUT_INSTANTIATE(Dim)                                                                                        \
+    template std::vector<int> partition(const Communicator&, std::span<const Vector<Dim>>, std::span<const double>); \
+    template std::vector<int> partition_of_first(const Communicator&, std::span<const Vector<Dim>>, std::span<const double>);
+ABUT_INSTANTIATE(2)
+ABUT_INSTANTIATE(3)
+#undef ABUT_INSTANTIATE
 
 }  // namespace abut::ranks

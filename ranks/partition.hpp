@@ -16,6 +16,11 @@ template <int Dim>
 [[nodiscard]] std::vector<int> partition(const Communicator& communicator, std::span<const Vector<Dim>> points,
                                          std::span<const double> weights = {});
 
+/// `partition` of points and weights that rank 0 alone has: it gets the answer, the others nothing. A call of all ranks.
+template <int Dim>
+[[nodiscard]] std::vector<int> partition_of_first(const Communicator& communicator, std::span<const Vector<Dim>> points,
+                                                  std::span<const double> weights = {});
+
 /// The points of a part as PointRanks takes them: their numbers among `n_points`, increasing, and their owners (n
 /// each), of cells as mesh::MeshPart has them, or as solid::points_of gives them. The points of a rank are those that
 /// it owns, `dimension` values each.

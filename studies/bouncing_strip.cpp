@@ -112,7 +112,7 @@ int run_study(int argc, char** argv) {
         typed, argc, argv, [&](Flags& flags) { add_options(flags, options); },
         [&] {
             study.messages = typed.messages = options.messages;
-            apps::run_scene<2>(study, options.run, [&] { return bar(options, impacts); });
+            apps::run_scene<2>(study, options.run, [&](Answers&) { return bar(options, impacts); });
         });
 }
 

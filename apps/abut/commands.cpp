@@ -163,9 +163,9 @@ void run_file(const Program& program, const input::SceneFile& file, const TextFi
     named.name = file.name();
     named.beside_checkpoints = beside;
     if (file.dimension() == 2)
-        run_scene<2>(named, file.options(), [&] { return file.scene<2>(); });
+        run_scene<2>(named, file.options(), [&](Answers& mesh) { return file.scene<2>(mesh); });
     else
-        run_scene<3>(named, file.options(), [&] { return file.scene<3>(); });
+        run_scene<3>(named, file.options(), [&](Answers& mesh) { return file.scene<3>(mesh); });
 }
 
 /// Nothing is removed for a scene that cannot be read, which may not say where its results go. The message names those of an

@@ -13,7 +13,8 @@
 #include <utility>
 
 #include "abut/base/error.hpp"
-#include "abut/mesh/part.hpp"
+#include "abut/mesh/mesh_bytes.hpp"
+#include "abut/ranks/bytes.hpp"
 #include "abut/ranks/partition.hpp"
 #include "abut/solid/part/share_out.hpp"
 
@@ -28,20 +29,6 @@ std::chrono::milliseconds patience() {
     const char* said = std::getenv("ABUT_RANKS_PATIENCE");
     const double seconds = said ? std::strtod(said, nullptr) : by_default;
     return std::chrono::milliseconds(static_cast<std::int64_t>(1e3 * (seconds > 0.0 ? seconds : by_default)));
-}
-
-/// A number that tells meshes apart: of coordinates, cells, bodies and groups, each value with another weight.
-template <int Dim>
-double fingerprint(const mesh::Mesh<Dim>& mesh) {
-    double sum = 0.0;
-    std::int64_t n = 0;
-    const auto add = [&](double value) { sum += static_cast<double>(1 + n++ % 1009) * value; };
-    for (const Vector<Dim>& vertex : mesh.vertices) add(vertex.sum());
-    for (const std::int32_t vertex : mesh.cell_vertices.values) add(vertex);
-    for (const std::int32_t body : mesh.cell_body) add(body);
-    for (const mesh::BoundaryGroup& group : mesh.groups)
-        for (const std::int32_t face : group.faces) add(face);
-    return sum;
 }
 
 }  // namespace
@@ -89,6 +76,42 @@ void refuse_ranks(const char* what) {
         throw BadInput(fmt::format("{}: not made for several ranks. Start the program without mpirun and --ranks.", what));
 }
 
+std::vector<std::byte> of_first_rank(std::vector<std::byte> bytes) {
+    return the_session ? ranks::of_first(the_session->all(), std::move(bytes)) : std::move(bytes);
+}
+
+namespace {
+
+/// Calls body() on rank 0; throws on all ranks what it throws.
+template <class Body>
+void on_first_rank(const Body& body) {
+    on_all([&] {
+        if (the_session->all().rank() == 0) body();
+    });
+}
+
+/// The part of this rank, which rank 0 makes of the whole mesh: one after the other, its own at the end, so that it never
+/// has two.
+template <int Dim>
+mesh::MeshPart<Dim> part_of_first(const mesh::Mesh<Dim>& whole, std::span<const int> owner,
+                                  std::span<const solid::Kinematics> kinematics) {
+    const ranks::Communicator& all = the_session->all();
+    mesh::MeshPart<Dim> part;
+    for (int rank = all.size() - 1; rank >= 0; --rank) {
+        std::vector<std::byte> bytes;
+        on_first_rank([&] {
+            part = solid::part_of<Dim>(whole, owner, rank, kinematics);
+            if (rank > 0) bytes = mesh::bytes_of(std::exchange(part, {}));
+        });
+        if (rank == 0 || (all.rank() != 0 && all.rank() != rank)) continue;
+        bytes = ranks::from_first(all, std::move(bytes), rank);
+        if (all.rank() == rank) part = mesh::part_in<Dim>(bytes);
+    }
+    return part;
+}
+
+}  // namespace
+
 template <int Dim>
 struct SceneShare<Dim>::Part {
     Part(const mesh::Mesh<Dim>& mesh, std::span<const solid::Kinematics> kinematics, std::span<const double> weights);
@@ -101,9 +124,9 @@ SceneShare<Dim>::Part::Part(const mesh::Mesh<Dim>& mesh, std::span<const solid::
                             std::span<const double> weights) {
     const ranks::Communicator& all = the_session->all();
     std::vector<double> of_cells;
-    on_all([&] { of_cells = solid::cell_weights(mesh, kinematics, weights); });
-    const std::vector<int> owner = ranks::partition<Dim>(all, mesh.cell_centroid, of_cells);
-    on_all([&] { part = solid::part_of<Dim>(mesh, owner, all.rank(), kinematics); });
+    on_first_rank([&] { of_cells = solid::cell_weights(mesh, kinematics, weights); });
+    const std::vector<int> owner = ranks::partition_of_first<Dim>(all, mesh.cell_centroid, of_cells);
+    part = part_of_first(mesh, owner, kinematics);
     const solid::PartPoints of_part = solid::points_of<Dim>(part, kinematics);
     points.emplace(all, ranks::shared_points(all, Dim, of_part.n_points, of_part.number, of_part.owner));
 }
@@ -112,13 +135,6 @@ template <int Dim>
 SceneShare<Dim>::SceneShare(const mesh::Mesh<Dim>& mesh, std::vector<solid::Kinematics> kinematics)
     : mesh_(mesh), kinematics_(std::move(kinematics)) {
     if (!the_session || the_session->all().size() == 1) return;
-    const ranks::Communicator& all = the_session->all();
-    const double print = fingerprint(mesh), largest = all.largest(print), least = -all.largest(-print);
-    on_all([&] {
-        if (least != largest)
-            throw BadInput(mesh.name +
-                           ": the ranks have made different meshes of it. Save the mesh to a file, and read that.");
-    });
     share_.emplace(share_out({}));
     share_->again = [this](std::span<const double> weights) { return share_out(weights); };
 }

@@ -1,4 +1,5 @@
 #pragma once
+#include <cstddef>
 #include <exception>
 #include <functional>
 #include <memory>
@@ -44,12 +45,15 @@ void on_all(const Body& body) {
     rank_session()->all().agree(error);
 }
 
+/// The bytes of rank 0 on all ranks, or where the program runs alone. A call of all ranks.
+[[nodiscard]] std::vector<std::byte> of_first_rank(std::vector<std::byte> bytes);
+
 /// The share of this rank in a scene.
 template <int Dim>
 class SceneShare {
 public:
-    /// A call of all ranks; nothing is made where the program runs alone. The mesh must outlive it. Throws BadInput on
-    /// all where their meshes differ, and as solid::part_of and ranks::PointRanks.
+    /// A call of all ranks; nothing is made where the program runs alone. Rank 0 has the mesh, which must outlive this, and
+    /// sends each rank its part. Throws BadInput on all as solid::part_of and ranks::PointRanks.
     SceneShare(const mesh::Mesh<Dim>& mesh, std::vector<solid::Kinematics> kinematics);
     ~SceneShare();
     SceneShare(const SceneShare&) = delete;

@@ -1,9 +1,6 @@
 #include "apps/support/run_scene.hpp"
 
 #include <fmt/format.h>
-#if __has_include(<malloc.h>)
-#include <malloc.h>
-#endif
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/task_arena.h>
 #include <spdlog/spdlog.h>
@@ -18,7 +15,6 @@
 #include "abut/base/error.hpp"
 #include "abut/base/stopwatch.hpp"
 #include "abut/base/throw_again.hpp"
-#include "abut/mesh/outline.hpp"
 #include "abut/run/files/checkpoint_folder.hpp"
 #include "abut/run/files/frames.hpp"
 #include "abut/run/report/result_files.hpp"
@@ -29,6 +25,7 @@
 #include "apps/support/log.hpp"
 #include "apps/support/progress.hpp"
 #include "apps/support/rank_session.hpp"
+#include "apps/support/scene_of_rank.hpp"
 #include "apps/support/signals.hpp"
 #include "apps/support/standard_streams.hpp"
 
@@ -81,9 +78,9 @@ std::vector<solid::Kinematics> kinematics_of(const run::Scene<Dim>& scene, const
 }
 
 template <int Dim>
-run::Scene<Dim> timed_scene(const std::function<run::Scene<Dim>()>& make_scene, double& seconds) {
+run::Scene<Dim> timed_scene(const MakeScene<Dim>& make_scene, double& seconds) {
     const Stopwatch watch(seconds);
-    return make_scene();
+    return scene_of_rank(make_scene);
 }
 
 /// A checkpoint that one rank could not read would let it go on from another one.
@@ -108,11 +105,9 @@ int threads_of(const run::RunOptions& options) {
 
 /// On rank 0, or alone: files, messages and a closing table.
 template <int Dim>
-void run_and_write(const Program& program, const run::RunOptions& options,
-                   const std::function<run::Scene<Dim>()>& make_scene) {
+void run_and_write(const Program& program, const run::RunOptions& options, const MakeScene<Dim>& make_scene) {
     std::optional<run::ResultFiles<Dim>> files;
     std::optional<run::Checkpoint> from;
-    std::optional<run::Scene<Dim>> scene;
     double seconds = 0.0;
     if (!program.note.empty()) spdlog::warn("{}", program.note);
     if (!program.note.empty() && program.messages == Messages::json) json_note(program.note);
@@ -123,59 +118,44 @@ void run_and_write(const Program& program, const run::RunOptions& options,
         from = last_checkpoint(*files, options);
     });
     require_same_step(from);
-    on_all([&] { scene = timed_scene(make_scene, seconds); });
+    const run::Scene<Dim> scene = timed_scene(make_scene, seconds);
     const StopSignals signals;  // from here on there is something to save
     JsonLines<Dim> lines(program.name);
-    const SceneShare<Dim> share(scene->mesh, kinematics_of(*scene, options));
+    const SceneShare<Dim> share(scene.mesh, kinematics_of(scene, options));
     run::RunResult<Dim> result =
-        simulate_into(*files, *scene, options, from ? &*from : nullptr, share.get(), program.messages, lines);
+        simulate_into(*files, scene, options, from ? &*from : nullptr, share.get(), program.messages, lines);
     if (!result.run.complete)
         spdlog::warn("{}: the run ends after step {}; its files hold what was computed until then{}",
                      name_of_signal(noted_signal()), result.run.steps, how_to_go_on(options));
     result.seconds.mesh = seconds;
     result.seconds.total += seconds;
-    files->finish(*scene, result);
+    files->finish(scene, result);
     if (program.messages == Messages::json) lines.end(result, noted_signal() == 0 ? 0 : exit_code_of(noted_signal()));
     if (program.messages != Messages::normal) return;
     log_warnings(run::warnings_after(result));
-    say(run::closing_table(program.name, *scene, result) + files->table());
-}
-
-/// Whether ranks other than 0 go on with the whole mesh: they write their cells of it, or make other parts.
-bool needs_whole_mesh(const run::RunOptions& options) { return options.pieces || options.rebalance > 0; }
-
-/// The C library keeps what has been freed, as long as nobody asks.
-void give_memory_back() {
-#ifdef __GLIBC__
-    malloc_trim(0);
-#endif
+    say(run::closing_table(program.name, scene, result) + files->table());
 }
 
 /// On the other ranks: the run, and their pieces of frames. Each reads the checkpoint that rank 0 has found for itself.
 template <int Dim>
-void run_beside(const Program& program, const run::RunOptions& options, const std::function<run::Scene<Dim>()>& make_scene) {
+void run_beside(const Program& program, const run::RunOptions& options, const MakeScene<Dim>& make_scene) {
     std::optional<run::Checkpoint> from;
-    std::optional<run::Scene<Dim>> scene;
     on_all([&] {
         run::check(options);
         if (options.resume) from = run::CheckpointFolder(options.out / "checkpoints").last().checkpoint;
     });
     require_same_step(from);
-    on_all([&] { scene = make_scene(); });
+    const run::Scene<Dim> scene = scene_of_rank(make_scene);
     const StopSignals signals;  // rank 0 decides
-    const SceneShare<Dim> share(scene->mesh, kinematics_of(*scene, options));
-    if (!needs_whole_mesh(options)) {
-        scene->mesh = mesh::outline_of(scene->mesh);
-        give_memory_back();
-    }
-    run::PieceFiles<Dim> files(options.out, program.series, scene->outputs.fields);
-    static_cast<void>(run::simulate<Dim>(*scene, options, files, from ? &*from : nullptr, share.get()));
+    const SceneShare<Dim> share(scene.mesh, kinematics_of(scene, options));
+    run::PieceFiles<Dim> files(options.out, program.series, scene.outputs.fields);
+    static_cast<void>(run::simulate<Dim>(scene, options, files, from ? &*from : nullptr, share.get()));
 }
 
 }  // namespace
 
 template <int Dim>
-void run_scene(const Program& program, const run::RunOptions& given, const std::function<run::Scene<Dim>()>& make_scene) {
+void run_scene(const Program& program, const run::RunOptions& given, const MakeScene<Dim>& make_scene) {
     start_ranks(given.ranks);
     const GoOnWithoutReader to_files;
     set_log(program.messages);
@@ -190,7 +170,7 @@ void run_scene(const Program& program, const run::RunOptions& given, const std::
         run_and_write<Dim>(program, options, make_scene);
 }
 
-template void run_scene<2>(const Program&, const run::RunOptions&, const std::function<run::Scene<2>()>&);
-template void run_scene<3>(const Program&, const run::RunOptions&, const std::function<run::Scene<3>()>&);
+template void run_scene<2>(const Program&, const run::RunOptions&, const MakeScene<2>&);
+template void run_scene<3>(const Program&, const run::RunOptions&, const MakeScene<3>&);
 
 }  // namespace abut::apps

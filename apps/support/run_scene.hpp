@@ -1,9 +1,7 @@
 #pragma once
-#include <functional>
-
-#include "abut/run/scene.hpp"
 #include "apps/support/program.hpp"
 #include "apps/support/run_options.hpp"
+#include "apps/support/scene_of_rank.hpp"
 
 namespace abut::apps {
 
@@ -16,6 +14,6 @@ namespace abut::apps {
 /// summary.json, and run_program returns 130, 143 or 129. A pipe that nobody reads any more does not end it. A second
 /// signal ends the process at once.
 template <int Dim>
-void run_scene(const Program& program, const run::RunOptions& options, const std::function<run::Scene<Dim>()>& make_scene);
+void run_scene(const Program& program, const run::RunOptions& options, const MakeScene<Dim>& make_scene);
 
 }  // namespace abut::apps

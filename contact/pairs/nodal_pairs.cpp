@@ -92,6 +92,7 @@ void NodalPairs<Dim>::assign(const BevelledSurface<Dim>& surface, std::vector<Fa
                              PointsView<Dim> x, double reach, double compression) {
     compression_ = compression;
     pairs_.clear();
+    pairs_.reserve(facets.size());
     for (const FacetPair& of_facets : facets) pairs_.push_back(make_pair(surface, of_facets));
     look_ahead(x, reach);
     std::size_t n = 0;
@@ -105,6 +106,7 @@ void NodalPairs<Dim>::assign(const BevelledSurface<Dim>& surface, std::vector<Fa
     }
     facets.resize(n);
     pairs_.resize(n);
+    pairs_.shrink_to_fit();  // most candidates go, and the list lives long
     index(surface, watched);
 }
 
@@ -146,6 +148,7 @@ void NodalPairs<Dim>::prune(PointsView<Dim> x_0, PointsView<Dim> x_1, std::span<
     prune_reach_ = steps_between * std::sqrt(largest(std::ssize(nodes_), motion));
     look_ahead(x_0, prune_reach_);
     in_reach_.clear();
+    in_reach_.reserve(pairs_.size());
     for (std::size_t p = 0; p < pairs_.size(); ++p) {
         const bool is_kept_anyway = !pairs_[p].outlook.may_act;
         if (!outlooks_[p].may_act && !is_kept_anyway) {

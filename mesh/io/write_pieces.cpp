@@ -72,7 +72,7 @@ void write_piece(const std::filesystem::path& directory, const std::string& base
     constexpr const char* writer = "write_piece";
     OutputGrid cells = grid_of_cells(mesh, frame.cells, frame.vertices);
     cells.field_data += field_time(frame.time);
-    cells.cell_data.push_back(output_array("cell", frame.cells));
+    cells.cell_data.push_back(output_array("cell", frame.cell_number));
     add_field(cells.cell_data, "displacement", frame.displacement, cells.n_cells, "cells", writer);
     add_field(cells.point_data, "displacement", frame.vertex_displacement, cells.n_points, "vertices", writer);
     add_fields<Dim>(cells.cell_data, frame.cell_fields, cells.n_cells, "cells", writer);
@@ -81,7 +81,7 @@ void write_piece(const std::filesystem::path& directory, const std::string& base
     const std::vector<Vector<Dim>> at_vertices = on_surface(frame, vertices);
     OutputGrid surface = grid_of_surface(mesh, frame.boundary, vertices);
     surface.field_data += field_time(frame.time);
-    surface.cell_data.push_back(output_array("face", frame.boundary));
+    surface.cell_data.push_back(output_array("face", frame.face_number));
     surface.point_data.push_back(field_array("displacement", std::span<const Vector<Dim>>(at_vertices)));
     add_fields<Dim>(surface.cell_data, frame.boundary_fields, surface.n_cells, "boundary faces", writer);
 

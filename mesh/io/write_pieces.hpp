@@ -11,14 +11,17 @@
 
 namespace abut::mesh {
 
-/// Some cells of a mesh with what a moment of a run shows of them: what one of several ranks writes of a frame.
+/// Some cells of a mesh with what a moment of a run shows of them: what one of several ranks writes of a frame. The mesh may
+/// be a part of the whole, which has numbers of its own.
 template <int Dim>
 struct PieceFrame {
-    double time = 0.0;                       ///< [s]
-    std::span<const std::int32_t> cells;     ///< increasing (n)
-    std::span<const std::int32_t> vertices;  ///< of these cells, increasing (n_vertices)
+    double time = 0.0;                          ///< [s]
+    std::span<const std::int32_t> cells;        ///< increasing (n)
+    std::span<const std::int32_t> cell_number;  ///< of each in the whole mesh (n)
+    std::span<const std::int32_t> vertices;     ///< of these cells, increasing (n_vertices)
     /// Faces of these cells that are boundary faces of the mesh: indices into Mesh::boundary_faces (n_faces)
     std::span<const std::int32_t> boundary;
+    std::span<const std::int32_t> face_number;         ///< of each in Mesh::boundary_faces of the whole (n_faces)
     std::span<const Vector<Dim>> displacement;         ///< (n) [m]
     std::span<const Vector<Dim>> vertex_displacement;  ///< (n_vertices) [m]
     std::vector<Field<Dim>> cell_fields{};             ///< each of n
@@ -27,7 +30,7 @@ struct PieceFrame {
 
 /// A series for ParaView, written in pieces: as VtuSeries, but a frame is frames/BASENAME_000000.pvtu, which names the
 /// files of its pieces BASENAME_000000_0.vtu, ..., and so is that of the surfaces (.pvtp, .vtp). Cells have a cell
-/// array more, "cell", their number in the mesh; boundary faces have "face", their index in Mesh::boundary_faces.
+/// array more, "cell", their number in the whole mesh; boundary faces have "face", their index in its boundary_faces.
 ///
 /// Each rank writes its piece by `write_piece`; when all have, one of them calls `publish`.
 class PieceSeries {

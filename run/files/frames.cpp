@@ -81,8 +81,10 @@ template <int Dim>
 mesh::PieceFrame<Dim> shown(const FrameFields& fields, const FramePiece<Dim>& piece, const Stresses<Dim>& stresses) {
     return {.time = piece.time,
             .cells = piece.cells,
+            .cell_number = piece.cell_number,
             .vertices = piece.vertices,
             .boundary = piece.boundary,
+            .face_number = piece.face_number,
             .displacement = piece.displacement,
             .vertex_displacement = piece.vertex_displacement,
             .cell_fields = cell_fields<Dim>(fields, piece.velocity, stresses, piece.fragment),

@@ -168,7 +168,7 @@ private:
     }
 
     void make_piece(std::int64_t frame) {
-        const FramePiece<Dim> piece = frame_piece<Dim>(frame, scene_.mesh, *stepper_, solid());
+        const FramePiece<Dim> piece = frame_piece<Dim>(frame, *stepper_, solid());
         dynamics::agreed(solid().ranks(), [&] { observer_.piece(piece); });
         whole_.on_first([&] { observer_.all_pieces(piece); });
     }

@@ -1,5 +1,6 @@
 #include "abut/run/values/frame_piece.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <span>
@@ -11,6 +12,7 @@
 #include "abut/solid/cell_view.hpp"
 #include "abut/solid/contact_view.hpp"
 #include "abut/solid/fragments.hpp"
+#include "abut/solid/kinematics/properties.hpp"
 
 namespace abut::run {
 namespace {
@@ -26,8 +28,8 @@ public:
           any_turns_(solid.moment_arms() == dynamics::MomentArms::mid_step),
           is_own_(mesh_.cell_measure.size(), 0) {
         solid::OwnCells own = solid.cells().own();
-        piece.cells = std::move(own.number);
-        positions_ = std::move(own.position);
+        piece.cells = std::move(own.position);
+        piece.cell_number = std::move(own.number);
         piece.number = solid.ranks().rank();
         piece.n_pieces = solid.ranks().n_ranks();
         for (const std::int32_t cell : piece.cells) is_own_[static_cast<std::size_t>(cell)] = 1;
@@ -38,7 +40,7 @@ public:
         const auto displacement = solid_.cells().displacement(run.q);
         const auto velocity = cell_velocity(run, solid_);
         const std::vector<double> fragment = fragment_of_cells(solid_);
-        for (const std::int32_t position : positions_) {
+        for (const std::int32_t position : piece_.cells) {
             const auto c = static_cast<std::size_t>(position);
             piece_.displacement.push_back(displacement[c]);
             piece_.velocity.push_back(velocity[c]);
@@ -54,21 +56,19 @@ public:
         for (std::size_t v = 0; v < around.size(); ++v)
             if (around[v] > 0) piece_.vertices.push_back(static_cast<std::int32_t>(v));
         if (any_turns_)
-            for (const std::int32_t position : positions_)
+            for (const std::int32_t position : piece_.cells)
                 own_gradients_.push_back(solid_.cells().displacement_gradient(position, run.q));
         const std::vector<Vector<Dim>> of_all = vertex_means(around);
         for (const std::int32_t v : piece_.vertices)
             piece_.vertex_displacement.push_back(of_all[static_cast<std::size_t>(v)]);
     }
 
-    /// Boundary faces of own cells come in the order of the whole mesh, in a part as well.
+    /// Boundary faces of own cells come in the order of the whole mesh.
     void take_boundary(const solid::ContactField& contact) {
-        const mesh::Mesh<Dim>& part = solid_.mesh();
-        std::vector<char> is_own_here(part.cell_measure.size(), 0);
-        for (const std::int32_t position : positions_) is_own_here[static_cast<std::size_t>(position)] = 1;
         const std::vector<double> bonds = left_of_bonds(solid_);
-        for (std::size_t b = 0; b < part.boundary_faces.size(); ++b) {
-            if (!is_own_here[first_cell(part, b)]) continue;
+        for (std::size_t b = 0; b < mesh_.boundary_faces.size(); ++b) {
+            if (!is_own_[first_cell(b)]) continue;
+            piece_.boundary.push_back(static_cast<std::int32_t>(b));
             if (!bonds.empty()) piece_.bond.push_back(bonds[b]);
             piece_.pressure.push_back(contact.pressure[b]);
             piece_.gap.push_back(gap_in_contact(contact.gap[b]));
@@ -77,13 +77,30 @@ public:
             piece_.slip.push_back(contact.slip[b]);
             piece_.sliding.push_back(contact.sliding[b]);
         }
-        for (std::size_t b = 0; b < mesh_.boundary_faces.size(); ++b)
-            if (is_own_[first_cell(mesh_, b)]) piece_.boundary.push_back(static_cast<std::int32_t>(b));
+        number_faces();
     }
 
 private:
-    [[nodiscard]] static std::size_t first_cell(const mesh::Mesh<Dim>& mesh, std::size_t boundary) {
-        return static_cast<std::size_t>(mesh.face_cells[static_cast<std::size_t>(mesh.boundary_faces[boundary])][0]);
+    [[nodiscard]] std::size_t first_cell(std::size_t boundary) const {
+        return static_cast<std::size_t>(mesh_.face_cells[static_cast<std::size_t>(mesh_.boundary_faces[boundary])][0]);
+    }
+
+    /// Boundary faces are numbered by their cell: all ranks tell of whose cells theirs are.
+    void number_faces() {
+        std::vector<double> mine;  // numbers of the cells
+        auto own = piece_.cells.begin();
+        for (const std::int32_t b : piece_.boundary) {
+            while (static_cast<std::size_t>(*own) != first_cell(static_cast<std::size_t>(b))) ++own;
+            mine.push_back(piece_.cell_number[static_cast<std::size_t>(own - piece_.cells.begin())]);
+        }
+        std::vector<double> all = solid_.ranks().gather(mine);
+        std::ranges::sort(all);
+        std::size_t next = 0;
+        for (std::size_t i = 0; i < mine.size(); ++i) {
+            if (i == 0 || mine[i] != mine[i - 1])
+                next = static_cast<std::size_t>(std::ranges::lower_bound(all, mine[i]) - all.begin());
+            piece_.face_number.push_back(static_cast<std::int32_t>(next++));
+        }
     }
 
     /// Own cells around each vertex.
@@ -95,64 +112,71 @@ private:
     }
 
     /// Means over all cells around a vertex, one after the other by number, of where each carries it: by its
-    /// displacement and, where a body turns, by its displacement gradient. Other ranks bring those of their cells.
+    /// displacement and, where a body turns, by its displacement gradient.
     [[nodiscard]] std::vector<Vector<Dim>> vertex_means(const std::vector<int>& around) const {
-        std::vector<Vector<Dim>> of_cells(mesh_.cell_measure.size(), Vector<Dim>::Zero());
-        std::vector<Matrix<Dim>> gradients(any_turns_ ? of_cells.size() : 0, Matrix<Dim>::Zero());
-        for (std::size_t i = 0; i < piece_.cells.size(); ++i) {
-            of_cells[static_cast<std::size_t>(piece_.cells[i])] = piece_.displacement[i];
-            if (any_turns_) gradients[static_cast<std::size_t>(piece_.cells[i])] = own_gradients_[i];
-        }
-        const std::vector<double> shared = solid_.ranks().gather(values_at_seams());
-        const std::size_t width = 1 + Dim + (any_turns_ ? Dim * Dim : 0);
-        for (std::size_t i = 0; i < shared.size(); i += width) {
-            const auto cell = static_cast<std::size_t>(shared[i]);
-            of_cells[cell] = Vector<Dim>(&shared[i + 1]);
-            if (any_turns_) gradients[cell] = Matrix<Dim>(&shared[i + 1 + Dim]);
-        }
+        const std::vector<Carried> carried = carried_by_cells();
         std::vector<Vector<Dim>> mean(mesh_.vertices.size(), Vector<Dim>::Zero());
         std::vector<int> count(mesh_.vertices.size(), 0);
-        for (std::size_t cell = 0; cell < of_cells.size(); ++cell)
+        for (std::size_t cell = 0; cell < carried.size(); ++cell)
             for (const std::int32_t v : mesh_.cell_vertices[static_cast<std::int32_t>(cell)]) {
                 const auto vertex = static_cast<std::size_t>(v);
                 if (around[vertex] == 0) continue;
+                const Carried& by = carried[cell];
                 if (any_turns_)
-                    mean[vertex] += of_cells[cell] + gradients[cell] * (mesh_.vertices[vertex] - mesh_.cell_centroid[cell]);
+                    mean[vertex] += by.displacement + by.gradient * (mesh_.vertices[vertex] - mesh_.cell_centroid[cell]);
                 else
-                    mean[vertex] += of_cells[cell];
+                    mean[vertex] += by.displacement;
                 ++count[vertex];
             }
         for (const std::int32_t v : piece_.vertices) mean[static_cast<std::size_t>(v)] /= count[static_cast<std::size_t>(v)];
         return mean;
     }
 
-    /// Number, displacement and, where a body turns, displacement gradient of own cells that share a vertex with a cell of
-    /// another rank.
-    [[nodiscard]] std::vector<double> values_at_seams() const {
-        std::vector<char> at_seam(mesh_.vertices.size(), 0);
-        for (std::int32_t cell = 0; cell < mesh_.n_cells(); ++cell)
-            if (!is_own_[static_cast<std::size_t>(cell)])
-                for (const std::int32_t v : mesh_.cell_vertices[cell]) at_seam[static_cast<std::size_t>(v)] = 1;
-        std::vector<double> values;
+    /// How a cell carries its vertices.
+    struct Carried {
+        Vector<Dim> displacement = Vector<Dim>::Zero();
+        Matrix<Dim> gradient = Matrix<Dim>::Zero();  // where a body turns
+    };
+    /// Motion of the cells here: owners tell that of copies, except in rigid bodies, which share no vertex between
+    /// ranks.
+    [[nodiscard]] std::vector<Carried> carried_by_cells() const {
+        std::vector<Carried> carried(mesh_.cell_measure.size());
         for (std::size_t i = 0; i < piece_.cells.size(); ++i) {
-            bool shared = false;
-            for (const std::int32_t v : mesh_.cell_vertices[piece_.cells[i]])
-                shared = shared || at_seam[static_cast<std::size_t>(v)] != 0;
-            if (!shared) continue;
-            values.push_back(piece_.cells[i]);
-            values.insert(values.end(), piece_.displacement[i].begin(), piece_.displacement[i].end());
-            if (!any_turns_) continue;
-            values.insert(values.end(), own_gradients_[i].data(), own_gradients_[i].data() + Dim * Dim);
+            Carried& own = carried[static_cast<std::size_t>(piece_.cells[i])];
+            own.displacement = piece_.displacement[i];
+            if (any_turns_) own.gradient = own_gradients_[i];
         }
-        return values;
+        if (solid_.ranks().is_one()) return carried;
+        const std::vector<std::size_t> cells = cells_that_deform();
+        std::vector<Carried> entries;  // of these cells, then of the points of rigid bodies
+        for (const std::size_t cell : cells) entries.push_back(carried[cell]);
+        entries.resize(cells.size() + (Dim + 1) * n_rigid_bodies());
+        constexpr int width = sizeof(Carried) / sizeof(double);
+        solid_.ranks().fill({reinterpret_cast<double*>(entries.data()), width * entries.size()}, width,
+                            dynamics::CopySet::all);
+        for (std::size_t i = 0; i < cells.size(); ++i) carried[cells[i]] = entries[i];
+        return carried;
+    }
+    [[nodiscard]] bool deforms(std::int32_t body) const {
+        return solid::properties_of(solid_.options().kinematics, static_cast<std::size_t>(body)).deforms;
+    }
+    [[nodiscard]] std::vector<std::size_t> cells_that_deform() const {
+        std::vector<std::size_t> cells;
+        for (std::size_t cell = 0; cell < mesh_.cell_body.size(); ++cell)
+            if (deforms(mesh_.cell_body[cell])) cells.push_back(cell);
+        return cells;
+    }
+    [[nodiscard]] std::size_t n_rigid_bodies() const {
+        std::size_t n = 0;
+        for (std::int32_t body = 0; body < mesh_.n_bodies(); ++body) n += deforms(body) ? 0 : 1;
+        return n;
     }
 
     FramePiece<Dim>& piece_;
     solid::Solid<Dim>& solid_;
     const mesh::Mesh<Dim>& mesh_;
     bool any_turns_;                          // then the mean displacement of its cells does not take a vertex where it is
-    std::vector<char> is_own_;                // of the cells of the scene
-    std::vector<std::int32_t> positions_;     // of own cells in the mesh of the solid
+    std::vector<char> is_own_;                // of the cells here
     std::vector<Matrix<Dim>> own_gradients_;  // of displacement; empty where no body turns
 };
 
@@ -185,12 +209,11 @@ std::vector<double> fragment_of_cells(const solid::Solid<Dim>& solid) {
 }
 
 template <int Dim>
-FramePiece<Dim> frame_piece(std::int64_t frame, const mesh::Mesh<Dim>& mesh, const dynamics::RunView<Dim>& run,
-                            solid::Solid<Dim>& solid) {
+FramePiece<Dim> frame_piece(std::int64_t frame, const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) {
     FramePiece<Dim> piece;
     piece.frame = frame;
     piece.time = run.time;
-    piece.mesh = &mesh;
+    piece.mesh = &solid.mesh();
     PieceMaker<Dim> maker(piece, solid);
     const solid::ContactField contact = solid.contact_at(run.q).field();
     maker.take_cells(run);
@@ -203,7 +226,7 @@ template std::vector<double> left_of_bonds(const solid::Solid<2>&);
 template std::vector<double> left_of_bonds(const solid::Solid<3>&);
 template std::vector<double> fragment_of_cells(const solid::Solid<2>&);
 template std::vector<double> fragment_of_cells(const solid::Solid<3>&);
-template FramePiece<2> frame_piece(std::int64_t, const mesh::Mesh<2>&, const dynamics::RunView<2>&, solid::Solid<2>&);
-template FramePiece<3> frame_piece(std::int64_t, const mesh::Mesh<3>&, const dynamics::RunView<3>&, solid::Solid<3>&);
+template FramePiece<2> frame_piece(std::int64_t, const dynamics::RunView<2>&, solid::Solid<2>&);
+template FramePiece<3> frame_piece(std::int64_t, const dynamics::RunView<3>&, solid::Solid<3>&);
 
 }  // namespace abut::run

@@ -22,9 +22,10 @@ struct FramePiece {
     double time = 0.0;                      ///< [s]
     int number = 0;                         ///< of the piece, that of the rank
     int n_pieces = 1;                       ///< of all ranks
-    const mesh::Mesh<Dim>* mesh = nullptr;  ///< of the scene
+    const mesh::Mesh<Dim>* mesh = nullptr;  ///< of the solid: the part of this rank
 
     std::vector<std::int32_t> cells;          ///< in the mesh, increasing (n)
+    std::vector<std::int32_t> cell_number;    ///< of each in the mesh of the scene, increasing (n)
     std::vector<Vector<Dim>> displacement;    ///< (n) [m]
     std::vector<Vector<Dim>> velocity;        ///< (n) [m/s]
     std::vector<Matrix<Dim>> stress;          ///< (n) [Pa]
@@ -35,9 +36,10 @@ struct FramePiece {
     std::vector<std::int32_t> vertices;            ///< of these cells, increasing (n_vertices)
     std::vector<Vector<Dim>> vertex_displacement;  ///< as mesh::VtuSeries has it for the whole mesh (n_vertices) [m]
 
-    std::vector<std::int32_t> boundary;  ///< faces of these cells among Mesh::boundary_faces, increasing (n_faces)
-    std::vector<double> pressure;        ///< of contact (n_faces) [Pa]
-    std::vector<double> gap;             ///< (n_faces) [m]; gap_in_contact
+    std::vector<std::int32_t> boundary;     ///< faces of these cells among Mesh::boundary_faces, increasing (n_faces)
+    std::vector<std::int32_t> face_number;  ///< of each among those of the mesh of the scene, increasing (n_faces)
+    std::vector<double> pressure;           ///< of contact (n_faces) [Pa]
+    std::vector<double> gap;                ///< (n_faces) [m]; gap_in_contact
     /// Fields of friction (n_faces) as in solid::ContactField; empty without any
     std::vector<double> friction, slip, sliding;
     std::vector<double> bond;  ///< left_of_bonds (n_faces); empty without bonds
@@ -54,7 +56,6 @@ template <int Dim>
 
 /// The piece of this rank, or the whole where there is one; `solid` is that of the run. A call of all ranks.
 template <int Dim>
-[[nodiscard]] FramePiece<Dim> frame_piece(std::int64_t frame, const mesh::Mesh<Dim>& mesh, const dynamics::RunView<Dim>& run,
-                                          solid::Solid<Dim>& solid);
+[[nodiscard]] FramePiece<Dim> frame_piece(std::int64_t frame, const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid);
 
 }  // namespace abut::run

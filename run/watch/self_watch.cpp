@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include "abut/base/decompositions.hpp"
@@ -28,6 +30,7 @@ constexpr double crossed = -0.3;          // the same
 constexpr double come_nearer = 0.5;       // distance of two faces over that at rest
 constexpr double sizes_ahead = 4.0;       // how far a look sees, in mean sizes of faces
 constexpr std::int64_t least_steps = 20;  // from one look to the next
+constexpr std::size_t pairs_at_once = std::size_t{1} << 18;
 
 }  // namespace
 
@@ -43,12 +46,6 @@ public:
         double size = 0.0;
         for (const double area : surface_.area) size += Dim == 2 ? area : std::sqrt(area);
         ahead_ = surface_.size() > 0 ? sizes_ahead * size / surface_.size() : 0.0;
-        contact::CandidateOptions options;
-        options.self_contact = true;
-        options.distance = ahead_;
-        options.skin = 1e-3 * ahead_;
-        options.largest_motion = std::numeric_limits<double>::max();
-        search_.emplace(surface_.view(), options);
     }
 
     [[nodiscard]] bool is_due(const solid::AllPoints<Dim>& points, std::int64_t step) {
@@ -159,18 +156,16 @@ private:
                                                                  std::vector<NearItself<Dim>>& found) {
         std::vector<Vector<Dim>> x(surface_.vertices);
         for (std::size_t v = 0; v < x.size(); ++v) x[v] += u[static_cast<std::size_t>(vertices_[v])];
-        search_->search_moved(x, x, contact::GapOf::centroids);
-        const auto overlaps = contact::find_overlaps_moved<Dim>(surface_.view(), x, search_->candidates());
         least_gap_ = ahead_;
         std::optional<NearItself<Dim>> nearest, crossing;
-        for (const contact::Overlap<Dim>& pair : overlaps.found) {
+        each_overlap(x, [&](const contact::Overlap<Dim>& pair) {
             const double depth = surface_.cell_depth[static_cast<std::size_t>(pair.face_1)] +
                                  surface_.cell_depth[static_cast<std::size_t>(pair.face_2)];
             const double at_rest = (rest_middle(pair.face_2) - rest_middle(pair.face_1)).norm();
             const Vector<Dim> from_1 = middle(x, pair.face_1), from_2 = middle(x, pair.face_2);
-            if (pair.gap < -depth || (pair.gap < near * depth && (from_2 - from_1).norm() > come_nearer * at_rest)) continue;
+            if (pair.gap < -depth || (pair.gap < near * depth && (from_2 - from_1).norm() > come_nearer * at_rest)) return;
             least_gap_ = std::min(least_gap_, std::max(pair.gap - near * depth, near * depth));
-            if (pair.gap >= near * depth) continue;
+            if (pair.gap >= near * depth) return;
             const Vector<Dim>& normal = surface_.normal[static_cast<std::size_t>(pair.face_1)];
             const double gap_at_rest = std::abs((rest_middle(pair.face_2) - rest_middle(pair.face_1)).dot(normal));
             const NearItself<Dim> here{name_, time, pair.gap, gap_at_rest, 0.5 * (from_1 + from_2)};
@@ -178,10 +173,29 @@ private:
             if (is_deeper(nearest)) nearest = here;
             if (here.gap < crossed * depth && is_deeper(crossing) && are_apart_at_rest(pair.face_1, pair.face_2))
                 crossing = here;
-        }
+        });
         // A run that goes on knows what was found before.
         if (nearest && std::ranges::find(found, name_, &NearItself<Dim>::body) == found.end()) found.push_back(*nearest);
         return crossing;
+    }
+
+    /// Calls use(overlap) for all overlaps of pairs in sight. Such pairs are many: they are listed for this look alone, and
+    /// evaluated piece by piece.
+    template <class Use>
+    void each_overlap(const std::vector<Vector<Dim>>& x, const Use& use) const {
+        contact::CandidateOptions options;
+        options.self_contact = true;
+        options.distance = ahead_;
+        options.skin = 1e-3 * ahead_;
+        options.largest_motion = std::numeric_limits<double>::max();
+        contact::CandidateSearch<Dim> search(surface_.view(), options);
+        search.search_moved(x, x, contact::GapOf::centroids);
+        std::span<const geometry::IndexPair> left = search.candidates();
+        for (contact::Overlaps<Dim> overlaps; !left.empty(); left = left.subspan(std::min(left.size(), pairs_at_once))) {
+            contact::find_overlaps_moved<Dim>(surface_.view(), x, left.first(std::min(left.size(), pairs_at_once)),
+                                              geometry::AreaMethod::fast, overlaps);
+            for (const contact::Overlap<Dim>& pair : overlaps.found) use(pair);
+        }
     }
 
     [[nodiscard]] Vector<Dim> rest_middle(std::int32_t face) const {
@@ -197,7 +211,6 @@ private:
     std::string name_;
     contact::Surface<Dim> surface_;       // facets of Dim corners, each with vertices of its own
     std::vector<std::int32_t> vertices_;  // of the mesh, of each vertex of the surface
-    std::optional<contact::CandidateSearch<Dim>> search_;
     std::vector<Vector<Dim>> deformed_, deformed_at_look_;
     double ahead_ = 0.0;      // how far a look sees [m]
     double least_gap_ = 0.0;  // that the last look found, at most `ahead_` [m]

@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
+#include <span>
 #include <vector>
 
 #include "abut/base/error.hpp"
+#include "abut/mesh/mesh_bytes.hpp"
 #include "abut/mesh/part.hpp"
 #include "abut/mesh/shapes/shapes.hpp"
 #include "abut/mesh/without_cells.hpp"
@@ -113,6 +116,53 @@ TEST_CASE("copies lie as many layers deep as were asked for", "[mesh][part]") {
     for (const int layers : {1, 3, 8, 100})
         CHECK(part_of<2>(whole, owner, 0, layers).mesh.n_cells() == std::min(20, 10 + layers));
     CHECK(part_of<2>(whole, owner, 7).mesh.n_cells() == 0);  // a rank without cells
+}
+
+TEST_CASE("cells that share a vertex with own ones are copies, also where a body is pinched", "[mesh][part]") {
+    // Two triangles with one vertex in common, no face.
+    CellSoup<2> soup{.name = "bow", .vertices = {{0, 0}, {-1, 1}, {-1, -1}, {1, -1}, {1, 1}}};
+    soup.cell_shape = {CellShape::triangle, CellShape::triangle};
+    soup.cell_vertices.append(std::array<std::int32_t, 3>{0, 1, 2});
+    soup.cell_vertices.append(std::array<std::int32_t, 3>{0, 3, 4});
+    soup.cell_body = {0, 0};
+    soup.body_names = {"bow"};
+    const Mesh<2> whole = build_mesh<2>(soup);
+    const std::vector<int> owner{0, 1};
+    CHECK(part_of<2>(whole, owner, 0).mesh.n_cells() == 2);
+    CHECK(part_of<2>(whole, owner, 1).mesh.n_cells() == 2);
+}
+
+TEMPLATE_TEST_CASE_SIG("a part is the same after its way as bytes", "[mesh][part]", ((int Dim), Dim), 2, 3) {
+    const Mesh<Dim> whole = two_boxes<Dim>();
+    const MeshPart<Dim> part = part_of<Dim>(whole, slices(whole, 3), 1);
+    const std::vector<std::byte> bytes = bytes_of(part);
+    const MeshPart<Dim> read = part_in<Dim>(bytes);
+    CHECK(read.n_cells == whole.n_cells());
+    CHECK(read.cell_number == part.cell_number);
+    CHECK(read.cell_owner == part.cell_owner);
+    CHECK(read.mesh.name == part.mesh.name);
+    CHECK(read.mesh.vertices == part.mesh.vertices);
+    CHECK(read.mesh.cell_shape == part.mesh.cell_shape);
+    CHECK(read.mesh.cell_vertices.values == part.mesh.cell_vertices.values);
+    CHECK(read.mesh.cell_faces.offsets == part.mesh.cell_faces.offsets);
+    CHECK(read.mesh.cell_faces.values == part.mesh.cell_faces.values);
+    CHECK(read.mesh.cell_body == part.mesh.cell_body);
+    CHECK(read.mesh.cell_measure == part.mesh.cell_measure);
+    CHECK(read.mesh.cell_centroid == part.mesh.cell_centroid);
+    CHECK(read.mesh.face_vertices.values == part.mesh.face_vertices.values);
+    CHECK(read.mesh.face_cells == part.mesh.face_cells);
+    CHECK(read.mesh.face_measure == part.mesh.face_measure);
+    CHECK(read.mesh.face_centroid == part.mesh.face_centroid);
+    CHECK(read.mesh.face_normal == part.mesh.face_normal);
+    CHECK(read.mesh.boundary_faces == part.mesh.boundary_faces);
+    CHECK(read.mesh.body_names == part.mesh.body_names);
+    CHECK(read.mesh.cell_label == part.mesh.cell_label);
+    CHECK(read.mesh.vertex_label == part.mesh.vertex_label);
+    CHECK(std::ranges::equal(read.mesh.groups, part.mesh.groups,
+                             [](const auto& a, const auto& b) { return a.name == b.name && a.faces == b.faces; }));
+    CHECK(bytes_of(read) == bytes);
+    CHECK_THROWS_AS(mesh_in<Dim>(bytes), BadInput);
+    CHECK_THROWS_AS(part_in<Dim>(std::span(bytes).first(bytes.size() / 2)), BadInput);
 }
 
 TEST_CASE("parts of unusable input are refused", "[mesh][part]") {

@@ -62,8 +62,10 @@ void write_pieces(const std::filesystem::path& folder, const Mesh<3>& mesh) {
         const PieceFrame<3> frame{
             .time = 1.0 / 3.0,
             .cells = cells,
+            .cell_number = cells,
             .vertices = vertices,
             .boundary = piece == 0 ? faces : no_faces,
+            .face_number = piece == 0 ? faces : no_faces,
             .displacement = of_cells.vectors,
             .vertex_displacement = at_vertices.vectors,
             .cell_fields = {{"stress [Pa]", of_cells.tensors}},
