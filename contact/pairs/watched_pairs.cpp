@@ -10,8 +10,7 @@
 namespace abut::contact {
 
 template <int Dim>
-void WatchedPairs<Dim>::assign(std::vector<NodalPair<Dim>> pairs, std::span<const std::int32_t> body,
-                               PointsView<Dim> x) {
+void WatchedPairs<Dim>::assign(std::vector<NodalPair<Dim>> pairs, std::span<const std::int32_t> body, PointsView<Dim> x) {
     pairs_ = std::move(pairs);
     nodes_.clear();
     for (const NodalPair<Dim>& pair : pairs_)

@@ -232,10 +232,10 @@ private:
     std::vector<BondedFace> of_faces_;     // of each
     std::vector<Joint> joints_;
     std::vector<Slope> slope_;
-    std::vector<std::int32_t> cells_;                  // that own sides of joints depend on, increasing
-    std::vector<Vector<Dim>> in_frames_;               // displacements of these (n_cells) [m]; empty where no body turns
-    RankItems sides_;                                  // of joints: 2 joint + side
-    std::vector<Vector<Dim>> of_side_0_, of_side_1_;   // y at the place, by side: elsewhere, and at `end_` [m]
+    std::vector<std::int32_t> cells_;                 // that own sides of joints depend on, increasing
+    std::vector<Vector<Dim>> in_frames_;              // displacements of these (n_cells) [m]; empty where no body turns
+    RankItems sides_;                                 // of joints: 2 joint + side
+    std::vector<Vector<Dim>> of_side_0_, of_side_1_;  // y at the place, by side: elsewhere, and at `end_` [m]
     End end_;
     std::vector<Vector<Dim>> jump_, jump_0_, jump_1_;  // Delta, by joint: as it counts, and at both ends of a step [m]
     std::vector<Vector<Dim>> of_face_;                 // û, by bonded face here [m]

@@ -57,8 +57,8 @@ TEST_CASE("two segments at a right angle have nearly all of the reach that they 
     CHECK(reach_turned_away<2>(x, none) >= 0.99 * exact);
 }
 
-TEMPLATE_TEST_CASE_SIG("the cosine of a pair alone is that of its state, to the bit", "[pair_potential]", ((int Dim), Dim), 2,
-                       3) {
+TEMPLATE_TEST_CASE_SIG("the cosine of a pair alone is that of its state, to the bit", "[pair_potential]", ((int Dim), Dim),
+                       2, 3) {
     std::mt19937 random(8);
     for (int i = 0; i < 1000; ++i) {
         const PairCorners<Dim> x = random_pair<Dim>(random);
