@@ -144,12 +144,6 @@ void Solid<Dim>::unite_frames() {
     if (frame_loads_->any()) frame_loads_->take(loads_->end());
 }
 
-template <int Dim>
-void Solid<Dim>::break_bonds() {
-    bonds_->break_all();
-    unite_frames();
-}
-
 /// What is brought from them and computed here is what forces on own cells depend on.
 template <int Dim>
 void Solid<Dim>::meet_other_ranks() {

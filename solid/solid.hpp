@@ -21,6 +21,7 @@ class StateWriter;
 namespace abut::dynamics {
 struct ContactCounts;
 struct IntegratorState;
+struct StableStep;
 template <int Dim>
 struct ContactPatch;
 }  // namespace abut::dynamics
@@ -165,9 +166,8 @@ public:
     /// All that the next steps depend on beside q and p: loads, work, dashpots, rigid bodies, what pairs remember. Bytes,
     /// versioned, with a checksum; the same on all ranks, for any number of them.
     [[nodiscard]] std::vector<std::byte> state() const;
-    /// Breaks all bonds with a strength, without a loss: what a run may come to, to ask for its stable step. A call of all
-    /// ranks.
-    void break_bonds();
+    /// dynamics::stable_step with all bonds broken that have a strength, which hold again afterwards. A call of all ranks.
+    [[nodiscard]] dynamics::StableStep stable_step_in_parts();
     /// Goes on in q, where the last step before `state` ended, with a solid made of the same mesh with the same options: the
     /// next steps have the same bits. Contact has no force on obstacles and no patches before the next step. Throws BadInput
     /// for bytes that are damaged, of another version, mesh or options; the solid is of no use then.

@@ -10,6 +10,7 @@
 #include "abut/contact/law/engine_law.hpp"
 #include "abut/contact/pairs/pair.hpp"
 #include "abut/contact/surface/face_name.hpp"
+#include "abut/geometry/pair_potential/pair_facing.hpp"
 
 namespace abut::contact {
 
@@ -48,6 +49,7 @@ NodeLaw<Dim>::NodeLaw(BevelledSurface<Dim> surface, const NodalOptions& options,
       sharing_(sharing),
       sides_(acting().facets().view()),
       inside_(acting().facets().view(), pieces_of(acting(), options_)),
+      watched_(options_.facing.none),
       pairs_(options_.facing, options_.friction, options_.interference, sharing),
       ramps_(options_.interference),
       looks_away_(std::cos(std::acos(std::clamp(options_.facing.none, -1.0, 1.0)) - turns_in_all)),
@@ -162,8 +164,8 @@ bool NodeLaw<Dim>::may_come_together(FacetPair pair, const PlacedFacets& placed,
 template <int Dim>
 bool NodeLaw<Dim>::is_seen_from_outside(const NodalPair<Dim>& pair, State x) const {
     const geometry::PairCorners<Dim> corners = pair.at(x);
+    if (geometry::pair_facing<Dim>(corners) >= options_.facing.none) return false;
     const auto state = geometry::pair_state<Dim>(corners, pair.law);
-    if (state.facing >= options_.facing.none) return false;
     return inside_gap<Dim>(corners, state) >= outside_gap(facets(), FacetPair{Facet{pair.facet_1}, Facet{pair.facet_2}});
 }
 
@@ -171,7 +173,7 @@ template <int Dim>
 void NodeLaw<Dim>::list(std::vector<FacetPair>& pairs, std::span<const FacetPair> in_contact, State x_0, double reach) {
     watched_.clear();
     if (!inside_.empty()) set_inside_pairs_apart(pairs, x_0);
-    pairs_.assign(surface_, pairs, in_contact, watched_, x_0, reach, options_.compression_limit);
+    pairs_.assign(surface_, pairs, in_contact, watched_.pairs(), x_0, reach, options_.compression_limit);
     if (ramps_.any() && !ramps_.has_begun()) begin_interference(x_0);
 }
 
@@ -242,12 +244,13 @@ void NodeLaw<Dim>::set_memory(const LawMemory& memory) {
 template <int Dim>
 void NodeLaw<Dim>::set_inside_pairs_apart(std::vector<FacetPair>& pairs, State x_0) {
     const std::vector<char> marks = inside_.marks_of(pairs);
+    std::vector<NodalPair<Dim>> watched;
     std::size_t n = 0;
     for (std::size_t p = 0; p < marks.size(); ++p) {
         if (marks[p] != 0) {
             const NodalPair<Dim> pair = pairs_.make_pair(surface_, pairs[p]);
             if (!is_seen_from_outside(pair, x_0)) {
-                watched_.push_back(pair);
+                watched.push_back(pair);
                 continue;
             }
             inside_.take_away(pairs[p]);
@@ -255,18 +258,19 @@ void NodeLaw<Dim>::set_inside_pairs_apart(std::vector<FacetPair>& pairs, State x
         pairs[n++] = pairs[p];
     }
     pairs.resize(n);
+    watched_.assign(std::move(watched), facets().body, x_0);
 }
 
 /// Whether a pair that is no contact since it lay inside has come out at the end of a step: it needs another list.
 template <int Dim>
 bool NodeLaw<Dim>::sees_from_outside(const Path& path) {
     bool any = false;
-    for (const NodalPair<Dim>& pair : watched_) {
+    watched_.visit(path.x_1, [&](const NodalPair<Dim>& pair) {
         const FacetPair of_facets{Facet{pair.facet_1}, Facet{pair.facet_2}};
-        if (!is_seen_from_outside(pair, path.x_1) || !inside_.has(of_facets)) continue;
+        if (!is_seen_from_outside(pair, path.x_1) || !inside_.has(of_facets)) return;
         inside_.take_away(of_facets);
         any = true;
-    }
+    });
     return any;
 }
 

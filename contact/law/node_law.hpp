@@ -16,6 +16,7 @@
 #include "abut/contact/pairs/admission.hpp"
 #include "abut/contact/pairs/inside_pairs.hpp"
 #include "abut/contact/pairs/nodal_pairs.hpp"
+#include "abut/contact/pairs/watched_pairs.hpp"
 #include "abut/contact/search/candidate_search.hpp"
 #include "abut/contact/surface/bevels.hpp"
 #include "abut/contact/surface/facet_store.hpp"
@@ -115,10 +116,10 @@ private:
     Sharing* sharing_;
     SideOutlines<Dim> sides_;
     InsidePairs<Dim> inside_;
-    std::vector<NodalPair<Dim>> watched_;  // of these, that may be seen from outside while the list is valid
-    PlacedFacets at_start_, at_end_;       // of the step of a search
-    std::vector<double> radius_;           // of facets at rest [m]
-    std::vector<char> covered_;            // facets that the last search left out; empty: none
+    WatchedPairs<Dim> watched_;       // of these, that may be seen from outside while the list is valid
+    PlacedFacets at_start_, at_end_;  // of the step of a search
+    std::vector<double> radius_;      // of facets at rest [m]
+    std::vector<char> covered_;       // facets that the last search left out; empty: none
     NodalPairs<Dim> pairs_;
     InterferenceRamps ramps_;
     double looks_away_;  // n_1 . n_2 of two facets of one body that have no weight for as long as a list is valid

@@ -97,6 +97,8 @@ void Bonds<Dim>::make_joints(std::span<const std::size_t> of_joints) {
     for (auto* of_sides : {&of_side_0_, &of_side_1_}) of_sides->resize(2 * joints_.size());
     for (auto* of_face : {&of_face_, &delta_, &excess_, &gradient_}) of_face->resize(faces_->size());
     delta_here_.resize(faces_->here().size());
+    end_.is_known = false;
+    end_.q.resize(cells_.size());
     if (ccg_.any_damped()) change_here_.resize(faces_->here().size());
 }
 
@@ -331,20 +333,20 @@ std::span<const Vector<Dim>> Bonds<Dim>::of_cells(std::span<const Vector<Dim>> q
 
 template <int Dim>
 void Bonds<Dim>::stand_linear(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load) {
-    take_own_sides(u, load, of_side_1_);
-    sides_.bring({{as_values<Dim>(of_side_1_), Dim}});
-    take_jumps(of_side_1_, jump_);
+    take_own_sides(u, load, of_side_0_);
+    sides_.bring({{as_values<Dim>(of_side_0_), Dim}});
+    take_jumps(of_side_0_, jump_);
     set_corrections(jump_, delta_, delta_here_);
 }
 
 template <int Dim>
 std::span<const Vector<Dim>> Bonds<Dim>::displacement_at(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load) {
-    take_own_sides(u, load, of_side_1_);
-    sides_.bring({{as_values<Dim>(of_side_1_), Dim}});
+    take_own_sides(u, load, of_side_0_);
+    sides_.bring({{as_values<Dim>(of_side_0_), Dim}});
     jump_at_.resize(joints_.size());
     delta_at_.resize(delta_.size());
     delta_here_at_.resize(delta_here_.size());
-    take_jumps(of_side_1_, jump_at_);
+    take_jumps(of_side_0_, jump_at_);
     set_corrections(jump_at_, delta_at_, delta_here_at_);
     return delta_here_at_;
 }
@@ -353,8 +355,12 @@ template <int Dim>
 void Bonds<Dim>::follow(std::span<const Vector<Dim>> q_0, const BoundaryLoad<Dim>& load_0, std::span<const Vector<Dim>> q_1,
                         const BoundaryLoad<Dim>& load_1) {
     if (!any()) return;
-    take_own_sides(of_cells(q_0, frames_.start()), load_0, of_side_0_);
+    if (begins_at_end(q_0, load_0))
+        std::swap(of_side_0_, of_side_1_);
+    else
+        take_own_sides(of_cells(q_0, frames_.start()), load_0, of_side_0_);
     take_own_sides(of_cells(q_1, frames_.end()), load_1, of_side_1_);
+    keep_end(q_1, load_1);
     sides_.bring({{as_values<Dim>(of_side_0_), Dim}, {as_values<Dim>(of_side_1_), Dim}});
     take_jumps(of_side_0_, jump_0_);
     take_jumps(of_side_1_, jump_1_);
@@ -365,6 +371,32 @@ void Bonds<Dim>::follow(std::span<const Vector<Dim>> q_0, const BoundaryLoad<Dim
     for (std::size_t i = 0; i < joints_.size(); ++i) jump_[i] = 0.5 * (jump_0_[i] + jump_1_[i]);
     set_corrections(jump_, delta_, delta_here_);
     springs_->follow(q_0, load_0, q_1, load_1);
+}
+
+/// Whether a step begins where the last one ended, to the bit.
+template <int Dim>
+bool Bonds<Dim>::begins_at_end(std::span<const Vector<Dim>> q_0, const BoundaryLoad<Dim>& load_0) const {
+    if (!end_.is_known || end_.prescribed.empty() != load_0.displacement.empty()) return false;
+    const auto is_same_frame = [](const BodyFrame<Dim>& a, const BodyFrame<Dim>& b) {
+        return a.centre == b.centre && a.turn == b.turn;
+    };
+    if (frames_.any() && !std::ranges::equal(frames_.start(), end_.frames, is_same_frame)) return false;
+    for (std::size_t i = 0; i < end_.prescribed.size(); ++i)
+        if (load_0.displacement[static_cast<std::size_t>(faces_->own_faces()[i])] != end_.prescribed[i]) return false;
+    for (std::size_t i = 0; i < cells_.size(); ++i)
+        if (q_0[static_cast<std::size_t>(cells_[i])] != end_.q[i]) return false;
+    return true;
+}
+
+template <int Dim>
+void Bonds<Dim>::keep_end(std::span<const Vector<Dim>> q_1, const BoundaryLoad<Dim>& load_1) {
+    end_.is_known = true;
+    for (std::size_t i = 0; i < cells_.size(); ++i) end_.q[i] = q_1[static_cast<std::size_t>(cells_[i])];
+    if (frames_.any()) end_.frames.assign(frames_.end().begin(), frames_.end().end());
+    end_.prescribed.clear();
+    if (load_1.displacement.empty()) return;
+    for (const BoundaryFace face : faces_->own_faces())
+        end_.prescribed.push_back(load_1.displacement[static_cast<std::size_t>(face)]);
 }
 
 template <int Dim>

@@ -163,6 +163,13 @@ private:
         std::array<std::size_t, 2> slope_of;  // the first entry of each side in slope_; none of faces that are not here
         std::array<std::size_t, 2> slope_end;
     };
+    /// State on which `of_side_1_` depends, where a step that was followed ended.
+    struct End {
+        bool is_known = false;
+        std::vector<Vector<Dim>> q;           // of cells_ [m]
+        std::vector<BodyFrame<Dim>> frames;   // empty where no body turns
+        std::vector<Vector<Dim>> prescribed;  // BoundaryLoad::displacement of own faces [m]; empty: none
+    };
     /// Part that a cell's displacement adds to that of a position beside the centroid of its face.
     struct Slope {
         std::int32_t cell;
@@ -191,6 +198,8 @@ private:
     [[nodiscard]] std::span<const Vector<Dim>> of_cells(std::span<const Vector<Dim>> q,
                                                         std::span<const BodyFrame<Dim>> frames);
     void stand_linear(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load);
+    [[nodiscard]] bool begins_at_end(std::span<const Vector<Dim>> q_0, const BoundaryLoad<Dim>& load_0) const;
+    void keep_end(std::span<const Vector<Dim>> q_1, const BoundaryLoad<Dim>& load_1);
     void take_own_sides(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load, std::vector<Vector<Dim>>& of_sides);
     void take_jumps(std::span<const Vector<Dim>> of_sides, std::vector<Vector<Dim>>& jump) const;
     void set_corrections(std::span<const Vector<Dim>> jump, std::vector<Vector<Dim>>& delta,
@@ -223,10 +232,11 @@ private:
     std::vector<BondedFace> of_faces_;     // of each
     std::vector<Joint> joints_;
     std::vector<Slope> slope_;
-    std::vector<std::int32_t> cells_;                  // that own sides of joints depend on, increasing
-    std::vector<Vector<Dim>> in_frames_;               // displacements of these (n_cells) [m]; empty where no body turns
-    RankItems sides_;                                  // of joints: 2 joint + side
-    std::vector<Vector<Dim>> of_side_0_, of_side_1_;   // y at the place, by side [m]
+    std::vector<std::int32_t> cells_;                 // that own sides of joints depend on, increasing
+    std::vector<Vector<Dim>> in_frames_;              // displacements of these (n_cells) [m]; empty where no body turns
+    RankItems sides_;                                 // of joints: 2 joint + side
+    std::vector<Vector<Dim>> of_side_0_, of_side_1_;  // y at the place, by side: elsewhere, and at `end_` [m]
+    End end_;
     std::vector<Vector<Dim>> jump_, jump_0_, jump_1_;  // Delta, by joint: as it counts, and at both ends of a step [m]
     std::vector<Vector<Dim>> of_face_;                 // û, by bonded face here [m]
     std::vector<Vector<Dim>> delta_, delta_here_;      // by bonded face, by those here [m]

@@ -8,6 +8,8 @@
 #include <optional>
 #include <string>
 #include <tuple>
+#include <utility>
+#include <vector>
 
 #include "abut/base/error.hpp"
 #include "abut/base/parallel.hpp"
@@ -149,8 +151,8 @@ class SimplexSearch {
 public:
     using Near = typename NearestCells<Dim>::Near;
 
-    SimplexSearch(const mesh::Mesh<Dim>& mesh, const Vector<Dim>& point, std::span<const Near> near, double smallest_volume)
-        : mesh_(mesh), point_(point), near_(near), smallest_volume_(smallest_volume) {}
+    SimplexSearch(const mesh::Mesh<Dim>& mesh, const Vector<Dim>& point, std::span<const Near> near)
+        : mesh_(mesh), point_(point), near_(near) {}
 
     /// The one that extrapolates least, then the nearest.
     [[nodiscard]] std::optional<FaceStencil<Dim>> best() {
@@ -162,30 +164,40 @@ public:
     }
     /// The one that second derivatives make least wrong; of equal ones the best.
     [[nodiscard]] std::optional<FaceStencil<Dim>> most_exact() {
-        const auto none_is_worse = [](double) { return false; };
+        std::vector<std::pair<double, Candidate<Dim>>> all;  // with their spreads
+        for_each([&](const Candidate<Dim>& found) { all.emplace_back(spread_of(found.stencil), found); },
+                 [](double) { return false; });
         double least = std::numeric_limits<double>::infinity();
-        for_each([&](const Candidate<Dim>& found) { least = std::min(least, spread_of(found.stencil)); }, none_is_worse);
+        for (const auto& [spread, found] : all) least = std::min(least, spread);
         Candidate<Dim> best;
-        for_each(
-            [&](const Candidate<Dim>& found) {
-                if (spread_of(found.stencil) <= (1.0 + resolution) * least) best = std::min(best, found);
-            },
-            none_is_worse);
+        for (const auto& [spread, found] : all)
+            if (spread <= (1.0 + resolution) * least) best = std::min(best, found);
         return best.found();
     }
+    /// Whether all simplices are smaller than a volume.
+    [[nodiscard]] bool all_are_below(double volume) {
+        if (!largest_) {
+            largest_ = 0.0;
+            descend(
+                0, 0, 0.0, [&](double) { largest_ = std::max(*largest_, std::abs(edges().determinant())); },
+                [](double) { return false; });
+        }
+        return *largest_ < unit_volume * volume;
+    }
+    void set_smallest_volume(double volume) { smallest_volume_ = volume; }
 
 private:
     /// visit(Candidate) for each simplex that is large enough, leaving out those of which are_worse(least sum of distances).
     template <class Visit, class AreWorse>
     void for_each(const Visit& visit, const AreWorse& are_worse) {
-        descend(0, 0, 0.0, visit, are_worse);
+        const auto visit_large = [&](double distances) {
+            if (const auto found = candidate(distances)) visit(*found);
+        };
+        descend(0, 0, 0.0, visit_large, are_worse);
     }
     template <class Visit, class AreWorse>
     void descend(int corner, std::size_t first, double distances, const Visit& visit, const AreWorse& are_worse) {
-        if (corner == Dim + 1) {
-            if (const auto found = candidate(distances)) visit(*found);
-            return;
-        }
+        if (corner == Dim + 1) return visit(distances);
         for (std::size_t i = first; i < near_.size(); ++i) {
             if (are_worse(distances + near_[i].distance * (Dim + 1 - corner))) return;  // distances increase
             chosen_[corner] = i;
@@ -193,13 +205,18 @@ private:
         }
     }
 
+    [[nodiscard]] const Vector<Dim>& origin() const { return mesh_.cell_centroid[near_[chosen_[0]].cell]; }
+    /// Edges of the simplex of the chosen cells, from its first one.
+    [[nodiscard]] Matrix<Dim> edges() const {
+        Matrix<Dim> edges;
+        for (int j = 0; j < Dim; ++j) edges.col(j) = mesh_.cell_centroid[near_[chosen_[j + 1]].cell] - origin();
+        return edges;
+    }
     /// The simplex of the chosen cells; nothing where it is too small.
     [[nodiscard]] std::optional<Candidate<Dim>> candidate(double distances) const {
-        Matrix<Dim> edges;
-        const Vector<Dim>& origin = mesh_.cell_centroid[near_[chosen_[0]].cell];
-        for (int j = 0; j < Dim; ++j) edges.col(j) = mesh_.cell_centroid[near_[chosen_[j + 1]].cell] - origin;
-        if (std::abs(edges.determinant()) < (Dim == 2 ? 2.0 : 6.0) * smallest_volume_) return std::nullopt;
-        const Vector<Dim> coordinates = edges.inverse() * (point_ - origin);
+        const Matrix<Dim> edges = this->edges();
+        if (std::abs(edges.determinant()) < unit_volume * smallest_volume_) return std::nullopt;
+        const Vector<Dim> coordinates = edges.inverse() * (point_ - origin());
         Candidate<Dim> found{.distances = distances};
         for (int j = 0; j <= Dim; ++j) {
             found.stencil.cells[j] = near_[chosen_[j]].cell;
@@ -222,10 +239,13 @@ private:
         return sum.norm();
     }
 
+    static constexpr double unit_volume = Dim == 2 ? 2.0 : 6.0;  // determinant of the edges over the volume
+
     const mesh::Mesh<Dim>& mesh_;
     Vector<Dim> point_;
     std::span<const Near> near_;
-    double smallest_volume_;
+    double smallest_volume_ = 0.0;
+    std::optional<double> largest_;  // determinant of the edges; empty: nobody has asked
     std::array<std::size_t, Dim + 1> chosen_{};
 };
 
@@ -283,8 +303,10 @@ std::optional<FaceStencil<Dim>> found_stencil(const mesh::Mesh<Dim>& mesh, const
         const bool hollow = mesh.is_boundary(face) && !near.empty() && is_hollow<Dim>(mesh, face, near);
         if (hollow) add_neighbours<Dim>(mesh, cell, mesh.face_centroid[face], near);
         double smallest_volume = volume_floor * mesh.cell_measure[cell];
+        SimplexSearch<Dim> search(mesh, mesh.face_centroid[face], near);
         for (halvings = 0; halvings <= max_floor_halvings; ++halvings, smallest_volume *= 0.5) {
-            SimplexSearch<Dim> search(mesh, mesh.face_centroid[face], near, smallest_volume);
+            if (halvings > 0 && search.all_are_below(smallest_volume)) continue;
+            search.set_smallest_volume(smallest_volume);
             if (auto found = hollow ? search.most_exact() : search.best()) return found;
         }
         if (is_all) break;
