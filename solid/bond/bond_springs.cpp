@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 
 namespace abut::solid {
@@ -11,6 +12,7 @@ constexpr std::size_t nowhere = std::numeric_limits<std::size_t>::max();
 // Of the spring over that of a half cell, where faces are affine and do not give way to what pulls at them: as stiff as
 // it may be without a shorter step.
 constexpr double affine_stiffness = 2.0;
+constexpr double turned_mates = 0.17;  // [rad]: sides that have turned so far against each other are no mates any more
 
 }  // namespace
 
@@ -140,16 +142,44 @@ void BondSprings<Dim>::collect() {
     begin_collecting();
     pushes_.assign(frames_.n_bodies(), {});
     for (std::size_t i = 0; i < springs_.size(); ++i) {
-        const Vector<Dim> pull = 0.5 * share_[springs_[i].place] * springs_[i].stiffness *
-                                 (x_0_[i][1] - x_0_[i][0] + x_1_[i][1] - x_1_[i][0]);  // dV/dx_2
-        for (std::size_t side = 0; side < 2; ++side) {
-            const End& end = springs_[i].ends[side];
-            const Vector<Dim> gradient = side == 0 ? Vector<Dim>(-pull) : pull;
-            pushes_[end.body].add(gradient, 0.5 * (x_0_[i][side] - frames_.start()[end.body].centre + x_1_[i][side] -
-                                                   frames_.end()[end.body].centre));
-            add(end, frames_.step(end.body).force_turn().transpose() * gradient);
-        }
+        const double share = share_[springs_[i].place];
+        Vector<Dim> pull = 0.5 * share * springs_[i].stiffness *
+                           (x_0_[i][1] - x_0_[i][0] + x_1_[i][1] - x_1_[i][0]);  // dV/dx_2
+        if (share < 1.0) pull += pressure(i);
+        push_sides(i, pull);
     }
+}
+
+template <int Dim>
+void BondSprings<Dim>::push_sides(std::size_t spring, const Vector<Dim>& pull) {
+    for (std::size_t side = 0; side < 2; ++side) {
+        const End& end = springs_[spring].ends[side];
+        const Vector<Dim> gradient = side == 0 ? Vector<Dim>(-pull) : pull;
+        pushes_[end.body].add(gradient, 0.5 * (x_0_[spring][side] - frames_.start()[end.body].centre + x_1_[spring][side] -
+                                               frames_.end()[end.body].centre));
+        add(end, frames_.step(end.body).force_turn().transpose() * gradient);
+    }
+}
+
+/// dV/dx_2 of the pressure that is left where a spring has lost some of its share. V depends on the normal, too, which turns
+/// with the first body: that is a moment on it, as of a point at the end of the normal.
+template <int Dim>
+Vector<Dim> BondSprings<Dim>::pressure(std::size_t spring) {
+    const Sides start = sides_at(spring, x_0_, frames_.start()), end = sides_at(spring, x_1_, frames_.end());
+    const double push = (1.0 - share_[springs_[spring].place]) * springs_[spring].stiffness *
+                        pressed_along(start.distance(), end.distance()).gradient;
+    const Vector<Dim> normal = 0.5 * (start.normal + end.normal), jump = 0.5 * (start.jump + end.jump);
+    pushes_[springs_[spring].ends[0].body].moment += push * jump * normal.transpose();
+    return push * normal;
+}
+
+template <int Dim>
+bool BondSprings<Dim>::are_no_mates(std::size_t spring, const Vector<Dim>& slip) const {
+    const BondPlace<Dim>& place = places_[springs_[spring].place];
+    const auto normal = [&](std::size_t side) -> Vector<Dim> {
+        return frames_.end()[springs_[spring].ends[side].body].turn * place.normal;
+    };
+    return slip.norm() > half_size(place) || normal(0).dot(normal(1)) < std::cos(turned_mates);
 }
 
 /// What springs of no length resist tiny displacements with does not depend on how the bodies stand.
@@ -163,7 +193,11 @@ FaceCorrections<Dim> BondSprings<Dim>::stiffness_of(std::span<const Vector<Dim>>
         const auto at = [&](const End& end) -> Vector<Dim> {
             return end_.displacement[end.face] + end_.tilt[end.face] * end.arm;
         };
-        const Vector<Dim> pull = share_[spring.place] * spring.stiffness * (at(spring.ends[1]) - at(spring.ends[0]));
+        const Vector<Dim> jump = at(spring.ends[1]) - at(spring.ends[0]);
+        const double share = share_[spring.place];
+        Vector<Dim> pull = share * spring.stiffness * jump;
+        if (const Vector<Dim>& normal = places_[spring.place].normal; share < 1.0)
+            pull += (1.0 - share) * spring.stiffness * jump.dot(normal) * normal;
         add(spring.ends[0], -pull);
         add(spring.ends[1], pull);
     }
@@ -190,8 +224,13 @@ std::span<const BodyPush<Dim>> BondSprings<Dim>::pushes(std::span<const BodyPush
 template <int Dim>
 double BondSprings<Dim>::energy() const {
     double energy = 0.0;
-    for (std::size_t i = 0; i < springs_.size(); ++i)
-        energy += 0.5 * share_[springs_[i].place] * springs_[i].stiffness * (x_1_[i][1] - x_1_[i][0]).squaredNorm();
+    for (std::size_t i = 0; i < springs_.size(); ++i) {
+        const double share = share_[springs_[i].place];
+        energy += 0.5 * share * springs_[i].stiffness * (x_1_[i][1] - x_1_[i][0]).squaredNorm();
+        if (share == 1.0) continue;
+        const double pressed = std::min(sides_at(i, x_1_, frames_.end()).distance(), 0.0);
+        energy += 0.5 * (1.0 - share) * springs_[i].stiffness * pressed * pressed;
+    }
     return energy;
 }
 

@@ -9,7 +9,9 @@
 #include "abut/solid/body/bodies.hpp"
 #include "abut/solid/body/body_frames.hpp"
 #include "abut/solid/bond/bond_faces.hpp"
+#include "abut/solid/bond/bond_law.hpp"
 #include "abut/solid/bond/merged_corrections.hpp"
+#include "abut/solid/bond/pressed_sides.hpp"
 #include "abut/solid/boundary/bond_places.hpp"
 #include "abut/solid/ccg/ccg.hpp"
 
@@ -51,20 +53,19 @@ public:
     [[nodiscard]] double energy() const;  ///< at the end of the step [J]
     /// The end alone: `energy` is that of it. What springs pull with stays.
     void see_end(std::span<const Vector<Dim>> q_1, const BoundaryLoad<Dim>& load_1, StepState state);
-    /// Calls visit(place, traction, stiffness, held_0, normal): in space at the end of the step dV/dx_2 per area of a whole
-    /// place [Pa] and the normal out of the first face; k_12 [Pa/m], and V per area of a whole one at the start [J/m^2].
+    /// Calls visit(place, pull): what the end of the step pulls each with, in space.
     template <class Visit>
-    void for_each_traction(const Visit& visit) const {
+    void for_each_pull(const Visit& visit) const {
         for (std::size_t i = 0; i < springs_.size(); ++i) {
             const BondSpring& spring = springs_[i];
-            const BondPlace<Dim>& place = places_[spring.place];
-            const End& end = spring.ends[0];
-            const Vector<Dim> in_frame =
-                (Matrix<Dim>::Identity() + end_.tilt[end.face]).inverse().transpose() * place.normal;
-            const double stiffness = spring.stiffness / place.area;
-            visit(spring.place, Vector<Dim>(stiffness * (x_1_[i][1] - x_1_[i][0])), stiffness,
-                  0.5 * stiffness * (x_0_[i][1] - x_0_[i][0]).squaredNorm(),
-                  Vector<Dim>(frames_.end()[end.body].turn * in_frame));
+            const double stiffness = spring.stiffness / places_[spring.place].area;
+            const Sides start = sides_at(i, x_0_, frames_.start()), end = sides_at(i, x_1_, frames_.end());
+            const Vector<Dim> slip = end.beside_pressure();
+            visit(spring.place, BondPull<Vector<Dim>>{.traction = stiffness * slip,
+                                                      .stiffness = stiffness,
+                                                      .held_0 = 0.5 * stiffness * start.beside_pressure().squaredNorm(),
+                                                      .is_pressed = end.distance() < 0.0,
+                                                      .has_slid = are_no_mates(i, slip)});
         }
     }
     /// Calls visit(place, k_12) [Pa/m].
@@ -86,6 +87,17 @@ private:
         std::size_t place;
     };
     using Positions = std::vector<std::array<Vector<Dim>, 2>>;
+    /// Both sides of a place in one state, in space.
+    struct Sides {
+        Vector<Dim> jump;    // x_2 - x_1 [m]
+        Vector<Dim> normal;  // out of the first face, as it turns with its body
+        [[nodiscard]] double distance() const { return jump.dot(normal); }
+        /// The jump without what they are pressed.
+        [[nodiscard]] Vector<Dim> beside_pressure() const {
+            const double along = distance();
+            return along < 0.0 ? Vector<Dim>(jump - along * normal) : jump;
+        }
+    };
     /// Displacement and tilt of faces_, in their frames.
     struct Tilted {
         std::vector<Vector<Dim>> displacement;
@@ -95,6 +107,13 @@ private:
     void begin_collecting();
     void collect();
     void add(const End& end, const Vector<Dim>& in_frame);
+    [[nodiscard]] Sides sides_at(std::size_t spring, const Positions& x, std::span<const BodyFrame<Dim>> frames) const {
+        const BondSpring& of = springs_[spring];
+        return {x[spring][1] - x[spring][0], frames[of.ends[0].body].turn * places_[of.place].normal};
+    }
+    [[nodiscard]] bool are_no_mates(std::size_t spring, const Vector<Dim>& slip) const;
+    void push_sides(std::size_t spring, const Vector<Dim>& pull);
+    [[nodiscard]] Vector<Dim> pressure(std::size_t spring);
     void evaluate_own(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load, StepState state, Tilted& faces);
     void bring(std::initializer_list<Tilted*> states);
     void place(std::span<const BodyFrame<Dim>> frames, const Tilted& faces, Positions& x) const;

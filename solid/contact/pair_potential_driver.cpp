@@ -61,7 +61,7 @@ public:
         constexpr double rounding = 1e-6;
         double left = 1.0;
         for (const auto& [number, place, side] : of(face)) {
-            if (bonds_.is_broken(place)) return false;
+            if (bonds_.is_gone(place)) return false;
             left -= bonds_.places()[place].area / bonds_.places()[place].measures[side];
         }
         return left < rounding;
@@ -69,7 +69,7 @@ public:
     /// Whether an unbroken bond holds the face to the body.
     [[nodiscard]] bool joins(contact::Face face, std::int32_t body) const {
         return std::ranges::any_of(of(face), [&](const Entry& entry) {
-            return bonds_.places()[entry.place].bodies[1 - entry.side] == body && !bonds_.is_broken(entry.place);
+            return bonds_.places()[entry.place].bodies[1 - entry.side] == body && !bonds_.is_gone(entry.place);
         });
     }
 
