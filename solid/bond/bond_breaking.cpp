@@ -133,7 +133,8 @@ void Bonds<Dim>::set_shares(std::span<const BondChange> changes, When when) {
 
 template <int Dim>
 void Bonds<Dim>::end_changes(std::span<const BondChange> changes) {
-    any_broke_ = std::ranges::any_of(changes, [](const BondChange& change) { return change.end == 0.0; });
+    any_broke_ = std::ranges::any_of(changes, [](const BondChange& change) { return change.end <= pressed_share; });
+    any_gone_ = std::ranges::any_of(changes, [](const BondChange& change) { return change.end == 0.0; });
     any_slid_off_ =
         std::ranges::any_of(changes, [](const BondChange& change) { return change.end == 0.0 && change.has_slid; });
     if (changes.empty()) return;

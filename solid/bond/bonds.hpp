@@ -37,9 +37,12 @@ namespace abut::solid {
 ///
 /// All of it is quadratic in the displacements of the cells. Where a body may turn: BondSprings. docs/method.md, Bonds.
 ///
-/// A place whose traction t = s K_12 Delta pulls the faces apart and would exceed the strength gives way: its share s
+/// A place whose traction t = s K_12 Delta would exceed the strength, pressure not counted, gives way: its share s
 /// falls, at once to 0 or so that t falls with the opening until all of the fracture energy is taken (bond_law.hpp). What V
 /// loses by that is dissipated. In a step the share lies between those of both ends, so that it is what the law takes.
+///
+/// Sides that press on each other hold as much pressure as those of a whole place (pressed_sides.hpp). A place that bears
+/// nothing else is broken; it is gone once its sides have opened, or slid off each other.
 template <int Dim>
 class Bonds {
 public:
@@ -54,7 +57,7 @@ public:
     [[nodiscard]] std::span<const BondCoverage> coverage() const { return bodies_.bond_coverage(); }
     /// Whether it bears nothing: its sides may still press on each other as they are.
     [[nodiscard]] bool is_broken(std::size_t place) const { return share_[place] <= pressed_share; }
-    /// Whether its sides have opened, or slid off each other, since: only contact keeps them apart.
+    /// Whether its sides have opened, or slid off each other, since: contact alone keeps them apart.
     [[nodiscard]] bool is_gone(std::size_t place) const { return share_[place] == 0.0; }
     /// Whether one has a strength.
     [[nodiscard]] bool any_breaks() const;
@@ -124,9 +127,11 @@ public:
     void set_shares(std::span<const BondChange> changes, When when);
     /// The step has ended, and these places have the share of its end from now on.
     void end_changes(std::span<const BondChange> changes);
-    /// Whether a place broke in the last step that has ended so: they cost nothing any more after the next call.
+    /// Whether a place broke or went in the last step that has ended so.
     [[nodiscard]] bool any_broke() const { return any_broke_; }
-    /// Whether one of them let pressure go, as its sides had slid off each other.
+    /// Whether one went: it costs nothing any more after `leave_out_broken`.
+    [[nodiscard]] bool any_gone() const { return any_gone_; }
+    /// Whether one let pressure go, as its sides had slid off each other.
     [[nodiscard]] bool any_slid_off() const { return any_slid_off_; }
     /// Places that are gone take no part any more. A call of all ranks.
     void leave_out_broken();
@@ -233,7 +238,7 @@ private:
     std::vector<double> loosened_;  // by place: its stiffness if it has become a spring [Pa/m]; 0: it has not
     // By place, where it has a fracture energy: what of it was taken [J/m^2], and its opening over that of a broken place
     std::vector<double> taken_, opened_;
-    bool any_broke_ = false, any_slid_off_ = false;
+    bool any_broke_ = false, any_gone_ = false, any_slid_off_ = false;  // in the last step
     std::vector<std::size_t> opening_;   // first place of each bond of grains in one frame that has begun to open and holds
     std::vector<BondChange> in_middle_;  // whose share is that of the mean force of a step
     std::unique_ptr<BondSprings<Dim>> springs_;

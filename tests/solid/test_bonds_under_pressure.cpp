@@ -24,7 +24,7 @@ template <int Dim>
 mesh::Mesh<Dim> bonded_bars() {
     Vector<Dim> lower = Vector<Dim>::Constant(-0.5 * width), upper = Vector<Dim>::Constant(0.5 * width);
     std::array<int, Dim> counts;
-    counts.fill(Dim == 2 ? 5 : 2);
+    counts.fill(Dim == 2 ? 5 : 3);
     counts[0] *= 4;
     const CellShape shape = Dim == 2 ? CellShape::quadrangle : CellShape::hexahedron;
     const auto bar = [&](double from, const char* name) {
@@ -35,12 +35,18 @@ mesh::Mesh<Dim> bonded_bars() {
     return together(bar(-bar_length, "left"), bar(0.0, "right"));
 }
 
+enum class BondOfBars { none, springs, grains };
+
 /// They run into each other at `press`, E, rho and the speed of their waves being 1, and pass each other at `pass`.
 template <int Dim>
-TurningScene<Dim> sheared(Kinematics kinematics, double pass) {
+TurningScene<Dim> sheared(BondOfBars bond, double pass, Kinematics kinematics = Kinematics::floating) {
     solid::SolidOptions<Dim> options;
     options.materials.assign(2, {.young = 1.0, .poisson = 0.0, .density = 1.0});
-    options.bonds = {{.sides = {0, 1}, .strength = strength, .fracture_energy = fracture_energy}};
+    if (bond != BondOfBars::none)
+        options.bonds = {{.sides = {0, 1},
+                          .strength = strength,
+                          .fracture_energy = fracture_energy,
+                          .of_grains = bond == BondOfBars::grains}};
     options.contact.emplace();
     const Vector<Dim> velocity = press * Vector<Dim>::Unit(0) + pass * Vector<Dim>::Unit(1);
     return TurningScene<Dim>(bonded_bars<Dim>(), options, {moving<Dim>(velocity), moving<Dim>(Vector<Dim>(-velocity))}, 0.6,
@@ -67,41 +73,45 @@ double bonded_area() {
 }  // namespace
 
 TEMPLATE_TEST_CASE_SIG(
-    "a bond that is sheared under 13 times its strength of pressure takes its fracture energy, within 2 %, and its bars "
-    "rebound as bars do, within 2 %",
+    "a bond that is sheared under 13 times its strength of pressure takes its fracture energy, within 1 %, and its bars "
+    "rebound as bars without a bond, within 2 %",
     "[solid][bonds]", ((int Dim), Dim), 2, 3) {
-    const auto kinematics = GENERATE(Kinematics::small, Kinematics::floating);
-    CAPTURE(Dim, static_cast<int>(kinematics));
-    auto scene = sheared<Dim>(kinematics, 0.006);
+    const auto bond = GENERATE(BondOfBars::springs, BondOfBars::grains);
+    CAPTURE(Dim, static_cast<int>(bond));
+    const double pass = 0.006, energy = fracture_energy * bonded_area<Dim>();
+    auto scene = sheared<Dim>(bond, pass);
     scene.run_until(1.5);  // the wave that parts the ends is back at 2
     CHECK(scene.solid.bonds().broken_share() == 1.0);
-    CHECK(scene.solid.dissipated().in_bonds == Approx(fracture_energy * bonded_area<Dim>()).epsilon(0.02));
-    CHECK(std::abs(scene.solid.bonds().beyond_fracture_energy()) <= 0.02 * fracture_energy * bonded_area<Dim>());
-    CHECK(scene.solid.contact().report().active_pairs_max == 0);  // the sides press on each other without it
+    CHECK(scene.solid.dissipated().in_bonds == Approx(energy).epsilon(0.01));
+    CHECK(std::abs(scene.solid.bonds().beyond_fracture_energy()) <= 0.01 * energy);
     scene.run_until(3.0);
-    CHECK(scene.solid.dissipated().in_bonds == Approx(fracture_energy * bonded_area<Dim>()).epsilon(0.02));
-    CHECK(speed_of(scene, 0) == Approx(-press).epsilon(0.02));
-    CHECK(speed_of(scene, 1) == Approx(press).epsilon(0.02));
+    CHECK(scene.solid.dissipated().in_bonds == Approx(energy).epsilon(0.01));
     CHECK(scene.solid.contact().report().missed_contacts == 0);
+    auto without = sheared<Dim>(BondOfBars::none, pass);
+    without.run_until(3.0);
+    CHECK(speed_of(scene, 0) < -0.85 * press);
+    CHECK(speed_of(scene, 0) == Approx(speed_of(without, 0)).epsilon(0.02));
+    CHECK(speed_of(scene, 1) == Approx(speed_of(without, 1)).epsilon(0.02));
     const Drifts drifts = scene.drifts();
     CHECK(drifts.pseudo_energy <= 1e-12);
     CHECK(drifts.momentum <= 1e-13);
-    if (kinematics != Kinematics::small) CHECK(drifts.pseudo_moment <= 1e-13);
+    CHECK(drifts.pseudo_moment <= 1e-13);
 }
 
 TEMPLATE_TEST_CASE_SIG("sides that slide off each other under pressure are left to contact, and the balance closes to 1e-12",
                        "[solid][bonds]", ((int Dim), Dim), 2, 3) {
+    const auto bond = GENERATE(BondOfBars::springs, BondOfBars::grains);
     const auto kinematics = GENERATE(Kinematics::small, Kinematics::floating);
-    CAPTURE(Dim, static_cast<int>(kinematics));
-    auto scene = sheared<Dim>(kinematics, 0.06);
-    scene.run_until(1.9);
-    CHECK(scene.solid.contact().report().active_pairs_max > 0);
+    CAPTURE(Dim, static_cast<int>(bond), static_cast<int>(kinematics));
+    auto scene = sheared<Dim>(bond, 0.03, kinematics);
     scene.run_until(4.0);
-    // Each bar had the energy of its pressure near the bond at most.
-    CHECK(scene.solid.dissipated().in_bonds >= 0.98 * fracture_energy * bonded_area<Dim>());
-    CHECK(scene.solid.dissipated().in_bonds <= 0.05 * scene.ledger.largest_energy());
-    CHECK(speed_of(scene, 0) < -0.9 * press);
-    CHECK(speed_of(scene, 1) > 0.9 * press);
+    if (kinematics != Kinematics::small) {  // edges of small bodies bear no shear
+        CHECK(scene.solid.bonds().broken_share() == 1.0);
+        CHECK(scene.solid.contact().report().active_pairs_max > 0);
+        CHECK(std::abs(scene.solid.bonds().beyond_fracture_energy()) <= 0.01 * fracture_energy * bonded_area<Dim>());
+    }
+    CHECK(speed_of(scene, 0) < -0.7 * press);
+    CHECK(speed_of(scene, 1) > 0.7 * press);
     CHECK(scene.solid.contact().report().missed_contacts == 0);
     const Drifts drifts = scene.drifts();
     CHECK(drifts.pseudo_energy <= 1e-12);
@@ -110,7 +120,7 @@ TEMPLATE_TEST_CASE_SIG("sides that slide off each other under pressure are left 
 }
 
 TEST_CASE("a bond under pressure alone holds, however strong it is pressed", "[solid][bonds]") {
-    auto scene = sheared<2>(Kinematics::floating, 0.0);
+    auto scene = sheared<2>(BondOfBars::springs, 0.0);
     scene.run_until(1.9);
     CHECK(scene.solid.bonds().broken_share() == 0.0);
     CHECK(scene.solid.dissipated().in_bonds == 0.0);
