@@ -136,15 +136,16 @@ void Solid<Dim>::part_frames(std::span<const Vector<Dim>> q) {
         if (contact_) contact_->evaluate_listed(q, time_);
         return stored_energy(q, loads_->end()) + (contact_ ? contact_->energy() : 0.0) + point_loads_->energy(q);
     };
-    if (bonds_->any_gone()) {
-        const double before = bonds_->any_slid_off() ? energy_in_frames() : 0.0;
+    if (any_broke) {
+        const bool changes_energy = bonds_->any_broke_pressed();
+        const double before = changes_energy ? energy_in_frames() : 0.0;
         bonds_->leave_out_broken();
-        if (bonds_->any_slid_off()) dissipated_.in_bonds += before - energy_in_frames();
+        if (changes_energy) dissipated_.at_splits += before - energy_in_frames();
     }
     std::vector<std::size_t> loose;
     if (const std::vector<std::size_t> opening = bonds_->opening_bodies(); !opening.empty())
         loose = bonds_->loose_bonds(frames_->own_turns(of_cells(q), opening));
-    const bool part = !loose.empty() || (bonds_->any_gone() && bonds_->frame_groups() != frames_->united());
+    const bool part = !loose.empty() || (any_broke && bonds_->frame_groups() != frames_->united());
     if (part) {
         const double before = energy_in_frames();
         if (!loose.empty()) bonds_->loosen(loose);

@@ -36,7 +36,7 @@ void Bonds<Dim>::append_change(std::size_t place, const BondPull<Vector<Dim>>& p
                        .stiffness = stiffness,
                        .rise = held_1 - held_0,
                        .least = least,
-                       .has_slid = pull.is_pressed && pull.has_slid});
+                       .is_pressed = pull.is_pressed});
 }
 
 template <int Dim>
@@ -133,10 +133,10 @@ void Bonds<Dim>::set_shares(std::span<const BondChange> changes, When when) {
 
 template <int Dim>
 void Bonds<Dim>::end_changes(std::span<const BondChange> changes) {
-    any_broke_ = std::ranges::any_of(changes, [](const BondChange& change) { return change.end <= pressed_share; });
-    any_gone_ = std::ranges::any_of(changes, [](const BondChange& change) { return change.end == 0.0; });
-    any_slid_off_ =
-        std::ranges::any_of(changes, [](const BondChange& change) { return change.end == 0.0 && change.has_slid; });
+    const auto breaks = [](const BondChange& change) { return change.end <= pressed_share; };
+    any_broke_ = std::ranges::any_of(changes, breaks);
+    any_broke_pressed_ =
+        std::ranges::any_of(changes, [&](const BondChange& change) { return breaks(change) && change.is_pressed; });
     if (changes.empty()) return;
     set_shares(changes, When::end);
     for (const BondChange& change : changes) {

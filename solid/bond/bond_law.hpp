@@ -16,7 +16,7 @@ struct BondChange {
     double stiffness;  ///< of both half cells in the direction of the traction [Pa/m]
     double rise;       ///< of what a whole place holds beside its pressure, in the step [J/m^2]
     double least;      ///< share that it keeps
-    bool has_slid;     ///< pressed, though its sides are no mates any more
+    bool is_pressed;   ///< its sides press on each other at the end
 };
 
 /// The share of a place that bears nothing any more while its sides press on each other: it goes on as long as they do.

@@ -20,7 +20,7 @@ template <int Dim>
 BondSprings<Dim>::BondSprings(const Bodies<Dim>& bodies, Ccg<Dim>& ccg, const BodyFrames<Dim>& frames,
                               const RankPart<Dim>& part, std::span<const BondPlace<Dim>> places,
                               std::span<const std::size_t> of_springs, const std::vector<double>& share,
-                              std::span<const double> stiffness)
+                              std::span<const double> stiffness, std::span<const double> normal_stiffness)
     : ccg_(ccg),
       frames_(frames),
       places_(places),
@@ -44,7 +44,9 @@ BondSprings<Dim>::BondSprings(const Bodies<Dim>& bodies, Ccg<Dim>& ccg, const Bo
             spring.ends[side] = {face, places[place].position - centroid[face], places[place].position,
                                  static_cast<std::size_t>(bodies.deformable_body(places[place].bodies[side]))};
         }
-        spring.stiffness = places[place].area * (stiffness[place] > 0.0 ? stiffness[place] : 1.0 / compliance);
+        const auto given = [&](double value) { return places[place].area * (value > 0.0 ? value : 1.0 / compliance); };
+        spring.stiffness = given(stiffness[place]);
+        spring.normal_stiffness = given(normal_stiffness[place]);
         springs_.push_back(spring);
     }
     for (std::size_t i = 0; i < faces_.here().size(); ++i) here_[faces_.here()[i]] = i;
@@ -142,10 +144,9 @@ void BondSprings<Dim>::collect() {
     begin_collecting();
     pushes_.assign(frames_.n_bodies(), {});
     for (std::size_t i = 0; i < springs_.size(); ++i) {
-        const double share = share_[springs_[i].place];
-        Vector<Dim> pull = 0.5 * share * springs_[i].stiffness *
+        Vector<Dim> pull = 0.5 * share_[springs_[i].place] * springs_[i].stiffness *
                            (x_0_[i][1] - x_0_[i][0] + x_1_[i][1] - x_1_[i][0]);  // dV/dx_2
-        if (share < 1.0) pull += pressure(i);
+        if (pressure_stiffness(springs_[i]) != 0.0) pull += pressure(i);
         push_sides(i, pull);
     }
 }
@@ -161,13 +162,13 @@ void BondSprings<Dim>::push_sides(std::size_t spring, const Vector<Dim>& pull) {
     }
 }
 
-/// dV/dx_2 of the pressure that is left where a spring has lost some of its share. V depends on the normal, too, which turns
-/// with the first body: that is a moment on it, as of a point at the end of the normal.
+/// dV/dx_2 of pressure_stiffness. V depends on the normal, too, which turns with the first body: that is a moment on it, as
+/// of a point at the end of the normal.
 template <int Dim>
 Vector<Dim> BondSprings<Dim>::pressure(std::size_t spring) {
     const Sides start = sides_at(spring, x_0_, frames_.start()), end = sides_at(spring, x_1_, frames_.end());
-    const double push = (1.0 - share_[springs_[spring].place]) * springs_[spring].stiffness *
-                        pressed_along(start.distance(), end.distance()).gradient;
+    const double push =
+        pressure_stiffness(springs_[spring]) * pressed_along(start.distance(), end.distance()).gradient;
     const Vector<Dim> normal = 0.5 * (start.normal + end.normal), jump = 0.5 * (start.jump + end.jump);
     pushes_[springs_[spring].ends[0].body].moment += push * jump * normal.transpose();
     return push * normal;
@@ -194,10 +195,11 @@ FaceCorrections<Dim> BondSprings<Dim>::stiffness_of(std::span<const Vector<Dim>>
             return end_.displacement[end.face] + end_.tilt[end.face] * end.arm;
         };
         const Vector<Dim> jump = at(spring.ends[1]) - at(spring.ends[0]);
-        const double share = share_[spring.place];
-        Vector<Dim> pull = share * spring.stiffness * jump;
-        if (const Vector<Dim>& normal = places_[spring.place].normal; share < 1.0)
-            pull += (1.0 - share) * spring.stiffness * jump.dot(normal) * normal;
+        Vector<Dim> pull = share_[spring.place] * spring.stiffness * jump;
+        if (const double pressed = pressure_stiffness(spring); pressed != 0.0) {
+            const Vector<Dim>& normal = places_[spring.place].normal;
+            pull += pressed * jump.dot(normal) * normal;
+        }
         add(spring.ends[0], -pull);
         add(spring.ends[1], pull);
     }
@@ -225,11 +227,11 @@ template <int Dim>
 double BondSprings<Dim>::energy() const {
     double energy = 0.0;
     for (std::size_t i = 0; i < springs_.size(); ++i) {
-        const double share = share_[springs_[i].place];
-        energy += 0.5 * share * springs_[i].stiffness * (x_1_[i][1] - x_1_[i][0]).squaredNorm();
-        if (share == 1.0) continue;
+        energy += 0.5 * share_[springs_[i].place] * springs_[i].stiffness * (x_1_[i][1] - x_1_[i][0]).squaredNorm();
+        const double stiffness = pressure_stiffness(springs_[i]);
+        if (stiffness == 0.0) continue;
         const double pressed = std::min(sides_at(i, x_1_, frames_.end()).distance(), 0.0);
-        energy += 0.5 * (1.0 - share) * springs_[i].stiffness * pressed * pressed;
+        energy += 0.5 * stiffness * pressed * pressed;
     }
     return energy;
 }

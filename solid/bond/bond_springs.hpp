@@ -27,11 +27,12 @@ template <int Dim>
 class BondSprings {
 public:
     /// All but `of_springs` and `stiffness` must outlive it; `frames` are led along each step before it. Of all places
-    /// (n_places) those that are springs, whose faces nothing holds, the share of the pull that a place has, and its
-    /// stiffness [Pa/m], 0: that of both half cells along the normal. A call of all ranks.
+    /// (n_places) those that are springs, whose faces nothing holds, the share of the pull that a place has, its
+    /// stiffness and that against pressure [Pa/m], 0: that of both half cells along the normal. A call of all ranks.
     BondSprings(const Bodies<Dim>& bodies, Ccg<Dim>& ccg, const BodyFrames<Dim>& frames, const RankPart<Dim>& part,
                 std::span<const BondPlace<Dim>> places, std::span<const std::size_t> of_springs,
-                const std::vector<double>& share, std::span<const double> stiffness);
+                const std::vector<double>& share, std::span<const double> stiffness,
+                std::span<const double> normal_stiffness);
 
     [[nodiscard]] bool any() const { return !springs_.empty(); }
     [[nodiscard]] const BondFaces<Dim>& faces() const { return faces_; }
@@ -83,7 +84,8 @@ private:
     };
     struct BondSpring {
         std::array<End, 2> ends;
-        double stiffness;  // k_12 A [N/m]
+        double stiffness;         // k_12 A [N/m]
+        double normal_stiffness;  // of sides that press on each other [N/m]
         std::size_t place;
     };
     using Positions = std::vector<std::array<Vector<Dim>, 2>>;
@@ -113,6 +115,10 @@ private:
     }
     [[nodiscard]] bool are_no_mates(std::size_t spring, const Vector<Dim>& slip) const;
     void push_sides(std::size_t spring, const Vector<Dim>& pull);
+    /// Of the pressure that is no part of the pull of the spring [N/m]; 0 of whole ones that always were springs.
+    [[nodiscard]] double pressure_stiffness(const BondSpring& spring) const {
+        return spring.normal_stiffness - share_[spring.place] * spring.stiffness;
+    }
     [[nodiscard]] Vector<Dim> pressure(std::size_t spring);
     void evaluate_own(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load, StepState state, Tilted& faces);
     void bring(std::initializer_list<Tilted*> states);

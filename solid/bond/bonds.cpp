@@ -55,6 +55,7 @@ Bonds<Dim>::Bonds(const Bodies<Dim>& bodies, Ccg<Dim>& ccg, const BodyFrames<Dim
       places_(bodies.bond_places()),
       share_(places_.size(), 1.0),
       loosened_(places_.size(), 0.0),
+      normal_stiffness_(places_.size(), 0.0),
       taken_(places_.size(), 0.0),
       opened_(places_.size(), 0.0) {
     check_bodies();
@@ -74,7 +75,7 @@ template <int Dim>
 std::vector<std::size_t> Bonds<Dim>::held_joints() const {
     std::vector<std::size_t> held;
     for (std::size_t p = 0; p < places_.size(); ++p)
-        if (holds_as_joint(p)) held.push_back(p);
+        if (is_joint(p)) held.push_back(p);
     return held;
 }
 
@@ -107,7 +108,8 @@ void Bonds<Dim>::make_springs() {
     std::vector<std::size_t> of_springs;
     for (std::size_t p = 0; p < places_.size(); ++p)
         if (!is_joint(p) && !is_gone(p)) of_springs.push_back(p);
-    springs_ = std::make_unique<BondSprings<Dim>>(bodies_, ccg_, frames_, part_, places_, of_springs, share_, loosened_);
+    springs_ = std::make_unique<BondSprings<Dim>>(bodies_, ccg_, frames_, part_, places_, of_springs, share_, loosened_,
+                                                  normal_stiffness_);
 }
 
 /// Places that are broken, or springs by now, are no joints any more, and broken springs are none.
@@ -224,6 +226,7 @@ void Bonds<Dim>::append_joint(std::size_t place) {
     const Vector<Dim> compliance = made_firm<Dim>(joint.stiffness).inverse() * joint.normal;
     joint.normal_stiffness = 1.0 / joint.normal.dot(compliance);
     joint.under_pressure = joint.normal_stiffness * compliance;
+    normal_stiffness_[place] = joint.normal_stiffness;
     joints_.push_back(joint);
 }
 
@@ -262,7 +265,7 @@ template <int Dim>
 std::vector<std::int32_t> Bonds<Dim>::frame_groups() const {
     DisjointSets held(static_cast<std::size_t>(mesh_.n_bodies()));
     for (std::size_t p = 0; p < places_.size(); ++p)
-        if (holds_as_joint(p) && bodies_.have_one_frame(places_[p]))
+        if (is_joint(p) && bodies_.have_one_frame(places_[p]))
             held.join(bodies_.deformable_body(places_[p].bodies[0]), bodies_.deformable_body(places_[p].bodies[1]));
     std::vector<std::int32_t> groups;
     for (std::int32_t body = 0; body < mesh_.n_bodies(); ++body) groups.push_back(held.find(body));
@@ -276,7 +279,7 @@ void Bonds<Dim>::find_opening() {
         while (end < places_.size() && places_[end].bond == places_[first].bond) ++end;
         bool holds = false, has_opened = false;
         for (std::size_t p = first; p < end; ++p) {
-            holds = holds || holds_as_joint(p);
+            holds = holds || is_joint(p);
             has_opened = has_opened || share_[p] < 1.0;
         }
         if (holds && has_opened && bodies_.have_one_frame(places_[first])) opening_.push_back(first);
@@ -310,7 +313,8 @@ void Bonds<Dim>::loosen(std::span<const std::size_t> bonds) {
     for (std::size_t i = 0; i < joints_.size(); ++i) {
         const std::size_t p = joints_[i].place;
         if (!std::ranges::binary_search(bonds, places_[p].bond)) continue;
-        const Vector<Dim> along = jump_[i].isZero(0.0) ? places_[p].normal : jump_[i];
+        const Vector<Dim> beside = beside_pressure(joints_[i], jump_[i]);
+        const Vector<Dim> along = beside.isZero(0.0) ? places_[p].normal : beside;
         loosened_[p] = along.dot(joints_[i].stiffness * along) / along.squaredNorm();
     }
     leave_out_broken();

@@ -129,11 +129,10 @@ public:
     void end_changes(std::span<const BondChange> changes);
     /// Whether a place broke or went in the last step that has ended so.
     [[nodiscard]] bool any_broke() const { return any_broke_; }
-    /// Whether one went: it costs nothing any more after `leave_out_broken`.
-    [[nodiscard]] bool any_gone() const { return any_gone_; }
-    /// Whether one let pressure go, as its sides had slid off each other.
-    [[nodiscard]] bool any_slid_off() const { return any_slid_off_; }
-    /// Places that are gone take no part any more. A call of all ranks.
+    /// Whether one did so under pressure: V changes in the next call.
+    [[nodiscard]] bool any_broke_pressed() const { return any_broke_pressed_; }
+    /// Places that are broken are springs against pressure alone, and those that are gone take no part any more. A call of
+    /// all ranks.
     void leave_out_broken();
     [[nodiscard]] double share(std::size_t place) const { return share_[place]; }
     /// Energy that places with a fracture energy have lost beyond what belongs to their openings; less than 0: they have
@@ -189,9 +188,8 @@ private:
     void make_springs();
     /// Whether it is the interface of half cells, and else a spring.
     [[nodiscard]] bool is_joint(std::size_t place) const {
-        return bodies_.is_joint(places_[place]) && loosened_[place] == 0.0;
+        return bodies_.is_joint(places_[place]) && loosened_[place] == 0.0 && !is_broken(place);
     }
-    [[nodiscard]] bool holds_as_joint(std::size_t place) const { return is_joint(place) && !is_gone(place); }
     void check_bodies() const;
     void check_metal(std::span<const std::size_t> of_joints) const;
     void check(BoundaryFace face) const;
@@ -236,9 +234,10 @@ private:
     std::vector<BondPlace<Dim>> places_;
     std::vector<double> share_;     // by place, from 1, whole, to 0, broken
     std::vector<double> loosened_;  // by place: its stiffness if it has become a spring [Pa/m]; 0: it has not
+    std::vector<double> normal_stiffness_;  // by place, of those that are or were joints, against pressure [Pa/m]
     // By place, where it has a fracture energy: what of it was taken [J/m^2], and its opening over that of a broken place
     std::vector<double> taken_, opened_;
-    bool any_broke_ = false, any_gone_ = false, any_slid_off_ = false;  // in the last step
+    bool any_broke_ = false, any_broke_pressed_ = false;  // in the last step
     std::vector<std::size_t> opening_;   // first place of each bond of grains in one frame that has begun to open and holds
     std::vector<BondChange> in_middle_;  // whose share is that of the mean force of a step
     std::unique_ptr<BondSprings<Dim>> springs_;
