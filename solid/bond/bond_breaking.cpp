@@ -14,23 +14,23 @@ bool Bonds<Dim>::any_breaks() const {
     return std::ranges::any_of(bodies_.options().bonds, [](const Bond& bond) { return std::isfinite(bond.strength); });
 }
 
+/// Without a fracture energy a place breaks where it is pulled apart, and is gone.
 template <int Dim>
-void Bonds<Dim>::append_change(std::size_t place, const BondPull<Vector<Dim>>& pull,
-                               std::vector<BondChange>& changes) const {
-    if (share_[place] == 0.0) return;
+void Bonds<Dim>::append_change(std::size_t place, const BondPull& pull, std::vector<BondChange>& changes) const {
     const double energy = fracture_energy(place), strength = places_[place].strength, stiffness = pull.stiffness;
-    const double least = pull.is_pressed && !pull.has_slid ? pressed_share : 0.0;
-    const double by_law = share_of_bond(strength, energy, pull.traction.norm(), stiffness);
+    if (share_[place] == 0.0 || (energy == 0.0 && !pull.parts)) return;
+    const double least = energy > 0.0 && pull.is_pressed && !pull.has_slid ? pressed_share : 0.0;
+    const double by_law = share_of_bond(strength, energy, pull.traction, stiffness);
     const double start = share_[place], end = std::max(by_law, least);
     if (end >= start) return;
-    const double held_0 = pull.held_0, held_1 = 0.5 * pull.traction.squaredNorm() / stiffness;
+    const double held_0 = pull.held_0, held_1 = 0.5 * pull.traction * pull.traction / stiffness;
     const double opening = energy > 0.0 ? opening_of_bond(strength, energy, by_law, stiffness) : 1.0;
     const double taken =
         energy > 0.0 ? std::max(energy * opening - taken_[place], 0.0) : 0.5 * (start - end) * (held_0 + held_1);
     changes.push_back({.place = place,
                        .start = start,
                        .end = end,
-                       .middle = middle_share(start, end, held_0, held_1, taken),
+                       .middle = energy > 0.0 ? middle_share(start, end, held_0, held_1, taken) : 0.5 * (start + end),
                        .opening = opening,
                        .taken = taken,
                        .stiffness = stiffness,
@@ -105,20 +105,23 @@ std::vector<BondChange> Bonds<Dim>::changes() const {
     if (!any_breaks()) return changes;
     for (std::size_t p = 0; p < joints_.size(); ++p) {
         const Joint& joint = joints_[p];
-        const Vector<Dim> jump = beside_pressure(joint, jump_1_[p]), before = beside_pressure(joint, jump_0_[p]);
-        const Vector<Dim> traction = joint.stiffness * jump;
+        const auto of_law = [&](const Vector<Dim>& jump) {
+            return fracture_energy(joint.place) > 0.0 ? beside_pressure(joint, jump) : jump;
+        };
+        const Vector<Dim> jump = of_law(jump_1_[p]), before = of_law(jump_0_[p]), traction = joint.stiffness * jump;
         const double energy = traction.dot(jump);
         if (energy > 0.0)
             append_change(joint.place,
-                          {.traction = traction,
+                          {.traction = traction.norm(),
                            .stiffness = traction.squaredNorm() / energy,
                            .held_0 = 0.5 * before.dot(joint.stiffness * before),
+                           .parts = traction.dot(joint.normal) > 0.0,
                            .is_pressed = normal_part(joint, jump_1_[p]) < 0.0,
                            .has_slid = jump.norm() > half_size(places_[joint.place])},
                           changes);
     }
-    springs_->for_each_pull(
-        [&](std::size_t place, const BondPull<Vector<Dim>>& pull) { append_change(place, pull, changes); });
+    springs_->for_each_pull([&](std::size_t place) { return fracture_energy(place) > 0.0; },
+                            [&](std::size_t place, const BondPull& pull) { append_change(place, pull, changes); });
     std::ranges::sort(changes, {}, &BondChange::place);
     return changes;
 }
@@ -206,6 +209,7 @@ void Bonds<Dim>::take_over(const Bonds& before, std::span<const std::int32_t> ol
         taken_[p] = before.taken_[old];
         opened_[p] = before.opened_[old];
         loosened_[p] = before.loosened_[old];
+        normal_stiffness_[p] = before.normal_stiffness_[old];
         places_[p].strength = from->strength;  // drawn once, whatever numbers the faces have now
     }
     leave_out_broken();
@@ -214,8 +218,7 @@ void Bonds<Dim>::take_over(const Bonds& before, std::span<const std::int32_t> ol
 
 #define ABUT_INSTANTIATE(Dim)                                                                                    \
     template bool Bonds<Dim>::any_breaks() const;                                                                \
-    template void Bonds<Dim>::append_change(std::size_t, const BondPull<Vector<Dim>>&, std::vector<BondChange>&) \
-        const;                                                                                                   \
+    template void Bonds<Dim>::append_change(std::size_t, const BondPull&, std::vector<BondChange>&) const;       \
     template double Bonds<Dim>::fracture_energy(std::size_t) const;                                              \
     template BondChange Bonds<Dim>::opened(const BondChange&, const BondOpening&) const;                         \
     template bool Bonds<Dim>::have_law(std::span<const BondChange>) const;                                       \

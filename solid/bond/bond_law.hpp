@@ -22,14 +22,15 @@ struct BondChange {
 /// The share of a place that bears nothing any more while its sides press on each other: it goes on as long as they do.
 inline constexpr double pressed_share = 1e-9;
 
-/// What an end of a step would pull a whole place with, its pressure left out: that gives way with no bond.
-template <class Vector>
+/// What an end of a step would pull a whole place with; with a fracture energy its pressure is left out: that gives way with
+/// no bond.
 struct BondPull {
-    Vector traction;    ///< [Pa]
-    double stiffness;   ///< of both half cells in its direction [Pa/m]
-    double held_0;      ///< energy of it at the start of the step [J/m^2]
-    bool is_pressed;    ///< its sides press on each other
-    bool has_slid;      ///< by half its size: they are no mates any more
+    double traction;   ///< its size [Pa]
+    double stiffness;  ///< of both half cells in its direction [Pa/m]
+    double held_0;     ///< energy of it at the start of the step [J/m^2]
+    bool parts;        ///< it pulls the sides apart
+    bool is_pressed;   ///< they press on each other
+    bool has_slid;     ///< by half of its size: they are no mates any more
 };
 
 /// Energy per area that half cells of this stiffness in series hold at the strength of a bond [J/m^2].

@@ -174,6 +174,15 @@ Vector<Dim> BondSprings<Dim>::pressure(std::size_t spring) {
     return push * normal;
 }
 
+/// Out of the first face as it is at the end of the step.
+template <int Dim>
+Vector<Dim> BondSprings<Dim>::tilted_normal(std::size_t spring) const {
+    const End& end = springs_[spring].ends[0];
+    const Vector<Dim> in_frame =
+        (Matrix<Dim>::Identity() + end_.tilt[end.face]).inverse().transpose() * places_[springs_[spring].place].normal;
+    return frames_.end()[end.body].turn * in_frame;
+}
+
 template <int Dim>
 bool BondSprings<Dim>::are_no_mates(std::size_t spring, const Vector<Dim>& slip) const {
     const BondPlace<Dim>& place = places_[springs_[spring].place];
@@ -228,11 +237,22 @@ double BondSprings<Dim>::energy() const {
     double energy = 0.0;
     for (std::size_t i = 0; i < springs_.size(); ++i) {
         energy += 0.5 * share_[springs_[i].place] * springs_[i].stiffness * (x_1_[i][1] - x_1_[i][0]).squaredNorm();
-        const double stiffness = pressure_stiffness(springs_[i]);
-        if (stiffness == 0.0) continue;
-        const double pressed = std::min(sides_at(i, x_1_, frames_.end()).distance(), 0.0);
-        energy += 0.5 * stiffness * pressed * pressed;
+        if (pressure_stiffness(springs_[i]) != 0.0) energy += pressure_energy(i);
     }
+    return energy;
+}
+
+template <int Dim>
+double BondSprings<Dim>::pressure_energy(std::size_t spring) const {
+    const double pressed = std::min(sides_at(spring, x_1_, frames_.end()).distance(), 0.0);
+    return 0.5 * pressure_stiffness(springs_[spring]) * pressed * pressed;
+}
+
+template <int Dim>
+double BondSprings<Dim>::pressure_energy(std::span<const std::size_t> places) const {
+    double energy = 0.0;
+    for (std::size_t i = 0; i < springs_.size(); ++i)
+        if (std::ranges::find(places, springs_[i].place) != places.end()) energy += pressure_energy(i);
     return energy;
 }
 

@@ -52,21 +52,26 @@ public:
     /// Pushes of the springs on each body, added to those of others (n_bodies that deform).
     [[nodiscard]] std::span<const BodyPush<Dim>> pushes(std::span<const BodyPush<Dim>> others);
     [[nodiscard]] double energy() const;  ///< at the end of the step [J]
+    /// Part of it that these places hold by their pressure [J].
+    [[nodiscard]] double pressure_energy(std::span<const std::size_t> places) const;
     /// The end alone: `energy` is that of it. What springs pull with stays.
     void see_end(std::span<const Vector<Dim>> q_1, const BoundaryLoad<Dim>& load_1, StepState state);
-    /// Calls visit(place, pull): what the end of the step pulls each with, in space.
-    template <class Visit>
-    void for_each_pull(const Visit& visit) const {
+    /// Calls visit(place, pull): what the end of the step pulls each with. `leaves_pressure(place)`: out of it.
+    template <class LeavesPressure, class Visit>
+    void for_each_pull(const LeavesPressure& leaves_pressure, const Visit& visit) const {
         for (std::size_t i = 0; i < springs_.size(); ++i) {
-            const BondSpring& spring = springs_[i];
-            const double stiffness = spring.stiffness / places_[spring.place].area;
+            const std::size_t place = springs_[i].place;
+            const double stiffness = springs_[i].stiffness / places_[place].area;
             const Sides start = sides_at(i, x_0_, frames_.start()), end = sides_at(i, x_1_, frames_.end());
-            const Vector<Dim> slip = end.beside_pressure();
-            visit(spring.place, BondPull<Vector<Dim>>{.traction = stiffness * slip,
-                                                      .stiffness = stiffness,
-                                                      .held_0 = 0.5 * stiffness * start.beside_pressure().squaredNorm(),
-                                                      .is_pressed = end.distance() < 0.0,
-                                                      .has_slid = are_no_mates(i, slip)});
+            const bool leaves = leaves_pressure(place);
+            const Vector<Dim> slip = leaves ? end.beside_pressure() : end.jump;
+            visit(place,
+                  BondPull{.traction = stiffness * slip.norm(),
+                           .stiffness = stiffness,
+                           .held_0 = 0.5 * stiffness * (leaves ? start.beside_pressure() : start.jump).squaredNorm(),
+                           .parts = end.jump.dot(tilted_normal(i)) > 0.0,
+                           .is_pressed = end.distance() < 0.0,
+                           .has_slid = are_no_mates(i, slip)});
         }
     }
     /// Calls visit(place, k_12) [Pa/m].
@@ -113,6 +118,8 @@ private:
         const BondSpring& of = springs_[spring];
         return {x[spring][1] - x[spring][0], frames[of.ends[0].body].turn * places_[of.place].normal};
     }
+    [[nodiscard]] double pressure_energy(std::size_t spring) const;
+    [[nodiscard]] Vector<Dim> tilted_normal(std::size_t spring) const;
     [[nodiscard]] bool are_no_mates(std::size_t spring, const Vector<Dim>& slip) const;
     void push_sides(std::size_t spring, const Vector<Dim>& pull);
     /// Of the pressure that is no part of the pull of the spring [N/m]; 0 of whole ones that always were springs.

@@ -131,9 +131,12 @@ public:
     [[nodiscard]] bool any_broke() const { return any_broke_; }
     /// Whether one did so under pressure: V changes in the next call.
     [[nodiscard]] bool any_broke_pressed() const { return any_broke_pressed_; }
-    /// Places that are broken are springs against pressure alone, and those that are gone take no part any more. A call of
-    /// all ranks.
-    void leave_out_broken();
+    /// Places that are broken are springs against pressure alone, and those that are gone take no part any more. Returns
+    /// those that have become springs by that. A call of all ranks.
+    std::vector<std::size_t> leave_out_broken();
+    /// These springs hold less of their pressure by this energy [J], a tenth of it at least, in the state of the last
+    /// `stand_at`. A call of all ranks.
+    void soften(std::span<const std::size_t> places, double energy);
     [[nodiscard]] double share(std::size_t place) const { return share_[place]; }
     /// Energy that places with a fracture energy have lost beyond what belongs to their openings; less than 0: they have
     /// lost less [J].
@@ -221,7 +224,7 @@ private:
     [[nodiscard]] FaceCorrections<Dim> own_corrections() const { return {faces_->faces_here(), delta_here_, {}, {}}; }
     void check_fracture_energy() const;
     [[nodiscard]] double fracture_energy(std::size_t place) const;
-    void append_change(std::size_t place, const BondPull<Vector<Dim>>& pull, std::vector<BondChange>& changes) const;
+    void append_change(std::size_t place, const BondPull& pull, std::vector<BondChange>& changes) const;
     [[nodiscard]] Vector<Dim> bulk_gradient(const BondedFace& of_cell, BoundaryFace face) const;
     void take_excess();
     void push_faces(std::span<Vector<Dim>> gradient);
