@@ -18,7 +18,7 @@
 namespace abut::solid {
 namespace {
 
-constexpr std::uint32_t version = 10;
+constexpr std::uint32_t version = 11;
 
 template <int Dim>
 std::string kind() {

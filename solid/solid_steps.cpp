@@ -131,15 +131,22 @@ std::vector<BondChange> Solid<Dim>::bonds_that_give_way(const Step& step, const 
 template <int Dim>
 void Solid<Dim>::part_frames(std::span<const Vector<Dim>> q) {
     const bool any_broke = bonds_->any_broke();
-    std::vector<std::size_t> loose;
-    if (const std::vector<std::size_t> opening = bonds_->opening_bodies(); !opening.empty())
-        loose = bonds_->loose_bonds(frames_->own_turns(of_cells(q), opening));
-    const bool part = !loose.empty() || (any_broke && bonds_->frame_groups() != frames_->united());
     const auto energy_in_frames = [&] {
         frames_->stand_at(of_cells(q));
         if (contact_) contact_->evaluate_listed(q, time_);
         return stored_energy(q, loads_->end()) + (contact_ ? contact_->energy() : 0.0) + point_loads_->energy(q);
     };
+    if (any_broke) {
+        const bool changes_energy = bonds_->any_broke_pressed();
+        const double before = changes_energy ? energy_in_frames() : 0.0;
+        const std::vector<std::size_t> become_springs = bonds_->leave_out_broken();
+        if (!become_springs.empty()) bonds_->soften(become_springs, energy_in_frames() - before);
+        if (changes_energy) dissipated_.at_splits += before - energy_in_frames();
+    }
+    std::vector<std::size_t> loose;
+    if (const std::vector<std::size_t> opening = bonds_->opening_bodies(); !opening.empty())
+        loose = bonds_->loose_bonds(frames_->own_turns(of_cells(q), opening));
+    const bool part = !loose.empty() || (any_broke && bonds_->frame_groups() != frames_->united());
     if (part) {
         const double before = energy_in_frames();
         if (!loose.empty()) bonds_->loosen(loose);

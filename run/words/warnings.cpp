@@ -298,8 +298,7 @@ void add_lost_parts(Counts& counts, const RunResult<Dim>& result) {
              fmt::format(
                  "bonds that opened dissipated {} than their fracture energy by {:.2g} of it, {:g} is safe, though the "
                  "balance of energy holds: they opened within few steps, or cells hold energy of several faces together. "
-                 "Take smaller cells where bonds.cohesive_length is a few of them, or a smaller step. Neither may help in "
-                 "impacts that make many times the strength",
+                 "Take smaller cells where bonds.cohesive_length is a few of them, or a smaller step",
                  result.bonds.beyond_fracture_energy > 0.0 ? "more" : "less", error, large_fracture_error));
 }
 

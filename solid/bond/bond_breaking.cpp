@@ -14,29 +14,29 @@ bool Bonds<Dim>::any_breaks() const {
     return std::ranges::any_of(bodies_.options().bonds, [](const Bond& bond) { return std::isfinite(bond.strength); });
 }
 
-/// `whole`: traction of the place as if it were whole, `stiffness` of both half cells in its direction; `held_0`, what it
-/// held at the start of the step [J/m^2]. Under pressure one that has begun to open goes on along the face.
+/// Without a fracture energy a place breaks where it is pulled apart, and is gone.
 template <int Dim>
-void Bonds<Dim>::append_change(std::size_t place, const Vector<Dim>& whole, double stiffness, double held_0,
-                               const Vector<Dim>& normal, std::vector<BondChange>& changes) const {
-    const double pull = whole.dot(normal);
-    if (share_[place] == 0.0 || (pull <= 0.0 && share_[place] == 1.0)) return;
-    const Vector<Dim> traction = pull > 0.0 ? whole : Vector<Dim>(whole - pull * normal);
-    const double energy = fracture_energy(place), strength = places_[place].strength;
-    const double start = share_[place], end = share_of_bond(strength, energy, traction.norm(), stiffness);
+void Bonds<Dim>::append_change(std::size_t place, const BondPull& pull, std::vector<BondChange>& changes) const {
+    const double energy = fracture_energy(place), strength = places_[place].strength, stiffness = pull.stiffness;
+    if (share_[place] == 0.0 || (energy == 0.0 && !pull.parts)) return;
+    const double least = energy > 0.0 && pull.is_pressed && !pull.has_slid ? pressed_share : 0.0;
+    const double by_law = share_of_bond(strength, energy, pull.traction, stiffness);
+    const double start = share_[place], end = std::max(by_law, least);
     if (end >= start) return;
-    const double held_1 = 0.5 * whole.squaredNorm() / stiffness;
-    const double opening = energy > 0.0 ? opening_of_bond(strength, energy, end, stiffness) : 1.0;
+    const double held_0 = pull.held_0, held_1 = 0.5 * pull.traction * pull.traction / stiffness;
+    const double opening = energy > 0.0 ? opening_of_bond(strength, energy, by_law, stiffness) : 1.0;
     const double taken =
         energy > 0.0 ? std::max(energy * opening - taken_[place], 0.0) : 0.5 * (start - end) * (held_0 + held_1);
     changes.push_back({.place = place,
                        .start = start,
                        .end = end,
-                       .middle = middle_share(start, end, held_0, held_1, taken),
+                       .middle = energy > 0.0 ? middle_share(start, end, held_0, held_1, taken) : 0.5 * (start + end),
                        .opening = opening,
                        .taken = taken,
                        .stiffness = stiffness,
-                       .rise = held_1 - held_0});
+                       .rise = held_1 - held_0,
+                       .least = least,
+                       .is_pressed = pull.is_pressed});
 }
 
 template <int Dim>
@@ -51,9 +51,11 @@ BondChange Bonds<Dim>::opened(const BondChange& change, const BondOpening& openi
     if (energy > 0.0 && opening.extent != 1.0) {
         opened.opening = std::min(std::lerp(opened_[change.place], change.opening, opening.extent), 1.0);
         opened.taken = std::max(energy * opened.opening - taken_[change.place], 0.0);
-        opened.end = std::min(change.start, share_of_opening(strength, energy, opened.opening, change.stiffness));
+        const double by_law = share_of_opening(strength, energy, opened.opening, change.stiffness);
+        opened.end = std::min(change.start, std::max(by_law, change.least));
     }
-    opened.middle = std::lerp(change.middle, opening.middle > 0.0 ? opened.start : opened.end, std::abs(opening.middle));
+    const bool to_start = (opening.middle > 0.0) == (change.rise > 0.0);  // most is lost with the share of the start where
+    opened.middle = std::lerp(change.middle, to_start ? opened.start : opened.end, std::abs(opening.middle));
     return opened;
 }
 
@@ -73,8 +75,10 @@ template <int Dim>
 std::array<double, 2> Bonds<Dim>::rise_of_loss(std::span<const BondChange> changes) const {
     std::array<double, 2> rise{};
     for (const BondChange& change : changes) {
-        rise[0] += places_[change.place].area * change.rise * (change.start - change.middle);
-        rise[1] += places_[change.place].area * change.rise * (change.middle - change.end);
+        const double to_start = places_[change.place].area * change.rise * (change.start - change.middle);
+        const double to_end = places_[change.place].area * change.rise * (change.end - change.middle);
+        rise[0] += std::max(to_start, to_end);
+        rise[1] -= std::min(to_start, to_end);
     }
     return rise;
 }
@@ -100,17 +104,24 @@ std::vector<BondChange> Bonds<Dim>::changes() const {
     std::vector<BondChange> changes;
     if (!any_breaks()) return changes;
     for (std::size_t p = 0; p < joints_.size(); ++p) {
-        const Vector<Dim> traction = joints_[p].stiffness * jump_1_[p];
-        const double energy = traction.dot(jump_1_[p]);
+        const Joint& joint = joints_[p];
+        const auto of_law = [&](const Vector<Dim>& jump) {
+            return fracture_energy(joint.place) > 0.0 ? beside_pressure(joint, jump) : jump;
+        };
+        const Vector<Dim> jump = of_law(jump_1_[p]), before = of_law(jump_0_[p]), traction = joint.stiffness * jump;
+        const double energy = traction.dot(jump);
         if (energy > 0.0)
-            append_change(joints_[p].place, traction, traction.squaredNorm() / energy,
-                          0.5 * jump_0_[p].dot(joints_[p].stiffness * jump_0_[p]), places_[joints_[p].place].normal,
+            append_change(joint.place,
+                          {.traction = traction.norm(),
+                           .stiffness = traction.squaredNorm() / energy,
+                           .held_0 = 0.5 * before.dot(joint.stiffness * before),
+                           .parts = traction.dot(joint.normal) > 0.0,
+                           .is_pressed = normal_part(joint, jump_1_[p]) < 0.0,
+                           .has_slid = jump.norm() > half_size(places_[joint.place])},
                           changes);
     }
-    springs_->for_each_traction(
-        [&](std::size_t place, const Vector<Dim>& traction, double stiffness, double held_0, const Vector<Dim>& normal) {
-            append_change(place, traction, stiffness, held_0, normal, changes);
-        });
+    springs_->for_each_pull([&](std::size_t place) { return fracture_energy(place) > 0.0; },
+                            [&](std::size_t place, const BondPull& pull) { append_change(place, pull, changes); });
     std::ranges::sort(changes, {}, &BondChange::place);
     return changes;
 }
@@ -125,7 +136,10 @@ void Bonds<Dim>::set_shares(std::span<const BondChange> changes, When when) {
 
 template <int Dim>
 void Bonds<Dim>::end_changes(std::span<const BondChange> changes) {
-    any_broke_ = std::ranges::any_of(changes, [](const BondChange& change) { return change.end == 0.0; });
+    const auto breaks = [](const BondChange& change) { return change.end <= pressed_share; };
+    any_broke_ = std::ranges::any_of(changes, breaks);
+    any_broke_pressed_ =
+        std::ranges::any_of(changes, [&](const BondChange& change) { return breaks(change) && change.is_pressed; });
     if (changes.empty()) return;
     set_shares(changes, When::end);
     for (const BondChange& change : changes) {
@@ -133,7 +147,6 @@ void Bonds<Dim>::end_changes(std::span<const BondChange> changes) {
         taken_[change.place] += change.taken;
         opened_[change.place] = change.opening;
     }
-    if (any_broke_) leave_out_broken();
     find_opening();
 }
 
@@ -196,6 +209,7 @@ void Bonds<Dim>::take_over(const Bonds& before, std::span<const std::int32_t> ol
         taken_[p] = before.taken_[old];
         opened_[p] = before.opened_[old];
         loosened_[p] = before.loosened_[old];
+        normal_stiffness_[p] = before.normal_stiffness_[old];
         places_[p].strength = from->strength;  // drawn once, whatever numbers the faces have now
     }
     leave_out_broken();
@@ -204,8 +218,7 @@ void Bonds<Dim>::take_over(const Bonds& before, std::span<const std::int32_t> ol
 
 #define ABUT_INSTANTIATE(Dim)                                                                                    \
     template bool Bonds<Dim>::any_breaks() const;                                                                \
-    template void Bonds<Dim>::append_change(std::size_t, const Vector<Dim>&, double, double, const Vector<Dim>&, \
-                                            std::vector<BondChange>&) const;                                     \
+    template void Bonds<Dim>::append_change(std::size_t, const BondPull&, std::vector<BondChange>&) const;       \
     template double Bonds<Dim>::fracture_energy(std::size_t) const;                                              \
     template BondChange Bonds<Dim>::opened(const BondChange&, const BondOpening&) const;                         \
     template bool Bonds<Dim>::have_law(std::span<const BondChange>) const;                                       \

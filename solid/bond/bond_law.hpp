@@ -14,7 +14,23 @@ struct BondChange {
     double opening;    ///< at the end, over that of a broken place [-]; 1 without a fracture energy
     double taken;      ///< what its law takes in the step; after Bonds::share_loss what it has lost [J/m^2]
     double stiffness;  ///< of both half cells in the direction of the traction [Pa/m]
-    double rise;       ///< of what a whole place holds, in the step [J/m^2]
+    double rise;       ///< of what a whole place holds beside its pressure, in the step [J/m^2]
+    double least;      ///< share that it keeps
+    bool is_pressed;   ///< its sides press on each other at the end
+};
+
+/// The share of a place that bears nothing any more while its sides press on each other: it goes on as long as they do.
+inline constexpr double pressed_share = 1e-9;
+
+/// What an end of a step would pull a whole place with; with a fracture energy its pressure is left out: that gives way with
+/// no bond.
+struct BondPull {
+    double traction;   ///< its size [Pa]
+    double stiffness;  ///< of both half cells in its direction [Pa/m]
+    double held_0;     ///< energy of it at the start of the step [J/m^2]
+    bool parts;        ///< it pulls the sides apart
+    bool is_pressed;   ///< they press on each other
+    bool has_slid;     ///< by half of its size: they are no mates any more
 };
 
 /// Energy per area that half cells of this stiffness in series hold at the strength of a bond [J/m^2].
@@ -51,7 +67,7 @@ struct BondChange {
 /// its share falls to the middle at the start, and from there at the end, it loses `taken` [J/m^2], if that lies between
 /// what it would lose at either end.
 [[nodiscard]] inline double middle_share(double start, double end, double held_0, double held_1, double taken) {
-    if (held_1 <= held_0) return 0.5 * (start + end);
+    if (held_1 == held_0) return 0.5 * (start + end);
     const double middle = (start * held_0 - end * held_1 - taken) / (held_0 - held_1);
     return std::clamp(middle, end, start);
 }

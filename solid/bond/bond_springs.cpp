@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 
 namespace abut::solid {
@@ -11,6 +12,7 @@ constexpr std::size_t nowhere = std::numeric_limits<std::size_t>::max();
 // Of the spring over that of a half cell, where faces are affine and do not give way to what pulls at them: as stiff as
 // it may be without a shorter step.
 constexpr double affine_stiffness = 2.0;
+constexpr double turned_mates = 0.17;  // [rad]: sides that have turned so far against each other are no mates any more
 
 }  // namespace
 
@@ -18,7 +20,7 @@ template <int Dim>
 BondSprings<Dim>::BondSprings(const Bodies<Dim>& bodies, Ccg<Dim>& ccg, const BodyFrames<Dim>& frames,
                               const RankPart<Dim>& part, std::span<const BondPlace<Dim>> places,
                               std::span<const std::size_t> of_springs, const std::vector<double>& share,
-                              std::span<const double> stiffness)
+                              std::span<const double> stiffness, std::span<const double> normal_stiffness)
     : ccg_(ccg),
       frames_(frames),
       places_(places),
@@ -42,7 +44,9 @@ BondSprings<Dim>::BondSprings(const Bodies<Dim>& bodies, Ccg<Dim>& ccg, const Bo
             spring.ends[side] = {face, places[place].position - centroid[face], places[place].position,
                                  static_cast<std::size_t>(bodies.deformable_body(places[place].bodies[side]))};
         }
-        spring.stiffness = places[place].area * (stiffness[place] > 0.0 ? stiffness[place] : 1.0 / compliance);
+        const auto given = [&](double value) { return places[place].area * (value > 0.0 ? value : 1.0 / compliance); };
+        spring.stiffness = given(stiffness[place]);
+        spring.normal_stiffness = given(normal_stiffness[place]);
         springs_.push_back(spring);
     }
     for (std::size_t i = 0; i < faces_.here().size(); ++i) here_[faces_.here()[i]] = i;
@@ -140,16 +144,52 @@ void BondSprings<Dim>::collect() {
     begin_collecting();
     pushes_.assign(frames_.n_bodies(), {});
     for (std::size_t i = 0; i < springs_.size(); ++i) {
-        const Vector<Dim> pull = 0.5 * share_[springs_[i].place] * springs_[i].stiffness *
-                                 (x_0_[i][1] - x_0_[i][0] + x_1_[i][1] - x_1_[i][0]);  // dV/dx_2
-        for (std::size_t side = 0; side < 2; ++side) {
-            const End& end = springs_[i].ends[side];
-            const Vector<Dim> gradient = side == 0 ? Vector<Dim>(-pull) : pull;
-            pushes_[end.body].add(gradient, 0.5 * (x_0_[i][side] - frames_.start()[end.body].centre + x_1_[i][side] -
-                                                   frames_.end()[end.body].centre));
-            add(end, frames_.step(end.body).force_turn().transpose() * gradient);
-        }
+        Vector<Dim> pull = 0.5 * share_[springs_[i].place] * springs_[i].stiffness *
+                           (x_0_[i][1] - x_0_[i][0] + x_1_[i][1] - x_1_[i][0]);  // dV/dx_2
+        if (pressure_stiffness(springs_[i]) != 0.0) pull += pressure(i);
+        push_sides(i, pull);
     }
+}
+
+template <int Dim>
+void BondSprings<Dim>::push_sides(std::size_t spring, const Vector<Dim>& pull) {
+    for (std::size_t side = 0; side < 2; ++side) {
+        const End& end = springs_[spring].ends[side];
+        const Vector<Dim> gradient = side == 0 ? Vector<Dim>(-pull) : pull;
+        pushes_[end.body].add(gradient, 0.5 * (x_0_[spring][side] - frames_.start()[end.body].centre + x_1_[spring][side] -
+                                               frames_.end()[end.body].centre));
+        add(end, frames_.step(end.body).force_turn().transpose() * gradient);
+    }
+}
+
+/// dV/dx_2 of pressure_stiffness. V depends on the normal, too, which turns with the first body: that is a moment on it, as
+/// of a point at the end of the normal.
+template <int Dim>
+Vector<Dim> BondSprings<Dim>::pressure(std::size_t spring) {
+    const Sides start = sides_at(spring, x_0_, frames_.start()), end = sides_at(spring, x_1_, frames_.end());
+    const double push =
+        pressure_stiffness(springs_[spring]) * pressed_along(start.distance(), end.distance()).gradient;
+    const Vector<Dim> normal = 0.5 * (start.normal + end.normal), jump = 0.5 * (start.jump + end.jump);
+    pushes_[springs_[spring].ends[0].body].moment += push * jump * normal.transpose();
+    return push * normal;
+}
+
+/// Out of the first face as it is at the end of the step.
+template <int Dim>
+Vector<Dim> BondSprings<Dim>::tilted_normal(std::size_t spring) const {
+    const End& end = springs_[spring].ends[0];
+    const Vector<Dim> in_frame =
+        (Matrix<Dim>::Identity() + end_.tilt[end.face]).inverse().transpose() * places_[springs_[spring].place].normal;
+    return frames_.end()[end.body].turn * in_frame;
+}
+
+template <int Dim>
+bool BondSprings<Dim>::are_no_mates(std::size_t spring, const Vector<Dim>& slip) const {
+    const BondPlace<Dim>& place = places_[springs_[spring].place];
+    const auto normal = [&](std::size_t side) -> Vector<Dim> {
+        return frames_.end()[springs_[spring].ends[side].body].turn * place.normal;
+    };
+    return slip.norm() > half_size(place) || normal(0).dot(normal(1)) < std::cos(turned_mates);
 }
 
 /// What springs of no length resist tiny displacements with does not depend on how the bodies stand.
@@ -163,7 +203,12 @@ FaceCorrections<Dim> BondSprings<Dim>::stiffness_of(std::span<const Vector<Dim>>
         const auto at = [&](const End& end) -> Vector<Dim> {
             return end_.displacement[end.face] + end_.tilt[end.face] * end.arm;
         };
-        const Vector<Dim> pull = share_[spring.place] * spring.stiffness * (at(spring.ends[1]) - at(spring.ends[0]));
+        const Vector<Dim> jump = at(spring.ends[1]) - at(spring.ends[0]);
+        Vector<Dim> pull = share_[spring.place] * spring.stiffness * jump;
+        if (const double pressed = pressure_stiffness(spring); pressed != 0.0) {
+            const Vector<Dim>& normal = places_[spring.place].normal;
+            pull += pressed * jump.dot(normal) * normal;
+        }
         add(spring.ends[0], -pull);
         add(spring.ends[1], pull);
     }
@@ -190,8 +235,24 @@ std::span<const BodyPush<Dim>> BondSprings<Dim>::pushes(std::span<const BodyPush
 template <int Dim>
 double BondSprings<Dim>::energy() const {
     double energy = 0.0;
-    for (std::size_t i = 0; i < springs_.size(); ++i)
+    for (std::size_t i = 0; i < springs_.size(); ++i) {
         energy += 0.5 * share_[springs_[i].place] * springs_[i].stiffness * (x_1_[i][1] - x_1_[i][0]).squaredNorm();
+        if (pressure_stiffness(springs_[i]) != 0.0) energy += pressure_energy(i);
+    }
+    return energy;
+}
+
+template <int Dim>
+double BondSprings<Dim>::pressure_energy(std::size_t spring) const {
+    const double pressed = std::min(sides_at(spring, x_1_, frames_.end()).distance(), 0.0);
+    return 0.5 * pressure_stiffness(springs_[spring]) * pressed * pressed;
+}
+
+template <int Dim>
+double BondSprings<Dim>::pressure_energy(std::span<const std::size_t> places) const {
+    double energy = 0.0;
+    for (std::size_t i = 0; i < springs_.size(); ++i)
+        if (std::ranges::find(places, springs_[i].place) != places.end()) energy += pressure_energy(i);
     return energy;
 }
 

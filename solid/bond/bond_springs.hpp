@@ -9,7 +9,9 @@
 #include "abut/solid/body/bodies.hpp"
 #include "abut/solid/body/body_frames.hpp"
 #include "abut/solid/bond/bond_faces.hpp"
+#include "abut/solid/bond/bond_law.hpp"
 #include "abut/solid/bond/merged_corrections.hpp"
+#include "abut/solid/bond/pressed_sides.hpp"
 #include "abut/solid/boundary/bond_places.hpp"
 #include "abut/solid/ccg/ccg.hpp"
 
@@ -25,11 +27,12 @@ template <int Dim>
 class BondSprings {
 public:
     /// All but `of_springs` and `stiffness` must outlive it; `frames` are led along each step before it. Of all places
-    /// (n_places) those that are springs, whose faces nothing holds, the share of the pull that a place has, and its
-    /// stiffness [Pa/m], 0: that of both half cells along the normal. A call of all ranks.
+    /// (n_places) those that are springs, whose faces nothing holds, the share of the pull that a place has, its
+    /// stiffness and that against pressure [Pa/m], 0: that of both half cells along the normal. A call of all ranks.
     BondSprings(const Bodies<Dim>& bodies, Ccg<Dim>& ccg, const BodyFrames<Dim>& frames, const RankPart<Dim>& part,
                 std::span<const BondPlace<Dim>> places, std::span<const std::size_t> of_springs,
-                const std::vector<double>& share, std::span<const double> stiffness);
+                const std::vector<double>& share, std::span<const double> stiffness,
+                std::span<const double> normal_stiffness);
 
     [[nodiscard]] bool any() const { return !springs_.empty(); }
     [[nodiscard]] const BondFaces<Dim>& faces() const { return faces_; }
@@ -49,22 +52,26 @@ public:
     /// Pushes of the springs on each body, added to those of others (n_bodies that deform).
     [[nodiscard]] std::span<const BodyPush<Dim>> pushes(std::span<const BodyPush<Dim>> others);
     [[nodiscard]] double energy() const;  ///< at the end of the step [J]
+    /// Part of it that these places hold by their pressure [J].
+    [[nodiscard]] double pressure_energy(std::span<const std::size_t> places) const;
     /// The end alone: `energy` is that of it. What springs pull with stays.
     void see_end(std::span<const Vector<Dim>> q_1, const BoundaryLoad<Dim>& load_1, StepState state);
-    /// Calls visit(place, traction, stiffness, held_0, normal): in space at the end of the step dV/dx_2 per area of a whole
-    /// place [Pa] and the normal out of the first face; k_12 [Pa/m], and V per area of a whole one at the start [J/m^2].
-    template <class Visit>
-    void for_each_traction(const Visit& visit) const {
+    /// Calls visit(place, pull): what the end of the step pulls each with. `leaves_pressure(place)`: out of it.
+    template <class LeavesPressure, class Visit>
+    void for_each_pull(const LeavesPressure& leaves_pressure, const Visit& visit) const {
         for (std::size_t i = 0; i < springs_.size(); ++i) {
-            const BondSpring& spring = springs_[i];
-            const BondPlace<Dim>& place = places_[spring.place];
-            const End& end = spring.ends[0];
-            const Vector<Dim> in_frame =
-                (Matrix<Dim>::Identity() + end_.tilt[end.face]).inverse().transpose() * place.normal;
-            const double stiffness = spring.stiffness / place.area;
-            visit(spring.place, Vector<Dim>(stiffness * (x_1_[i][1] - x_1_[i][0])), stiffness,
-                  0.5 * stiffness * (x_0_[i][1] - x_0_[i][0]).squaredNorm(),
-                  Vector<Dim>(frames_.end()[end.body].turn * in_frame));
+            const std::size_t place = springs_[i].place;
+            const double stiffness = springs_[i].stiffness / places_[place].area;
+            const Sides start = sides_at(i, x_0_, frames_.start()), end = sides_at(i, x_1_, frames_.end());
+            const bool leaves = leaves_pressure(place);
+            const Vector<Dim> slip = leaves ? end.beside_pressure() : end.jump;
+            visit(place,
+                  BondPull{.traction = stiffness * slip.norm(),
+                           .stiffness = stiffness,
+                           .held_0 = 0.5 * stiffness * (leaves ? start.beside_pressure() : start.jump).squaredNorm(),
+                           .parts = end.jump.dot(tilted_normal(i)) > 0.0,
+                           .is_pressed = end.distance() < 0.0,
+                           .has_slid = are_no_mates(i, slip)});
         }
     }
     /// Calls visit(place, k_12) [Pa/m].
@@ -82,10 +89,22 @@ private:
     };
     struct BondSpring {
         std::array<End, 2> ends;
-        double stiffness;  // k_12 A [N/m]
+        double stiffness;         // k_12 A [N/m]
+        double normal_stiffness;  // of sides that press on each other [N/m]
         std::size_t place;
     };
     using Positions = std::vector<std::array<Vector<Dim>, 2>>;
+    /// Both sides of a place in one state, in space.
+    struct Sides {
+        Vector<Dim> jump;    // x_2 - x_1 [m]
+        Vector<Dim> normal;  // out of the first face, as it turns with its body
+        [[nodiscard]] double distance() const { return jump.dot(normal); }
+        /// The jump without what they are pressed.
+        [[nodiscard]] Vector<Dim> beside_pressure() const {
+            const double along = distance();
+            return along < 0.0 ? Vector<Dim>(jump - along * normal) : jump;
+        }
+    };
     /// Displacement and tilt of faces_, in their frames.
     struct Tilted {
         std::vector<Vector<Dim>> displacement;
@@ -95,6 +114,19 @@ private:
     void begin_collecting();
     void collect();
     void add(const End& end, const Vector<Dim>& in_frame);
+    [[nodiscard]] Sides sides_at(std::size_t spring, const Positions& x, std::span<const BodyFrame<Dim>> frames) const {
+        const BondSpring& of = springs_[spring];
+        return {x[spring][1] - x[spring][0], frames[of.ends[0].body].turn * places_[of.place].normal};
+    }
+    [[nodiscard]] double pressure_energy(std::size_t spring) const;
+    [[nodiscard]] Vector<Dim> tilted_normal(std::size_t spring) const;
+    [[nodiscard]] bool are_no_mates(std::size_t spring, const Vector<Dim>& slip) const;
+    void push_sides(std::size_t spring, const Vector<Dim>& pull);
+    /// Of the pressure that is no part of the pull of the spring [N/m]; 0 of whole ones that always were springs.
+    [[nodiscard]] double pressure_stiffness(const BondSpring& spring) const {
+        return spring.normal_stiffness - share_[spring.place] * spring.stiffness;
+    }
+    [[nodiscard]] Vector<Dim> pressure(std::size_t spring);
     void evaluate_own(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load, StepState state, Tilted& faces);
     void bring(std::initializer_list<Tilted*> states);
     void place(std::span<const BodyFrame<Dim>> frames, const Tilted& faces, Positions& x) const;

@@ -55,6 +55,7 @@ Bonds<Dim>::Bonds(const Bodies<Dim>& bodies, Ccg<Dim>& ccg, const BodyFrames<Dim
       places_(bodies.bond_places()),
       share_(places_.size(), 1.0),
       loosened_(places_.size(), 0.0),
+      normal_stiffness_(places_.size(), 0.0),
       taken_(places_.size(), 0.0),
       opened_(places_.size(), 0.0) {
     check_bodies();
@@ -74,7 +75,7 @@ template <int Dim>
 std::vector<std::size_t> Bonds<Dim>::held_joints() const {
     std::vector<std::size_t> held;
     for (std::size_t p = 0; p < places_.size(); ++p)
-        if (holds_as_joint(p)) held.push_back(p);
+        if (is_joint(p)) held.push_back(p);
     return held;
 }
 
@@ -94,6 +95,7 @@ void Bonds<Dim>::make_joints(std::span<const std::size_t> of_joints) {
             if (faces_->is_own(joints_[j].face[side])) own_sides.push_back(2 * j + side);
     sides_ = RankItems(part_.ranks(), std::move(own_sides));
     for (auto* jump : {&jump_, &jump_0_, &jump_1_}) jump->resize(joints_.size());
+    pressed_.resize(joints_.size());
     for (auto* of_sides : {&of_side_0_, &of_side_1_}) of_sides->resize(2 * joints_.size());
     for (auto* of_face : {&of_face_, &delta_, &excess_, &gradient_}) of_face->resize(faces_->size());
     delta_here_.resize(faces_->here().size());
@@ -107,18 +109,33 @@ template <int Dim>
 void Bonds<Dim>::make_springs() {
     std::vector<std::size_t> of_springs;
     for (std::size_t p = 0; p < places_.size(); ++p)
-        if (!is_joint(p) && !is_broken(p)) of_springs.push_back(p);
-    springs_ = std::make_unique<BondSprings<Dim>>(bodies_, ccg_, frames_, part_, places_, of_springs, share_, loosened_);
+        if (!is_joint(p) && !is_gone(p)) of_springs.push_back(p);
+    springs_ = std::make_unique<BondSprings<Dim>>(bodies_, ccg_, frames_, part_, places_, of_springs, share_, loosened_,
+                                                  normal_stiffness_);
 }
 
 /// Places that are broken, or springs by now, are no joints any more, and broken springs are none.
 template <int Dim>
-void Bonds<Dim>::leave_out_broken() {
+std::vector<std::size_t> Bonds<Dim>::leave_out_broken() {
+    std::vector<std::size_t> become_springs;
+    for (const Joint& joint : joints_)
+        if (!is_joint(joint.place) && !is_gone(joint.place)) become_springs.push_back(joint.place);
     make_springs();
     const std::vector<std::size_t> of_joints = held_joints();
-    if (std::ranges::equal(of_joints, joints_, {}, {}, &Joint::place)) return;
+    if (std::ranges::equal(of_joints, joints_, {}, {}, &Joint::place)) return become_springs;
     faces_.emplace(mesh_, part_, places_, of_joints);
     make_joints(of_joints);
+    return become_springs;
+}
+
+template <int Dim>
+void Bonds<Dim>::soften(std::span<const std::size_t> places, double energy) {
+    constexpr double least = 0.1;
+    const double held = springs_->pressure_energy(places);
+    if (!(held > 0.0)) return;
+    const double left = std::clamp(1.0 - energy / held, least, 1.0);
+    for (const std::size_t place : places) normal_stiffness_[place] *= left;
+    make_springs();
 }
 
 template <int Dim>
@@ -221,6 +238,11 @@ void Bonds<Dim>::append_joint(std::size_t place) {
     joint.share[0] = (made_firm<Dim>(k_1) + made_firm<Dim>(k_2)).inverse() * made_firm<Dim>(k_2);
     joint.share[1] = joint.share[0] - Matrix<Dim>::Identity();
     joint.stiffness = joint.share[0].transpose() * k_1 * joint.share[0] + joint.share[1].transpose() * k_2 * joint.share[1];
+    joint.normal = places_[place].normal;
+    const Vector<Dim> compliance = made_firm<Dim>(joint.stiffness).inverse() * joint.normal;
+    joint.normal_stiffness = 1.0 / joint.normal.dot(compliance);
+    joint.under_pressure = joint.normal_stiffness * compliance;
+    normal_stiffness_[place] = joint.normal_stiffness;
     joints_.push_back(joint);
 }
 
@@ -259,7 +281,7 @@ template <int Dim>
 std::vector<std::int32_t> Bonds<Dim>::frame_groups() const {
     DisjointSets held(static_cast<std::size_t>(mesh_.n_bodies()));
     for (std::size_t p = 0; p < places_.size(); ++p)
-        if (holds_as_joint(p) && bodies_.have_one_frame(places_[p]))
+        if (is_joint(p) && bodies_.have_one_frame(places_[p]))
             held.join(bodies_.deformable_body(places_[p].bodies[0]), bodies_.deformable_body(places_[p].bodies[1]));
     std::vector<std::int32_t> groups;
     for (std::int32_t body = 0; body < mesh_.n_bodies(); ++body) groups.push_back(held.find(body));
@@ -273,7 +295,7 @@ void Bonds<Dim>::find_opening() {
         while (end < places_.size() && places_[end].bond == places_[first].bond) ++end;
         bool holds = false, has_opened = false;
         for (std::size_t p = first; p < end; ++p) {
-            holds = holds || holds_as_joint(p);
+            holds = holds || is_joint(p);
             has_opened = has_opened || share_[p] < 1.0;
         }
         if (holds && has_opened && bodies_.have_one_frame(places_[first])) opening_.push_back(first);
@@ -307,7 +329,8 @@ void Bonds<Dim>::loosen(std::span<const std::size_t> bonds) {
     for (std::size_t i = 0; i < joints_.size(); ++i) {
         const std::size_t p = joints_[i].place;
         if (!std::ranges::binary_search(bonds, places_[p].bond)) continue;
-        const Vector<Dim> along = jump_[i].isZero(0.0) ? places_[p].normal : jump_[i];
+        const Vector<Dim> beside = beside_pressure(joints_[i], jump_[i]);
+        const Vector<Dim> along = beside.isZero(0.0) ? places_[p].normal : beside;
         loosened_[p] = along.dot(joints_[i].stiffness * along) / along.squaredNorm();
     }
     leave_out_broken();
@@ -319,7 +342,7 @@ void Bonds<Dim>::loosen(std::span<const std::size_t> bonds) {
 template <int Dim>
 void Bonds<Dim>::stand_at(std::span<const Vector<Dim>> q, const BoundaryLoad<Dim>& load) {
     if (!any()) return;
-    stand_linear(of_cells(q, frames_.end()), load);
+    stand_linear(of_cells(q, frames_.end()), load, pressed_at);
     springs_->stand_at(q, load);
 }
 
@@ -332,11 +355,22 @@ std::span<const Vector<Dim>> Bonds<Dim>::of_cells(std::span<const Vector<Dim>> q
 }
 
 template <int Dim>
-void Bonds<Dim>::stand_linear(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load) {
+void Bonds<Dim>::stand_linear(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load,
+                              PressedSides (*pressed)(double distance)) {
     take_own_sides(u, load, of_side_0_);
     sides_.bring({{as_values<Dim>(of_side_0_), Dim}});
     take_jumps(of_side_0_, jump_);
-    set_corrections(jump_, delta_, delta_here_);
+    look_at_sides([&](std::size_t i) { return pressed(normal_part(joints_[i], jump_[i])); }, pressed_);
+    set_corrections(jump_, pressed_, delta_, delta_here_);
+}
+
+/// look(i): of joint i.
+template <int Dim>
+template <class Look>
+void Bonds<Dim>::look_at_sides(const Look& look, std::vector<PressedSides>& pressed) const {
+    pressed.resize(joints_.size());
+    for (std::size_t i = 0; i < joints_.size(); ++i)
+        if (share_of(joints_[i]) < 1.0) pressed[i] = look(i);  // nobody asks for those of whole ones
 }
 
 template <int Dim>
@@ -347,7 +381,8 @@ std::span<const Vector<Dim>> Bonds<Dim>::displacement_at(std::span<const Vector<
     delta_at_.resize(delta_.size());
     delta_here_at_.resize(delta_here_.size());
     take_jumps(of_side_0_, jump_at_);
-    set_corrections(jump_at_, delta_at_, delta_here_at_);
+    look_at_sides([&](std::size_t i) { return pressed_at(normal_part(joints_[i], jump_at_[i])); }, pressed_at_);
+    set_corrections(jump_at_, pressed_at_, delta_at_, delta_here_at_);
     return delta_here_at_;
 }
 
@@ -366,10 +401,21 @@ void Bonds<Dim>::follow(std::span<const Vector<Dim>> q_0, const BoundaryLoad<Dim
     take_jumps(of_side_1_, jump_1_);
     if (!change_here_.empty()) {
         for (std::size_t i = 0; i < joints_.size(); ++i) jump_[i] = jump_1_[i] - jump_0_[i];
-        set_corrections(jump_, delta_, change_here_);
+        look_at_sides(
+            [&](std::size_t i) {
+                const double start = normal_part(joints_[i], jump_0_[i]), end = normal_part(joints_[i], jump_1_[i]);
+                return PressedSides{.mean = std::min(end, 0.0) - std::min(start, 0.0)};
+            },
+            pressed_);
+        set_corrections(jump_, pressed_, delta_, change_here_);
     }
     for (std::size_t i = 0; i < joints_.size(); ++i) jump_[i] = 0.5 * (jump_0_[i] + jump_1_[i]);
-    set_corrections(jump_, delta_, delta_here_);
+    look_at_sides(
+        [&](std::size_t i) {
+            return pressed_along(normal_part(joints_[i], jump_0_[i]), normal_part(joints_[i], jump_1_[i]));
+        },
+        pressed_);
+    set_corrections(jump_, pressed_, delta_, delta_here_);
     springs_->follow(q_0, load_0, q_1, load_1);
 }
 
@@ -420,15 +466,19 @@ void Bonds<Dim>::take_jumps(std::span<const Vector<Dim>> of_sides, std::vector<V
 }
 
 template <int Dim>
-void Bonds<Dim>::set_corrections(std::span<const Vector<Dim>> jump, std::vector<Vector<Dim>>& delta,
-                                 std::vector<Vector<Dim>>& here) const {
+void Bonds<Dim>::set_corrections(std::span<const Vector<Dim>> jump, std::span<const PressedSides> pressed,
+                                 std::vector<Vector<Dim>>& delta, std::vector<Vector<Dim>>& here) const {
     for (Vector<Dim>& of_face : delta) of_face.setZero();
-    for (std::size_t p = 0; p < joints_.size(); ++p)
+    for (std::size_t p = 0; p < joints_.size(); ++p) {
+        const Joint& joint = joints_[p];
+        const double share = share_of(joint);
+        const Vector<Dim> borne =
+            share < 1.0 ? Vector<Dim>(share * jump[p] + (1.0 - share) * pressed[p].mean * joint.under_pressure) : jump[p];
         for (std::size_t side = 0; side < 2; ++side) {
-            const std::size_t face = joints_[p].face[side];
-            const double weight = share_of(joints_[p]) * joints_[p].area / of_faces_[face].measure;
-            delta[face] += weight * (joints_[p].share[side] * jump[p]);
+            const std::size_t face = joint.face[side];
+            delta[face] += joint.area / of_faces_[face].measure * (joint.share[side] * borne);
         }
+    }
     for (std::size_t i = 0; i < here.size(); ++i) here[i] = delta[faces_->here()[i]];
 }
 
@@ -448,8 +498,13 @@ template <int Dim>
 double Bonds<Dim>::energy() const {
     if (!any()) return 0.0;
     double energy = springs_->energy();
-    for (std::size_t p = 0; p < joints_.size(); ++p)
-        energy += 0.5 * share_of(joints_[p]) * joints_[p].area * jump_[p].dot(joints_[p].stiffness * jump_[p]);
+    for (std::size_t p = 0; p < joints_.size(); ++p) {
+        const Joint& joint = joints_[p];
+        const double share = share_of(joint);
+        energy += 0.5 * share * joint.area * jump_[p].dot(joint.stiffness * jump_[p]);
+        if (share < 1.0)
+            energy += 0.5 * (1.0 - share) * joint.area * joint.normal_stiffness * pressed_[p].mean * pressed_[p].mean;
+    }
     for (std::size_t i = 0; i < of_faces_.size(); ++i)
         energy -= 0.5 * of_faces_[i].measure * delta_[i].dot(of_faces_[i].stiffness * delta_[i]);
     return energy;
@@ -484,15 +539,26 @@ void Bonds<Dim>::take_excess() {
     faces_->items().bring({{as_values<Dim>(excess_), Dim}});
 }
 
+/// dV/dDelta of a place [N].
+template <int Dim>
+Vector<Dim> Bonds<Dim>::push_of(const Joint& joint, const Vector<Dim>& jump, const PressedSides& pressed) const {
+    const double share = share_of(joint);
+    const Vector<Dim> of_first = joint.share[0].transpose() * excess_[joint.face[0]],
+                      of_second = joint.share[1].transpose() * excess_[joint.face[1]];
+    const Vector<Dim> whole = joint.stiffness * jump + of_first + of_second;
+    if (share == 1.0) return joint.area * whole;
+    const double pressure = joint.normal_stiffness * pressed.gradient +
+                            pressed.slope * joint.under_pressure.dot(of_first + of_second);
+    return joint.area * (share * whole + (1.0 - share) * pressure * joint.normal);
+}
+
 /// Each place pushes both faces, and the cells on whose slope it depends beside that.
 template <int Dim>
 void Bonds<Dim>::push_faces(std::span<Vector<Dim>> gradient) {
     for (Vector<Dim>& of_face : gradient_) of_face.setZero();
     for (std::size_t p = 0; p < joints_.size(); ++p) {
         const Joint& joint = joints_[p];
-        const Vector<Dim> push = share_of(joint) * joint.area *
-                                 (joint.stiffness * jump_[p] + joint.share[0].transpose() * excess_[joint.face[0]] +
-                                  joint.share[1].transpose() * excess_[joint.face[1]]);
+        const Vector<Dim> push = push_of(joint, jump_[p], pressed_[p]);
         for (std::size_t side = 0; side < 2; ++side) {
             const Vector<Dim> on_side = side == 0 ? Vector<Dim>(-push) : push;
             gradient_[joint.face[side]] += on_side;
@@ -533,6 +599,7 @@ void Bonds<Dim>::save(StateWriter& state) const {
     state.put_all(std::span<const double>(loosened_));
     state.put_all(std::span<const double>(taken_));
     state.put_all(std::span<const double>(opened_));
+    state.put_all(std::span<const double>(normal_stiffness_));
 }
 
 template <int Dim>
@@ -543,18 +610,20 @@ void Bonds<Dim>::restore(StateReader& state) {
                            " places that are bonded, and here are " + std::to_string(share_.size()) +
                            ". Restore it where bonds are the same.",
                        {.value = static_cast<double>(share.size()), .allowed = static_cast<double>(share_.size())});
-    std::array<std::vector<double>, 4> others;
+    std::array<std::vector<double>, 5> others;
     for (std::vector<double>& of_places : others) {
         of_places = state.get_all<double>();
         if (of_places.size() != share.size())
             throw BadInput(mesh_.name + ": the saved state of its bonds is damaged. Take another checkpoint.");
     }
-    auto& [strengths, loosened, taken, opened] = others;
+    auto& [strengths, loosened, taken, opened, normal_stiffness] = others;
     share_ = share;
     loosened_ = loosened;
     taken_ = taken;
     opened_ = opened;
     leave_out_broken();
+    normal_stiffness_ = normal_stiffness;
+    make_springs();
     find_opening();
     for (std::size_t p = 0; p < places_.size(); ++p) places_[p].strength = strengths[p];  // drawn once
 }

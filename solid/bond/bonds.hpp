@@ -16,6 +16,7 @@
 #include "abut/solid/bond/bond_springs.hpp"
 #include "abut/solid/bond/fit_to_law.hpp"
 #include "abut/solid/bond/merged_corrections.hpp"
+#include "abut/solid/bond/pressed_sides.hpp"
 #include "abut/solid/boundary/bond_places.hpp"
 #include "abut/solid/ccg/ccg.hpp"
 
@@ -36,9 +37,12 @@ namespace abut::solid {
 ///
 /// All of it is quadratic in the displacements of the cells. Where a body may turn: BondSprings. docs/method.md, Bonds.
 ///
-/// A place whose traction t = s K_12 Delta pulls the faces apart and would exceed the strength gives way: its share s
+/// A place whose traction t = s K_12 Delta would exceed the strength, pressure not counted, gives way: its share s
 /// falls, at once to 0 or so that t falls with the opening until all of the fracture energy is taken (bond_law.hpp). What V
 /// loses by that is dissipated. In a step the share lies between those of both ends, so that it is what the law takes.
+///
+/// Sides that press on each other hold as much pressure as those of a whole place (pressed_sides.hpp). A place that bears
+/// nothing else is broken; it is gone once its sides have opened, or slid off each other.
 template <int Dim>
 class Bonds {
 public:
@@ -51,7 +55,10 @@ public:
     [[nodiscard]] bool any() const { return !places_.empty(); }
     [[nodiscard]] std::span<const BondPlace<Dim>> places() const { return places_; }
     [[nodiscard]] std::span<const BondCoverage> coverage() const { return bodies_.bond_coverage(); }
-    [[nodiscard]] bool is_broken(std::size_t place) const { return share_[place] == 0.0; }
+    /// Whether it bears nothing: its sides may still press on each other as they are.
+    [[nodiscard]] bool is_broken(std::size_t place) const { return share_[place] <= pressed_share; }
+    /// Whether its sides have opened, or slid off each other, since: contact alone keeps them apart.
+    [[nodiscard]] bool is_gone(std::size_t place) const { return share_[place] == 0.0; }
     /// Whether one has a strength.
     [[nodiscard]] bool any_breaks() const;
 
@@ -93,7 +100,7 @@ public:
     template <class Apply>
     void add_stiffness(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load, const Apply& apply,
                        std::span<Vector<Dim>> product) {
-        stand_linear(u, load);
+        stand_linear(u, load, always_pressed);
         of_others_ = springs_->stiffness_of(u, load);
         apply(any() ? merged_.of(of_others_, own_corrections()) : FaceCorrections<Dim>{});
         add_gradient(product);
@@ -118,11 +125,18 @@ public:
     /// end, or of its mean force.
     enum class When { start, middle, end };
     void set_shares(std::span<const BondChange> changes, When when);
-    /// The step has ended, and these places have the share of its end from now on. Those that are broken cost nothing any
-    /// more. A call of all ranks.
+    /// The step has ended, and these places have the share of its end from now on.
     void end_changes(std::span<const BondChange> changes);
-    /// Whether a place broke in the last step that has ended so.
+    /// Whether a place broke or went in the last step that has ended so.
     [[nodiscard]] bool any_broke() const { return any_broke_; }
+    /// Whether one did so under pressure: V changes in the next call.
+    [[nodiscard]] bool any_broke_pressed() const { return any_broke_pressed_; }
+    /// Places that are broken are springs against pressure alone, and those that are gone take no part any more. Returns
+    /// those that have become springs by that. A call of all ranks.
+    std::vector<std::size_t> leave_out_broken();
+    /// These springs hold less of their pressure by this energy [J], a tenth of it at least, in the state of the last
+    /// `stand_at`. A call of all ranks.
+    void soften(std::span<const std::size_t> places, double energy);
     [[nodiscard]] double share(std::size_t place) const { return share_[place]; }
     /// Energy that places with a fracture energy have lost beyond what belongs to their openings; less than 0: they have
     /// lost less [J].
@@ -160,6 +174,9 @@ private:
         double area;                          // A_p
         std::array<Matrix<Dim>, 2> share;     // theta_1, -theta_2
         Matrix<Dim> stiffness;                // K_12 [Pa/m]
+        Vector<Dim> normal;                   // n, from the first face into the second
+        Vector<Dim> under_pressure;           // the jump where n . Delta = 1 and K_12 Delta is along n
+        double normal_stiffness;              // of that: 1/(n . K_12^-1 n) [Pa/m]
         std::array<std::size_t, 2> slope_of;  // the first entry of each side in slope_; none of faces that are not here
         std::array<std::size_t, 2> slope_end;
     };
@@ -179,12 +196,10 @@ private:
     [[nodiscard]] std::vector<std::size_t> held_joints() const;
     void make_joints(std::span<const std::size_t> of_joints);
     void make_springs();
-    void leave_out_broken();
     /// Whether it is the interface of half cells, and else a spring.
     [[nodiscard]] bool is_joint(std::size_t place) const {
-        return bodies_.is_joint(places_[place]) && loosened_[place] == 0.0;
+        return bodies_.is_joint(places_[place]) && loosened_[place] == 0.0 && !is_broken(place);
     }
-    [[nodiscard]] bool holds_as_joint(std::size_t place) const { return is_joint(place) && !is_broken(place); }
     void check_bodies() const;
     void check_metal(std::span<const std::size_t> of_joints) const;
     void check(BoundaryFace face) const;
@@ -197,19 +212,28 @@ private:
     void find_opening();
     [[nodiscard]] std::span<const Vector<Dim>> of_cells(std::span<const Vector<Dim>> q,
                                                         std::span<const BodyFrame<Dim>> frames);
-    void stand_linear(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load);
+    void stand_linear(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load,
+                      PressedSides (*pressed)(double distance));
     [[nodiscard]] bool begins_at_end(std::span<const Vector<Dim>> q_0, const BoundaryLoad<Dim>& load_0) const;
     void keep_end(std::span<const Vector<Dim>> q_1, const BoundaryLoad<Dim>& load_1);
     void take_own_sides(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load, std::vector<Vector<Dim>>& of_sides);
     void take_jumps(std::span<const Vector<Dim>> of_sides, std::vector<Vector<Dim>>& jump) const;
-    void set_corrections(std::span<const Vector<Dim>> jump, std::vector<Vector<Dim>>& delta,
-                         std::vector<Vector<Dim>>& here) const;
+    void set_corrections(std::span<const Vector<Dim>> jump, std::span<const PressedSides> pressed,
+                         std::vector<Vector<Dim>>& delta, std::vector<Vector<Dim>>& here) const;
     [[nodiscard]] double share_of(const Joint& joint) const { return share_[joint.place]; }
+    [[nodiscard]] static double normal_part(const Joint& joint, const Vector<Dim>& jump) { return joint.normal.dot(jump); }
+    /// The jump without what the sides are pressed.
+    [[nodiscard]] static Vector<Dim> beside_pressure(const Joint& joint, const Vector<Dim>& jump) {
+        const double along = normal_part(joint, jump);
+        return along < 0.0 ? Vector<Dim>(jump - along * joint.under_pressure) : jump;
+    }
+    template <class Look>
+    void look_at_sides(const Look& look, std::vector<PressedSides>& pressed) const;
+    [[nodiscard]] Vector<Dim> push_of(const Joint& joint, const Vector<Dim>& jump, const PressedSides& pressed) const;
     [[nodiscard]] FaceCorrections<Dim> own_corrections() const { return {faces_->faces_here(), delta_here_, {}, {}}; }
     void check_fracture_energy() const;
     [[nodiscard]] double fracture_energy(std::size_t place) const;
-    void append_change(std::size_t place, const Vector<Dim>& traction, double stiffness, double held_0,
-                       const Vector<Dim>& normal, std::vector<BondChange>& changes) const;
+    void append_change(std::size_t place, const BondPull& pull, std::vector<BondChange>& changes) const;
     [[nodiscard]] Vector<Dim> bulk_gradient(const BondedFace& of_cell, BoundaryFace face) const;
     void take_excess();
     void push_faces(std::span<Vector<Dim>> gradient);
@@ -222,9 +246,10 @@ private:
     std::vector<BondPlace<Dim>> places_;
     std::vector<double> share_;     // by place, from 1, whole, to 0, broken
     std::vector<double> loosened_;  // by place: its stiffness if it has become a spring [Pa/m]; 0: it has not
+    std::vector<double> normal_stiffness_;  // by place, of those that are or were joints, against pressure [Pa/m]
     // By place, where it has a fracture energy: what of it was taken [J/m^2], and its opening over that of a broken place
     std::vector<double> taken_, opened_;
-    bool any_broke_ = false;
+    bool any_broke_ = false, any_broke_pressed_ = false;  // in the last step
     std::vector<std::size_t> opening_;   // first place of each bond of grains in one frame that has begun to open and holds
     std::vector<BondChange> in_middle_;  // whose share is that of the mean force of a step
     std::unique_ptr<BondSprings<Dim>> springs_;
@@ -238,9 +263,11 @@ private:
     std::vector<Vector<Dim>> of_side_0_, of_side_1_;  // y at the place, by side: elsewhere, and at `end_` [m]
     End end_;
     std::vector<Vector<Dim>> jump_, jump_0_, jump_1_;  // Delta, by joint: as it counts, and at both ends of a step [m]
+    std::vector<PressedSides> pressed_;                // of joints, as `jump_`
     std::vector<Vector<Dim>> of_face_;                 // û, by bonded face here [m]
     std::vector<Vector<Dim>> delta_, delta_here_;      // by bonded face, by those here [m]
     std::vector<Vector<Dim>> jump_at_, delta_at_, delta_here_at_;  // of `displacement_at`
+    std::vector<PressedSides> pressed_at_;
     std::vector<Vector<Dim>> change_here_;                         // of delta in a step; empty: nothing is damped
     std::vector<Vector<Dim>> excess_;    // of the face's traction over that of its half cell alone, by bonded face [Pa]
     std::vector<Vector<Dim>> gradient_;  // dV/dû through the corrections, by bonded face [N]

@@ -72,6 +72,13 @@ public:
             return bonds_.places()[entry.place].bodies[1 - entry.side] == body && !bonds_.is_broken(entry.place);
         });
     }
+    /// Whether both are the sides of a broken place that still press on each other.
+    [[nodiscard]] bool press(contact::Face face_1, contact::Face face_2) const {
+        return std::ranges::any_of(of(face_1), [&](const Entry& entry) {
+            const std::size_t mate = bonds_.places()[entry.place].numbers[1 - entry.side];
+            return mate == static_cast<std::size_t>(face_2) && !bonds_.is_gone(entry.place);
+        });
+    }
 
 private:
     struct Entry {
@@ -89,8 +96,8 @@ private:
     std::vector<std::size_t> begin_;  // of each face, one more at the end
 };
 
-/// Leaves out pairs of faces of which one is bonded to the body of the other, and faces that are bonded all over, as the
-/// bonds are when it is asked.
+/// Leaves out pairs of faces of which one is bonded to the body of the other, or which press on each other as sides of a
+/// broken place, and faces that are bonded all over, as the bonds are when it is asked.
 template <int Dim>
 void leave_out_bonded(const CornerSurface<Dim>& corners, const Bonds<Dim>& bonds, contact::NodalOptions& options) {
     if (!bonds.any()) return;
@@ -98,7 +105,8 @@ void leave_out_bonded(const CornerSurface<Dim>& corners, const Bonds<Dim>& bonds
     options.covered = [of_faces](contact::Face face) { return of_faces->covers(face); };
     options.wanted = [of_faces, body_of = corners.bodies_of_faces()](contact::Face face_1, contact::Face face_2) {
         const auto body = [&](contact::Face face) { return body_of[static_cast<std::size_t>(face)]; };
-        return !of_faces->joins(face_1, body(face_2)) && !of_faces->joins(face_2, body(face_1));
+        return !of_faces->joins(face_1, body(face_2)) && !of_faces->joins(face_2, body(face_1)) &&
+               !of_faces->press(face_1, face_2);
     };
 }
 

@@ -150,8 +150,7 @@ TEMPLATE_TEST_CASE_SIG(
 }
 
 TEMPLATE_TEST_CASE_SIG(
-    "a plane that a square pulse tears within few steps takes its fracture energy, and what corners take beyond theirs is "
-    "told",
+    "a plane that a square pulse tears within few steps takes its fracture energy, with corners as well, within 0.1 %",
     "[solid][fracture]", ((int Dim), Dim), 2, 3) {
     const double size = 0.0125;
     const bool has_corners = GENERATE(false, true);
@@ -165,8 +164,7 @@ TEMPLATE_TEST_CASE_SIG(
     const double beyond = bar.solid.dissipated().in_bonds - spall.energy * area;
     CAPTURE(Dim, has_corners, cells, beyond / (spall.energy * area));
     CHECK(bar.solid.bonds().beyond_fracture_energy() == Approx(beyond).margin(1e-12 * spall.energy * area));
-    if (!has_corners) CHECK(std::abs(beyond) <= 1e-3 * spall.energy * area);
-    if (has_corners && cells < 2.0) CHECK(beyond > 0.1 * spall.energy * area);
+    CHECK(std::abs(beyond) <= 1e-3 * spall.energy * area);
     CHECK(ledger.pseudo_energy_drift() <= 1e-12 * ledger.largest_energy());
 }
 

@@ -1,0 +1,143 @@
+// Bonds that are sheared while their sides press on each other.
+#include <algorithm>
+#include <array>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <vector>
+
+#include "abut/mesh/shapes/shapes.hpp"
+#include "abut/solid/bond/pressed_sides.hpp"
+#include "abut/solid/bond_view.hpp"
+#include "abut/solid/boundary/bond_places.hpp"
+#include "abut/solid/contact_view.hpp"
+#include "solid/turning_scenes.hpp"
+
+namespace abut::test {
+namespace {
+
+using solid::Kinematics;
+
+constexpr double bar_length = 1.0, width = 0.25, press = 0.02, strength = 0.0015, fracture_energy = 3e-6;
+
+/// Two equal bars along x whose ends are bonded at x = 0.
+template <int Dim>
+mesh::Mesh<Dim> bonded_bars() {
+    Vector<Dim> lower = Vector<Dim>::Constant(-0.5 * width), upper = Vector<Dim>::Constant(0.5 * width);
+    std::array<int, Dim> counts;
+    counts.fill(Dim == 2 ? 5 : 3);
+    counts[0] *= 4;
+    const CellShape shape = Dim == 2 ? CellShape::quadrangle : CellShape::hexahedron;
+    const auto bar = [&](double from, const char* name) {
+        lower[0] = from;
+        upper[0] = from + bar_length;
+        return mesh::structured_box<Dim>(lower, upper, counts, shape, name);
+    };
+    return together(bar(-bar_length, "left"), bar(0.0, "right"));
+}
+
+enum class BondOfBars { none, springs, grains };
+
+/// They run into each other at `press`, E, rho and the speed of their waves being 1, and pass each other at `pass`.
+template <int Dim>
+TurningScene<Dim> sheared(BondOfBars bond, double pass, Kinematics kinematics = Kinematics::floating) {
+    solid::SolidOptions<Dim> options;
+    options.materials.assign(2, {.young = 1.0, .poisson = 0.0, .density = 1.0});
+    if (bond != BondOfBars::none)
+        options.bonds = {{.sides = {0, 1},
+                          .strength = strength,
+                          .fracture_energy = fracture_energy,
+                          .of_grains = bond == BondOfBars::grains}};
+    options.contact.emplace();
+    const Vector<Dim> velocity = press * Vector<Dim>::Unit(0) + pass * Vector<Dim>::Unit(1);
+    return TurningScene<Dim>(bonded_bars<Dim>(), options, {moving<Dim>(velocity), moving<Dim>(Vector<Dim>(-velocity))}, 0.6,
+                             {kinematics, kinematics});
+}
+
+/// Along the bars [-].
+template <int Dim>
+double speed_of(const TurningScene<Dim>& scene, std::int32_t bar) {
+    double momentum = 0.0, mass = 0.0;
+    for (std::size_t i = 0; i < scene.solid.masses().size(); ++i) {
+        if (scene.mesh.cell_body[i] != bar) continue;
+        momentum += scene.view().momentum(static_cast<std::ptrdiff_t>(i))[0];
+        mass += scene.solid.masses()[i];
+    }
+    return momentum / mass;
+}
+
+template <int Dim>
+double bonded_area() {
+    return std::pow(width, Dim - 1);
+}
+
+}  // namespace
+
+TEMPLATE_TEST_CASE_SIG(
+    "a bond that is sheared under 13 times its strength of pressure takes its fracture energy, within 1 %, and its bars "
+    "rebound as bars without a bond, within 2 %",
+    "[solid][bonds]", ((int Dim), Dim), 2, 3) {
+    const auto bond = GENERATE(BondOfBars::springs, BondOfBars::grains);
+    CAPTURE(Dim, static_cast<int>(bond));
+    const double pass = 0.006, energy = fracture_energy * bonded_area<Dim>();
+    auto scene = sheared<Dim>(bond, pass);
+    scene.run_until(1.5);  // the wave that parts the ends is back at 2
+    CHECK(scene.solid.bonds().broken_share() == 1.0);
+    CHECK(scene.solid.dissipated().in_bonds == Approx(energy).epsilon(0.01));
+    CHECK(std::abs(scene.solid.bonds().beyond_fracture_energy()) <= 0.01 * energy);
+    scene.run_until(3.0);
+    CHECK(scene.solid.dissipated().in_bonds == Approx(energy).epsilon(0.01));
+    CHECK(scene.solid.contact().report().missed_contacts == 0);
+    auto without = sheared<Dim>(BondOfBars::none, pass);
+    without.run_until(3.0);
+    CHECK(speed_of(scene, 0) < -0.85 * press);
+    CHECK(speed_of(scene, 0) == Approx(speed_of(without, 0)).epsilon(0.02));
+    CHECK(speed_of(scene, 1) == Approx(speed_of(without, 1)).epsilon(0.02));
+    const Drifts drifts = scene.drifts();
+    CHECK(drifts.pseudo_energy <= 1e-12);
+    CHECK(drifts.momentum <= 1e-13);
+    CHECK(drifts.pseudo_moment <= 1e-13);
+}
+
+TEMPLATE_TEST_CASE_SIG("sides that slide off each other under pressure are left to contact, and the balance closes to 1e-12",
+                       "[solid][bonds]", ((int Dim), Dim), 2, 3) {
+    const auto bond = GENERATE(BondOfBars::springs, BondOfBars::grains);
+    const auto kinematics = GENERATE(Kinematics::small, Kinematics::floating);
+    CAPTURE(Dim, static_cast<int>(bond), static_cast<int>(kinematics));
+    auto scene = sheared<Dim>(bond, 0.03, kinematics);
+    scene.run_until(4.0);
+    if (kinematics != Kinematics::small) {  // edges of small bodies bear no shear
+        CHECK(scene.solid.bonds().broken_share() == 1.0);
+        CHECK(scene.solid.contact().report().active_pairs_max > 0);
+        CHECK(std::abs(scene.solid.bonds().beyond_fracture_energy()) <= 0.01 * fracture_energy * bonded_area<Dim>());
+    }
+    CHECK(speed_of(scene, 0) < -0.7 * press);
+    CHECK(speed_of(scene, 1) > 0.7 * press);
+    CHECK(scene.solid.contact().report().missed_contacts == 0);
+    const Drifts drifts = scene.drifts();
+    CHECK(drifts.pseudo_energy <= 1e-12);
+    CHECK(drifts.momentum <= 1e-13);
+    if (kinematics != Kinematics::small) CHECK(drifts.pseudo_moment <= 1e-13);
+}
+
+TEST_CASE("a bond under pressure alone holds, however strong it is pressed", "[solid][bonds]") {
+    auto scene = sheared<2>(BondOfBars::springs, 0.0);
+    scene.run_until(1.9);
+    CHECK(scene.solid.bonds().broken_share() == 0.0);
+    CHECK(scene.solid.dissipated().in_bonds == 0.0);
+}
+
+TEST_CASE("sides press on each other along a step with the mean of its pressure, and no energy is lost as they part",
+          "[solid][bonds]") {
+    // By hand: from -2 to 1 the pressed part goes from -2 to 0, and half of its square from 2 to 0.
+    const solid::PressedSides parting = solid::pressed_along(-2.0, 1.0);
+    CHECK(parting.mean == -1.0);
+    CHECK(parting.gradient == Approx(-2.0 / 3.0).epsilon(1e-15));
+    CHECK(parting.slope == Approx(2.0 / 3.0).epsilon(1e-15));
+    const solid::PressedSides pressed = solid::pressed_along(-2.0, -1.0), apart = solid::pressed_along(1.0, 2.0);
+    CHECK(pressed.gradient == -1.5);
+    CHECK(pressed.slope == 1.0);
+    CHECK(apart.gradient == 0.0);
+    CHECK(apart.slope == 0.0);
+}
+
+}  // namespace abut::test
