@@ -21,7 +21,7 @@ void Bonds<Dim>::append_change(std::size_t place, const BondPull& pull, std::vec
     if (share_[place] == 0.0 || (energy == 0.0 && !pull.parts)) return;
     const double least = energy > 0.0 && pull.is_pressed && !pull.has_slid ? pressed_share : 0.0;
     const double by_law = share_of_bond(strength, energy, pull.traction, stiffness);
-    const double start = share_[place], end = std::max(by_law, least);
+    const double start = share_[place], end = share_left(by_law, least);
     if (end >= start) return;
     const double held_0 = pull.held_0, held_1 = 0.5 * pull.traction * pull.traction / stiffness;
     const double opening = energy > 0.0 ? opening_of_bond(strength, energy, by_law, stiffness) : 1.0;
@@ -52,7 +52,7 @@ BondChange Bonds<Dim>::opened(const BondChange& change, const BondOpening& openi
         opened.opening = std::min(std::lerp(opened_[change.place], change.opening, opening.extent), 1.0);
         opened.taken = std::max(energy * opened.opening - taken_[change.place], 0.0);
         const double by_law = share_of_opening(strength, energy, opened.opening, change.stiffness);
-        opened.end = std::min(change.start, std::max(by_law, change.least));
+        opened.end = std::min(change.start, share_left(by_law, change.least));
     }
     const bool to_start = (opening.middle > 0.0) == (change.rise > 0.0);  // most is lost with the share of the start where
     opened.middle = std::lerp(change.middle, to_start ? opened.start : opened.end, std::abs(opening.middle));

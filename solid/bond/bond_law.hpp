@@ -22,6 +22,9 @@ struct BondChange {
 /// The share of a place that bears nothing any more while its sides press on each other: it goes on as long as they do.
 inline constexpr double pressed_share = 1e-9;
 
+/// The share of a place by its law: what is as little as `pressed_share` is none, and `least` is left.
+[[nodiscard]] inline double share_left(double by_law, double least) { return by_law > pressed_share ? by_law : least; }
+
 /// What an end of a step would pull a whole place with; with a fracture energy its pressure is left out: that gives way with
 /// no bond.
 struct BondPull {
