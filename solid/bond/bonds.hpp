@@ -41,8 +41,8 @@ namespace abut::solid {
 /// falls, at once to 0 or so that t falls with the opening until all of the fracture energy is taken (bond_law.hpp). What V
 /// loses by that is dissipated. In a step the share lies between those of both ends, so that it is what the law takes.
 ///
-/// Sides that press on each other hold as much pressure as those of a whole place (pressed_sides.hpp). A place that bears
-/// nothing else is broken; it is gone once its sides have opened, or slid off each other.
+/// Where it has a fracture energy its sides press on each other as those of a whole place do (pressed_sides.hpp). A place
+/// that bears nothing else is broken; it is gone once its sides have opened, or slid off each other.
 template <int Dim>
 class Bonds {
 public:
