@@ -38,6 +38,7 @@ public:
     template <class T>
     void array(std::vector<T>& values) {
         const std::vector<std::byte> bytes = state_.get_all<std::byte>();
+        if (bytes.size() % sizeof(T) != 0) throw BadInput("mesh: its bytes are damaged. Send them again.");
         values.resize(bytes.size() / sizeof(T));
         if (!bytes.empty()) std::memcpy(static_cast<void*>(values.data()), bytes.data(), bytes.size());
     }

@@ -23,10 +23,9 @@ struct MeshPart {
 inline constexpr int default_layers = 8;
 
 /// The part of a rank: the cells that it owns, `layers` of neighbours across faces around them, and all cells that share a
-/// vertex with own ones. `owner` says whose each
-/// cell is (n_cells). Of `whole_bodies` each part has all cells. Throws BadInput where the length of `owner` is another
-/// one, for fewer than 1 layer, for a body that does not exist, and for any other body whose cells differ in their
-/// number of faces.
+/// vertex with own ones. `owner` says whose each cell is (n_cells). Of `whole_bodies` each part has all cells. Throws
+/// BadInput where the length of `owner` is another one, for fewer than 1 layer, for a body that does not exist, and for any
+/// other body whose cells differ in their number of faces.
 template <int Dim>
 [[nodiscard]] MeshPart<Dim> part_of(const Mesh<Dim>& mesh, std::span<const int> owner, int rank, int layers = default_layers,
                                     std::span<const std::int32_t> whole_bodies = {});

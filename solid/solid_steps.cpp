@@ -126,8 +126,8 @@ std::vector<BondChange> Solid<Dim>::bonds_that_give_way(const Step& step, const 
     return changes;
 }
 
-/// Each part of what has come apart or become loose in a step that ended at q takes a frame of its own. What V loses by that
-/// is booked. Faces that a break has laid free touch nothing until contact looks again.
+/// Broken places become springs or go, and each part of what has come apart or become loose in a step that ended at q takes a
+/// frame of its own. What V loses by that is booked. Faces that a break has laid free touch nothing until contact looks again.
 template <int Dim>
 void Solid<Dim>::part_frames(std::span<const Vector<Dim>> q) {
     const bool any_broke = bonds_->any_broke();
@@ -139,8 +139,7 @@ void Solid<Dim>::part_frames(std::span<const Vector<Dim>> q) {
     if (any_broke) {
         const bool changes_energy = bonds_->any_broke_pressed();
         const double before = changes_energy ? energy_in_frames() : 0.0;
-        const std::vector<std::size_t> become_springs = bonds_->leave_out_broken();
-        if (!become_springs.empty()) bonds_->soften(become_springs, energy_in_frames() - before);
+        bonds_->leave_out_broken();
         if (changes_energy) dissipated_.at_splits += before - energy_in_frames();
     }
     std::vector<std::size_t> loose;

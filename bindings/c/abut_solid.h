@@ -49,7 +49,7 @@ ABUT_API int abut_solid_roller(abut_solid* solid, const char* group, abut_error*
 ABUT_API int abut_solid_load(abut_solid* solid, const char* group, const double* traction, abut_error* error);
 
 /* Two sides, each a body or a group by its name, are glued where they lie on each other, whether their meshes match or not: until a
-   traction reaches `strength` [Pa], pressure not counted, INFINITY: for ever. `fracture_energy` [J/m^2]: what a place takes as it opens, 0: it breaks
+   traction reaches `strength` [Pa], pressure not counted (with `fracture_energy` 0: pulls them apart with it), INFINITY: for ever. `fracture_energy` [J/m^2]: what a place takes as it opens, 0: it breaks
    at once. Glued faces do not touch the body that they are glued to. docs/method.md, Bonds. */
 ABUT_API int abut_solid_bond(abut_solid* solid, const char* side_1, const char* side_2, double strength,
                              double fracture_energy, abut_error* error);

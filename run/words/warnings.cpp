@@ -288,9 +288,9 @@ void add_lost_parts(Counts& counts, const RunResult<Dim>& result) {
         share > large_split_share)
         warn(counts, WarningKind::splits, share, large_split_share,
              fmt::format(
-                 "fragments that came apart or turned against each other changed V by {:.2g} of the energy in play as "
-                 "they took frames of their own, {:g} is safe: strains are linear in a frame. Take larger grains, or "
-                 "finite kinematics",
+                 "fragments that came apart, turned against each other or slid off each other under pressure changed V by "
+                 "{:.2g} of the energy in play, {:g} is safe: strains are linear in the frame that each takes. Take larger "
+                 "grains, or finite kinematics",
                  share, large_split_share));
     if (const double error = fracture_error(result.energy.dissipated.in_bonds, result.bonds.beyond_fracture_energy);
         error > large_fracture_error)

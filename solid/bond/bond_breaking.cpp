@@ -14,17 +14,15 @@ bool Bonds<Dim>::any_breaks() const {
     return std::ranges::any_of(bodies_.options().bonds, [](const Bond& bond) { return std::isfinite(bond.strength); });
 }
 
-/// Without a fracture energy a place breaks where it is pulled apart, and is gone.
+/// Without a fracture energy a place breaks where it is pulled apart.
 template <int Dim>
 void Bonds<Dim>::append_change(std::size_t place, const BondPull& pull, std::vector<BondChange>& changes) const {
     const double energy = fracture_energy(place), strength = places_[place].strength, stiffness = pull.stiffness;
-    if (share_[place] == 0.0 || (energy == 0.0 && !pull.parts)) return;
-    const double least = energy > 0.0 && pull.is_pressed && !pull.has_slid ? pressed_share : 0.0;
-    const double by_law = share_of_bond(strength, energy, pull.traction, stiffness);
-    const double start = share_[place], end = share_left(by_law, least);
+    if (is_broken(place) || (energy == 0.0 && !pull.pulls_apart)) return;
+    const double start = share_[place], end = share_of_bond(strength, energy, pull.traction, stiffness);
     if (end >= start) return;
     const double held_0 = pull.held_0, held_1 = 0.5 * pull.traction * pull.traction / stiffness;
-    const double opening = energy > 0.0 ? opening_of_bond(strength, energy, by_law, stiffness) : 1.0;
+    const double opening = energy > 0.0 ? opening_of_bond(strength, energy, end, stiffness) : 1.0;
     const double taken =
         energy > 0.0 ? std::max(energy * opening - taken_[place], 0.0) : 0.5 * (start - end) * (held_0 + held_1);
     changes.push_back({.place = place,
@@ -35,8 +33,7 @@ void Bonds<Dim>::append_change(std::size_t place, const BondPull& pull, std::vec
                        .taken = taken,
                        .stiffness = stiffness,
                        .rise = held_1 - held_0,
-                       .least = least,
-                       .is_pressed = pull.is_pressed});
+                       .is_pressed = energy > 0.0 && pull.is_pressed});
 }
 
 template <int Dim>
@@ -51,10 +48,10 @@ BondChange Bonds<Dim>::opened(const BondChange& change, const BondOpening& openi
     if (energy > 0.0 && opening.extent != 1.0) {
         opened.opening = std::min(std::lerp(opened_[change.place], change.opening, opening.extent), 1.0);
         opened.taken = std::max(energy * opened.opening - taken_[change.place], 0.0);
-        const double by_law = share_of_opening(strength, energy, opened.opening, change.stiffness);
-        opened.end = std::min(change.start, share_left(by_law, change.least));
+        opened.end = std::min(change.start, share_of_opening(strength, energy, opened.opening, change.stiffness));
     }
-    const bool to_start = (opening.middle > 0.0) == (change.rise > 0.0);  // most is lost with the share of the start where
+    // The share of the start loses most where the place comes to hold more in the step.
+    const bool to_start = (opening.middle > 0.0) == (change.rise > 0.0);
     opened.middle = std::lerp(change.middle, to_start ? opened.start : opened.end, std::abs(opening.middle));
     return opened;
 }
@@ -115,9 +112,8 @@ std::vector<BondChange> Bonds<Dim>::changes() const {
                           {.traction = traction.norm(),
                            .stiffness = traction.squaredNorm() / energy,
                            .held_0 = 0.5 * before.dot(joint.stiffness * before),
-                           .parts = traction.dot(joint.normal) > 0.0,
-                           .is_pressed = normal_part(joint, jump_1_[p]) < 0.0,
-                           .has_slid = jump.norm() > half_size(places_[joint.place])},
+                           .pulls_apart = traction.dot(joint.normal) > 0.0,
+                           .is_pressed = normal_part(joint, jump_1_[p]) < 0.0},
                           changes);
     }
     springs_->for_each_pull([&](std::size_t place) { return fracture_energy(place) > 0.0; },
@@ -136,13 +132,21 @@ void Bonds<Dim>::set_shares(std::span<const BondChange> changes, When when) {
 
 template <int Dim>
 void Bonds<Dim>::end_changes(std::span<const BondChange> changes) {
-    const auto breaks = [](const BondChange& change) { return change.end <= pressed_share; };
-    any_broke_ = std::ranges::any_of(changes, breaks);
-    any_broke_pressed_ =
-        std::ranges::any_of(changes, [&](const BondChange& change) { return breaks(change) && change.is_pressed; });
+    any_broke_ = any_broke_pressed_ = false;
+    springs_->for_each_parting([&](std::size_t place, bool is_pressed) {
+        if (presses_[place] == 0.0) return;
+        presses_[place] = 0.0;
+        any_broke_ = true;
+        any_broke_pressed_ = any_broke_pressed_ || is_pressed;
+    });
     if (changes.empty()) return;
     set_shares(changes, When::end);
     for (const BondChange& change : changes) {
+        if (change.end == 0.0) {
+            any_broke_ = true;
+            any_broke_pressed_ = any_broke_pressed_ || change.is_pressed;
+            presses_[change.place] = change.is_pressed ? 1.0 : 0.0;
+        }
         if (fracture_energy(change.place) == 0.0) continue;
         taken_[change.place] += change.taken;
         opened_[change.place] = change.opening;
@@ -209,7 +213,7 @@ void Bonds<Dim>::take_over(const Bonds& before, std::span<const std::int32_t> ol
         taken_[p] = before.taken_[old];
         opened_[p] = before.opened_[old];
         loosened_[p] = before.loosened_[old];
-        normal_stiffness_[p] = before.normal_stiffness_[old];
+        presses_[p] = before.presses_[old];
         places_[p].strength = from->strength;  // drawn once, whatever numbers the faces have now
     }
     leave_out_broken();

@@ -14,26 +14,18 @@ struct BondChange {
     double opening;    ///< at the end, over that of a broken place [-]; 1 without a fracture energy
     double taken;      ///< what its law takes in the step; after Bonds::share_loss what it has lost [J/m^2]
     double stiffness;  ///< of both half cells in the direction of the traction [Pa/m]
-    double rise;       ///< of what a whole place holds beside its pressure, in the step [J/m^2]
-    double least;      ///< share that it keeps
+    double rise;       ///< of what a whole place holds, in the step [J/m^2]
     bool is_pressed;   ///< its sides press on each other at the end
 };
 
-/// The share of a place that bears nothing any more while its sides press on each other: it goes on as long as they do.
-inline constexpr double pressed_share = 1e-9;
-
-/// The share of a place by its law: what is as little as `pressed_share` is none, and `least` is left.
-[[nodiscard]] inline double share_left(double by_law, double least) { return by_law > pressed_share ? by_law : least; }
-
-/// What an end of a step would pull a whole place with; with a fracture energy its pressure is left out: that gives way with
-/// no bond.
+/// What an end of a step would pull a whole place with; with a fracture energy its pressure is left out, which does not fall
+/// with the share.
 struct BondPull {
     double traction;   ///< its size [Pa]
     double stiffness;  ///< of both half cells in its direction [Pa/m]
     double held_0;     ///< energy of it at the start of the step [J/m^2]
-    bool parts;        ///< it pulls the sides apart
+    bool pulls_apart;  ///< its sides
     bool is_pressed;   ///< they press on each other
-    bool has_slid;     ///< by half of its size: they are no mates any more
 };
 
 /// Energy per area that half cells of this stiffness in series hold at the strength of a bond [J/m^2].

@@ -248,14 +248,6 @@ double BondSprings<Dim>::pressure_energy(std::size_t spring) const {
     return 0.5 * pressure_stiffness(springs_[spring]) * pressed * pressed;
 }
 
-template <int Dim>
-double BondSprings<Dim>::pressure_energy(std::span<const std::size_t> places) const {
-    double energy = 0.0;
-    for (std::size_t i = 0; i < springs_.size(); ++i)
-        if (std::ranges::find(places, springs_[i].place) != places.end()) energy += pressure_energy(i);
-    return energy;
-}
-
 template class BondSprings<2>;
 template class BondSprings<3>;
 

@@ -22,7 +22,9 @@ namespace abut::solid {
 ///
 ///     V = k_12 A/2 |x_2 - x_1|^2,     x = centre + Q (X - mean of X + û_f + G_c (X - x_f))
 ///
-/// so that its mean force over a step is k_12 A times the mean of x_2 - x_1, without a moment. docs/method.md, Bonds.
+/// so that its mean force over a step is k_12 A times the mean of x_2 - x_1, without a moment. Sides of a place that has opened
+/// press on each other besides, along the normal, which turns with the first body (pressed_sides.hpp): that has a moment.
+/// docs/method.md, Bonds.
 template <int Dim>
 class BondSprings {
 public:
@@ -52,11 +54,10 @@ public:
     /// Pushes of the springs on each body, added to those of others (n_bodies that deform).
     [[nodiscard]] std::span<const BodyPush<Dim>> pushes(std::span<const BodyPush<Dim>> others);
     [[nodiscard]] double energy() const;  ///< at the end of the step [J]
-    /// Part of it that these places hold by their pressure [J].
-    [[nodiscard]] double pressure_energy(std::span<const std::size_t> places) const;
     /// The end alone: `energy` is that of it. What springs pull with stays.
     void see_end(std::span<const Vector<Dim>> q_1, const BoundaryLoad<Dim>& load_1, StepState state);
-    /// Calls visit(place, pull): what the end of the step pulls each with. `leaves_pressure(place)`: out of it.
+    /// Calls visit(place, pull) with what the end of the step pulls each with, without its pressure where
+    /// leaves_pressure(place).
     template <class LeavesPressure, class Visit>
     void for_each_pull(const LeavesPressure& leaves_pressure, const Visit& visit) const {
         for (std::size_t i = 0; i < springs_.size(); ++i) {
@@ -69,9 +70,18 @@ public:
                   BondPull{.traction = stiffness * slip.norm(),
                            .stiffness = stiffness,
                            .held_0 = 0.5 * stiffness * (leaves ? start.beside_pressure() : start.jump).squaredNorm(),
-                           .parts = end.jump.dot(tilted_normal(i)) > 0.0,
-                           .is_pressed = end.distance() < 0.0,
-                           .has_slid = are_no_mates(i, slip)});
+                           .pulls_apart = end.jump.dot(tilted_normal(i)) > 0.0,
+                           .is_pressed = end.distance() < 0.0});
+        }
+    }
+    /// Calls visit(place, is_pressed) where the sides have opened at the end of the step, or are pressed and have slid by half
+    /// of their size, or turned against each other by 0.17: they are no mates any more.
+    template <class Visit>
+    void for_each_parting(const Visit& visit) const {
+        for (std::size_t i = 0; i < springs_.size(); ++i) {
+            const Sides end = sides_at(i, x_1_, frames_.end());
+            const bool is_pressed = end.distance() < 0.0;
+            if (!is_pressed || are_no_mates(i, end.beside_pressure())) visit(springs_[i].place, is_pressed);
         }
     }
     /// Calls visit(place, k_12) [Pa/m].
@@ -122,7 +132,7 @@ private:
     [[nodiscard]] Vector<Dim> tilted_normal(std::size_t spring) const;
     [[nodiscard]] bool are_no_mates(std::size_t spring, const Vector<Dim>& slip) const;
     void push_sides(std::size_t spring, const Vector<Dim>& pull);
-    /// Of the pressure that is no part of the pull of the spring [N/m]; 0 of whole ones that always were springs.
+    /// Stiffness against pressure beyond that of the pull [N/m]; 0 of whole places that never were joints.
     [[nodiscard]] double pressure_stiffness(const BondSpring& spring) const {
         return spring.normal_stiffness - share_[spring.place] * spring.stiffness;
     }

@@ -54,6 +54,7 @@ Bonds<Dim>::Bonds(const Bodies<Dim>& bodies, Ccg<Dim>& ccg, const BodyFrames<Dim
       part_(part),
       places_(bodies.bond_places()),
       share_(places_.size(), 1.0),
+      presses_(places_.size(), 0.0),
       loosened_(places_.size(), 0.0),
       normal_stiffness_(places_.size(), 0.0),
       taken_(places_.size(), 0.0),
@@ -104,7 +105,7 @@ void Bonds<Dim>::make_joints(std::span<const std::size_t> of_joints) {
     if (ccg_.any_damped()) change_here_.resize(faces_->here().size());
 }
 
-/// Springs of the places that are no joints and not broken.
+/// Springs of the places that are no joints and not gone.
 template <int Dim>
 void Bonds<Dim>::make_springs() {
     std::vector<std::size_t> of_springs;
@@ -114,28 +115,14 @@ void Bonds<Dim>::make_springs() {
                                                   normal_stiffness_);
 }
 
-/// Places that are broken, or springs by now, are no joints any more, and broken springs are none.
+/// Joints that are broken or loosened become springs, and places that are gone take no part.
 template <int Dim>
-std::vector<std::size_t> Bonds<Dim>::leave_out_broken() {
-    std::vector<std::size_t> become_springs;
-    for (const Joint& joint : joints_)
-        if (!is_joint(joint.place) && !is_gone(joint.place)) become_springs.push_back(joint.place);
+void Bonds<Dim>::leave_out_broken() {
     make_springs();
     const std::vector<std::size_t> of_joints = held_joints();
-    if (std::ranges::equal(of_joints, joints_, {}, {}, &Joint::place)) return become_springs;
+    if (std::ranges::equal(of_joints, joints_, {}, {}, &Joint::place)) return;
     faces_.emplace(mesh_, part_, places_, of_joints);
     make_joints(of_joints);
-    return become_springs;
-}
-
-template <int Dim>
-void Bonds<Dim>::soften(std::span<const std::size_t> places, double energy) {
-    constexpr double least = 0.1;
-    const double held = springs_->pressure_energy(places);
-    if (!(held > 0.0)) return;
-    const double left = std::clamp(1.0 - energy / held, least, 1.0);
-    for (const std::size_t place : places) normal_stiffness_[place] *= left;
-    make_springs();
 }
 
 template <int Dim>
@@ -599,7 +586,7 @@ void Bonds<Dim>::save(StateWriter& state) const {
     state.put_all(std::span<const double>(loosened_));
     state.put_all(std::span<const double>(taken_));
     state.put_all(std::span<const double>(opened_));
-    state.put_all(std::span<const double>(normal_stiffness_));
+    state.put_all(std::span<const double>(presses_));
 }
 
 template <int Dim>
@@ -616,14 +603,13 @@ void Bonds<Dim>::restore(StateReader& state) {
         if (of_places.size() != share.size())
             throw BadInput(mesh_.name + ": the saved state of its bonds is damaged. Take another checkpoint.");
     }
-    auto& [strengths, loosened, taken, opened, normal_stiffness] = others;
+    auto& [strengths, loosened, taken, opened, presses] = others;
     share_ = share;
     loosened_ = loosened;
     taken_ = taken;
     opened_ = opened;
+    presses_ = presses;
     leave_out_broken();
-    normal_stiffness_ = normal_stiffness;
-    make_springs();
     find_opening();
     for (std::size_t p = 0; p < places_.size(); ++p) places_[p].strength = strengths[p];  // drawn once
 }
@@ -631,7 +617,7 @@ void Bonds<Dim>::restore(StateReader& state) {
 template <int Dim>
 void Bonds<Dim>::break_all() {
     for (std::size_t p = 0; p < places_.size(); ++p)
-        if (std::isfinite(places_[p].strength)) share_[p] = 0.0;
+        if (std::isfinite(places_[p].strength)) share_[p] = presses_[p] = 0.0;
     leave_out_broken();
 }
 

@@ -37,8 +37,8 @@ namespace abut::solid {
 ///
 /// All of it is quadratic in the displacements of the cells. Where a body may turn: BondSprings. docs/method.md, Bonds.
 ///
-/// A place whose traction t = s K_12 Delta would exceed the strength, pressure not counted, gives way: its share s
-/// falls, at once to 0 or so that t falls with the opening until all of the fracture energy is taken (bond_law.hpp). What V
+/// A place whose traction t = s K_12 Delta would exceed the strength, pressure not counted (without a fracture energy: one
+/// that pulls its sides apart), gives way: its share s falls, at once to 0 or so that t falls with the opening until all of the fracture energy is taken (bond_law.hpp). What V
 /// loses by that is dissipated. In a step the share lies between those of both ends, so that it is what the law takes.
 ///
 /// Where it has a fracture energy its sides press on each other as those of a whole place do (pressed_sides.hpp). A place
@@ -56,9 +56,9 @@ public:
     [[nodiscard]] std::span<const BondPlace<Dim>> places() const { return places_; }
     [[nodiscard]] std::span<const BondCoverage> coverage() const { return bodies_.bond_coverage(); }
     /// Whether it bears nothing: its sides may still press on each other as they are.
-    [[nodiscard]] bool is_broken(std::size_t place) const { return share_[place] <= pressed_share; }
+    [[nodiscard]] bool is_broken(std::size_t place) const { return share_[place] == 0.0; }
     /// Whether its sides have opened, or slid off each other, since: contact alone keeps them apart.
-    [[nodiscard]] bool is_gone(std::size_t place) const { return share_[place] == 0.0; }
+    [[nodiscard]] bool is_gone(std::size_t place) const { return is_broken(place) && presses_[place] == 0.0; }
     /// Whether one has a strength.
     [[nodiscard]] bool any_breaks() const;
 
@@ -116,8 +116,8 @@ public:
     /// Whether one of them takes a fracture energy.
     [[nodiscard]] bool have_law(std::span<const BondChange> changes) const;
     [[nodiscard]] double energy_by_law(std::span<const BondChange> changes) const;  ///< of all of them [J]
-    /// By how much all of them lose more as their share of the mean force goes to that of the start of the step, and less as
-    /// it goes to that of its end, if no place knew of another one [J].
+    /// By how much all of them lose more as their share of the mean force goes to that of the end of the step at which most is
+    /// lost, and less as it goes to that of the other one, if no place knew of another [J].
     [[nodiscard]] std::array<double, 2> rise_of_loss(std::span<const BondChange> changes) const;
     /// Shares what they have lost together [J] among them, as their laws would have it.
     void share_loss(double lost, std::span<BondChange> changes) const;
@@ -129,14 +129,11 @@ public:
     void end_changes(std::span<const BondChange> changes);
     /// Whether a place broke or went in the last step that has ended so.
     [[nodiscard]] bool any_broke() const { return any_broke_; }
-    /// Whether one did so under pressure: V changes in the next call.
+    /// Whether one did so under pressure: V changes in the next `leave_out_broken`.
     [[nodiscard]] bool any_broke_pressed() const { return any_broke_pressed_; }
-    /// Places that are broken are springs against pressure alone, and those that are gone take no part any more. Returns
-    /// those that have become springs by that. A call of all ranks.
-    std::vector<std::size_t> leave_out_broken();
-    /// These springs hold less of their pressure by this energy [J], a tenth of it at least, in the state of the last
-    /// `stand_at`. A call of all ranks.
-    void soften(std::span<const std::size_t> places, double energy);
+    /// Places that are broken are springs against pressure alone, and those that are gone take no part any more. A call of
+    /// all ranks.
+    void leave_out_broken();
     [[nodiscard]] double share(std::size_t place) const { return share_[place]; }
     /// Energy that places with a fracture energy have lost beyond what belongs to their openings; less than 0: they have
     /// lost less [J].
@@ -245,6 +242,7 @@ private:
     const RankPart<Dim>& part_;
     std::vector<BondPlace<Dim>> places_;
     std::vector<double> share_;     // by place, from 1, whole, to 0, broken
+    std::vector<double> presses_;   // by place: 1 where it is broken and its sides still press on each other as they met, else 0
     std::vector<double> loosened_;  // by place: its stiffness if it has become a spring [Pa/m]; 0: it has not
     std::vector<double> normal_stiffness_;  // by place, of those that are or were joints, against pressure [Pa/m]
     // By place, where it has a fracture energy: what of it was taken [J/m^2], and its opening over that of a broken place

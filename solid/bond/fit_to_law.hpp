@@ -7,7 +7,7 @@
 namespace abut::solid {
 
 /// How far places open in a step: 1 as far as their tractions say, 0 not at all; and the share of their mean force, 0 that
-/// which each has alone, 1 that of the start of the step, -1 that of its end.
+/// which each has alone, 1 that of the end of the step at which most is lost, -1 that of the other one.
 struct BondOpening {
     double extent = 1.0;
     double middle = 0.0;
@@ -41,7 +41,7 @@ void fit_to_law(const Excess& excess, const std::array<double, 2>& slopes) {
     constexpr double tolerance = 1e-3, least_extent = 0.125;
     const double alone = excess(BondOpening{});
     if (std::abs(alone) <= tolerance) return;
-    const double end = alone < 0.0 ? 1.0 : -1.0;  // with the share of the start most is lost
+    const double end = alone < 0.0 ? 1.0 : -1.0;  // 1: with it most is lost
     const auto by_middle = [&](double middle) { return excess(BondOpening{.middle = end * middle}); };
     const double slope = slopes[end > 0.0 ? 0 : 1];
     const double guess = slope > 0.0 ? std::min(std::abs(alone) / slope, 1.0) : 1.0, at_guess = by_middle(guess);

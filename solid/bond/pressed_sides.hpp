@@ -4,8 +4,8 @@
 
 namespace abut::solid {
 
-/// Distance of the sides of a place along its normal where they press on each other [m], else 0: from it follow their
-/// pressure and its energy, which give way with no bond.
+/// Distance of the sides of a place along its normal where they press on each other [m], else 0. Pressure and its energy
+/// follow from it, and do not fall with the share of the bond.
 struct PressedSides {
     double mean;      ///< of both ends of a step
     double gradient;  ///< of half its square, over the change of the distance: that is what pushes
