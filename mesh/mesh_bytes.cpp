@@ -4,6 +4,7 @@
 #include <string>
 #include <utility>
 
+#include "abut/base/error.hpp"
 #include "abut/base/state_fields.hpp"
 
 namespace abut::mesh {

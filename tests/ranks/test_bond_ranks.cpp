@@ -92,6 +92,22 @@ TEST_CASE("bonds that open and break, and let bodies touch, have the bits of one
     CHECK(report.active_pairs_max > 0);  // which it is only where a bond is broken
 }
 
+TEMPLATE_TEST_CASE_SIG("bonds that are sheared under pressure have the bits of one rank", "[ranks][solid][bonds][contact]",
+                       ((int Dim), Dim), 2, 3) {
+    using enum solid::Kinematics;
+    const ranks::Communicator all = test::world();
+    const auto kinematics = GENERATE(small, floating);
+    CAPTURE(Dim, static_cast<int>(kinematics));
+    const auto mesh = two_bars<Dim>(Dim == 2 ? mesh::CellShape::quadrangle : mesh::CellShape::hexahedron);
+    auto options = bonded<Dim>(kinematics, kinematics);
+    options.bonds.front().strength = 0.002;
+    options.bonds.front().fracture_energy = 1e-5;
+    options.contact = contact::ContactOptions{};
+    const Vector<Dim> velocity = 0.03 * Vector<Dim>::Unit(0) + 0.04 * Vector<Dim>::Unit(1);
+    check_same_bits<Dim>(all, mesh, options, {velocity, Vector<Dim>(-velocity)}, Dim == 2 ? 60 : 30, parts(all, mesh),
+                         {.waves = 0.002});
+}
+
 TEMPLATE_TEST_CASE_SIG("a body that breaks into fragments has the bits of one rank", "[ranks][solid][bonds][fracture]",
                        ((int Dim), Dim), 2, 3) {
     const ranks::Communicator all = test::world();

@@ -2,11 +2,10 @@
 #define CATCH_CONFIG_RUNNER
 #include <atomic>
 #include <catch2/catch.hpp>
+#include <cstddef>
 #include <cstdlib>
-#include <memory>
 #include <new>
-#include <optional>
-#include <vector>
+#include <string>
 
 #include "abut/input/scene_file.hpp"
 #include "abut/mesh/mesh_bytes.hpp"

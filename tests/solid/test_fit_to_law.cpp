@@ -1,6 +1,5 @@
 // How places share what they lose in a step, so that it is what their laws take.
 #include <catch2/catch.hpp>
-#include <cmath>
 
 #include "abut/solid/bond/fit_to_law.hpp"
 
