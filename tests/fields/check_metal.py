@@ -145,7 +145,7 @@ def flow_that_gives_energy_back_in_coarse_boxes_is_warned_of_and_finer_ones_give
     for across, falls in ((3, True), (12, False)):
         run = collision(programs, across)
         flow = [row["dissipated_in_cells"] + row["dissipated_in_jumps"] + row["dissipated_on_faces"] for row in run.rows()]
-        require((min(after - before for before, after in zip(flow, flow[1:])) < 0) == falls, f"{across} across: it falls where it should not")
+        require((min(after - before for before, after in zip(flow, flow[1:])) < 0) == falls, f"{across} across: that it falls should be {falls}")
         require(run.warns_of("plastic flow gave energy back") == falls, f"{across} across: {run.said}")
 
 
