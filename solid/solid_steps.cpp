@@ -139,7 +139,8 @@ void Solid<Dim>::part_frames(std::span<const Vector<Dim>> q) {
     if (any_broke) {
         const bool changes_energy = bonds_->any_broke_pressed();
         const double before = changes_energy ? energy_in_frames() : 0.0;
-        bonds_->leave_out_broken();
+        const std::vector<std::size_t> become_springs = bonds_->leave_out_broken();
+        if (!become_springs.empty()) bonds_->soften(become_springs, energy_in_frames() - before);
         if (changes_energy) dissipated_.at_splits += before - energy_in_frames();
     }
     std::vector<std::size_t> loose;

@@ -214,6 +214,7 @@ void Bonds<Dim>::take_over(const Bonds& before, std::span<const std::int32_t> ol
         opened_[p] = before.opened_[old];
         loosened_[p] = before.loosened_[old];
         presses_[p] = before.presses_[old];
+        if (!is_joint(p)) normal_stiffness_[p] = before.normal_stiffness_[old];
         places_[p].strength = from->strength;  // drawn once, whatever numbers the faces have now
     }
     leave_out_broken();

@@ -36,6 +36,7 @@ BondSprings<Dim>::BondSprings(const Bodies<Dim>& bodies, Ccg<Dim>& ccg, const Bo
     for (const std::size_t place : of_springs) {
         BondSpring spring{};
         spring.place = place;
+        spring.keeps_pressure = bodies.options().bonds[places[place].bond].fracture_energy > 0.0;
         double compliance = 0.0;
         for (std::size_t side = 0; side < 2; ++side) {
             const std::size_t face = faces_.position_of(places[place], side);
@@ -246,6 +247,14 @@ template <int Dim>
 double BondSprings<Dim>::pressure_energy(std::size_t spring) const {
     const double pressed = std::min(sides_at(spring, x_1_, frames_.end()).distance(), 0.0);
     return 0.5 * pressure_stiffness(springs_[spring]) * pressed * pressed;
+}
+
+template <int Dim>
+double BondSprings<Dim>::pressure_energy(std::span<const std::size_t> places) const {
+    double energy = 0.0;
+    for (std::size_t i = 0; i < springs_.size(); ++i)
+        if (std::ranges::binary_search(places, springs_[i].place)) energy += pressure_energy(i);
+    return energy;
 }
 
 template class BondSprings<2>;

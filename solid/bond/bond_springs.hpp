@@ -54,6 +54,8 @@ public:
     /// Pushes of the springs on each body, added to those of others (n_bodies that deform).
     [[nodiscard]] std::span<const BodyPush<Dim>> pushes(std::span<const BodyPush<Dim>> others);
     [[nodiscard]] double energy() const;  ///< at the end of the step [J]
+    /// Part of it that these hold by their pressure, by increasing place [J].
+    [[nodiscard]] double pressure_energy(std::span<const std::size_t> places) const;
     /// The end alone: `energy` is that of it. What springs pull with stays.
     void see_end(std::span<const Vector<Dim>> q_1, const BoundaryLoad<Dim>& load_1, StepState state);
     /// Calls visit(place, pull) with what the end of the step pulls each with, without its pressure where
@@ -102,6 +104,7 @@ private:
         double stiffness;         // k_12 A [N/m]
         double normal_stiffness;  // of sides that press on each other [N/m]
         std::size_t place;
+        bool keeps_pressure;  // while its share falls: it has a fracture energy
     };
     using Positions = std::vector<std::array<Vector<Dim>, 2>>;
     /// Both sides of a place in one state, in space.
@@ -132,9 +135,10 @@ private:
     [[nodiscard]] Vector<Dim> tilted_normal(std::size_t spring) const;
     [[nodiscard]] bool are_no_mates(std::size_t spring, const Vector<Dim>& slip) const;
     void push_sides(std::size_t spring, const Vector<Dim>& pull);
-    /// Stiffness against pressure beyond that of the pull [N/m]; 0 of whole places that never were joints.
+    /// Stiffness against pressure beyond that of the pull [N/m]; 0 without a fracture energy, and of whole places that never
+    /// were joints.
     [[nodiscard]] double pressure_stiffness(const BondSpring& spring) const {
-        return spring.normal_stiffness - share_[spring.place] * spring.stiffness;
+        return spring.keeps_pressure ? spring.normal_stiffness - share_[spring.place] * spring.stiffness : 0.0;
     }
     [[nodiscard]] Vector<Dim> pressure(std::size_t spring);
     void evaluate_own(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load, StepState state, Tilted& faces);

@@ -117,12 +117,25 @@ void Bonds<Dim>::make_springs() {
 
 /// Joints that are broken or loosened become springs, and places that are gone take no part.
 template <int Dim>
-void Bonds<Dim>::leave_out_broken() {
+std::vector<std::size_t> Bonds<Dim>::leave_out_broken() {
+    std::vector<std::size_t> become_springs;
+    for (const Joint& joint : joints_)
+        if (!is_joint(joint.place) && !is_gone(joint.place)) become_springs.push_back(joint.place);
     make_springs();
     const std::vector<std::size_t> of_joints = held_joints();
-    if (std::ranges::equal(of_joints, joints_, {}, {}, &Joint::place)) return;
+    if (std::ranges::equal(of_joints, joints_, {}, {}, &Joint::place)) return become_springs;
     faces_.emplace(mesh_, part_, places_, of_joints);
     make_joints(of_joints);
+    return become_springs;
+}
+
+template <int Dim>
+void Bonds<Dim>::soften(std::span<const std::size_t> places, double energy) {
+    constexpr double least = 0.1;
+    const double held = springs_->pressure_energy(places);
+    if (!(held > 0.0) || energy <= 0.0) return;
+    for (const std::size_t place : places) normal_stiffness_[place] *= std::max(1.0 - energy / held, least);
+    make_springs();
 }
 
 template <int Dim>
@@ -357,7 +370,8 @@ template <class Look>
 void Bonds<Dim>::look_at_sides(const Look& look, std::vector<PressedSides>& pressed) const {
     pressed.resize(joints_.size());
     for (std::size_t i = 0; i < joints_.size(); ++i)
-        if (share_of(joints_[i]) < 1.0) pressed[i] = look(i);  // nobody asks for those of whole ones
+        if (share_of(joints_[i]) < 1.0)  // nobody asks for those of whole ones
+            pressed[i] = fracture_energy(joints_[i].place) > 0.0 ? look(i) : PressedSides{};
 }
 
 template <int Dim>
@@ -587,6 +601,7 @@ void Bonds<Dim>::save(StateWriter& state) const {
     state.put_all(std::span<const double>(taken_));
     state.put_all(std::span<const double>(opened_));
     state.put_all(std::span<const double>(presses_));
+    state.put_all(std::span<const double>(normal_stiffness_));
 }
 
 template <int Dim>
@@ -597,19 +612,21 @@ void Bonds<Dim>::restore(StateReader& state) {
                            " places that are bonded, and here are " + std::to_string(share_.size()) +
                            ". Restore it where bonds are the same.",
                        {.value = static_cast<double>(share.size()), .allowed = static_cast<double>(share_.size())});
-    std::array<std::vector<double>, 5> others;
+    std::array<std::vector<double>, 6> others;
     for (std::vector<double>& of_places : others) {
         of_places = state.get_all<double>();
         if (of_places.size() != share.size())
             throw BadInput(mesh_.name + ": the saved state of its bonds is damaged. Take another checkpoint.");
     }
-    auto& [strengths, loosened, taken, opened, presses] = others;
+    auto& [strengths, loosened, taken, opened, presses, normal_stiffness] = others;
     share_ = share;
     loosened_ = loosened;
     taken_ = taken;
     opened_ = opened;
     presses_ = presses;
     leave_out_broken();
+    normal_stiffness_ = normal_stiffness;
+    make_springs();
     find_opening();
     for (std::size_t p = 0; p < places_.size(); ++p) places_[p].strength = strengths[p];  // drawn once
 }

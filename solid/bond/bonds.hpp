@@ -131,9 +131,13 @@ public:
     [[nodiscard]] bool any_broke() const { return any_broke_; }
     /// Whether one did so under pressure: V changes in the next `leave_out_broken`.
     [[nodiscard]] bool any_broke_pressed() const { return any_broke_pressed_; }
-    /// Places that are broken are springs against pressure alone, and those that are gone take no part any more. A call of
+    /// Places that are broken are springs against pressure alone, and those that are gone take no part any more. Returns
+    /// joints that have become springs. A call of all ranks.
+    std::vector<std::size_t> leave_out_broken();
+    /// These springs, by increasing place, hold less of their pressure by this energy [J] in the state of the last
+    /// `stand_at`, a tenth of it at least: half cells press on several faces of a cell with less than springs do. A call of
     /// all ranks.
-    void leave_out_broken();
+    void soften(std::span<const std::size_t> places, double energy);
     [[nodiscard]] double share(std::size_t place) const { return share_[place]; }
     /// Energy that places with a fracture energy have lost beyond what belongs to their openings; less than 0: they have
     /// lost less [J].
