@@ -329,7 +329,7 @@ void Bonds<Dim>::loosen(std::span<const std::size_t> bonds) {
     for (std::size_t i = 0; i < joints_.size(); ++i) {
         const std::size_t p = joints_[i].place;
         if (!std::ranges::binary_search(bonds, places_[p].bond)) continue;
-        const Vector<Dim> beside = beside_pressure(joints_[i], jump_[i]);
+        const Vector<Dim> beside = fracture_energy(p) > 0.0 ? beside_pressure(joints_[i], jump_[i]) : jump_[i];
         const Vector<Dim> along = beside.isZero(0.0) ? places_[p].normal : beside;
         loosened_[p] = along.dot(joints_[i].stiffness * along) / along.squaredNorm();
     }
