@@ -126,8 +126,9 @@ std::vector<BondChange> Solid<Dim>::bonds_that_give_way(const Step& step, const 
     return changes;
 }
 
-/// Broken places become springs or go, and each part of what has come apart or become loose in a step that ended at q takes a
-/// frame of its own. What V loses by that is booked. Faces that a break has laid free touch nothing until contact looks again.
+/// Broken places become springs or go, and each part of what has come apart or become loose in a step that ended at q takes
+/// a frame of its own. What V loses by that is booked. Faces that a break has laid free touch nothing until contact looks
+/// again.
 template <int Dim>
 void Solid<Dim>::part_frames(std::span<const Vector<Dim>> q) {
     const bool any_broke = bonds_->any_broke();

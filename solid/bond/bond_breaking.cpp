@@ -221,22 +221,22 @@ void Bonds<Dim>::take_over(const Bonds& before, std::span<const std::int32_t> ol
     find_opening();
 }
 
-#define ABUT_INSTANTIATE(Dim)                                                                                    \
-    template bool Bonds<Dim>::any_breaks() const;                                                                \
-    template void Bonds<Dim>::append_change(std::size_t, const BondPull&, std::vector<BondChange>&) const;       \
-    template double Bonds<Dim>::fracture_energy(std::size_t) const;                                              \
-    template BondChange Bonds<Dim>::opened(const BondChange&, const BondOpening&) const;                         \
-    template bool Bonds<Dim>::have_law(std::span<const BondChange>) const;                                       \
-    template double Bonds<Dim>::energy_by_law(std::span<const BondChange>) const;                                \
-    template std::array<double, 2> Bonds<Dim>::rise_of_loss(std::span<const BondChange>) const;                  \
-    template void Bonds<Dim>::share_loss(double, std::span<BondChange>) const;                                   \
-    template double Bonds<Dim>::beyond_law() const;                                                              \
-    template std::vector<BondChange> Bonds<Dim>::changes() const;                                                \
-    template void Bonds<Dim>::set_shares(std::span<const BondChange>, When);                                     \
-    template void Bonds<Dim>::end_changes(std::span<const BondChange>);                                          \
-    template void Bonds<Dim>::see_end(std::span<const Vector<Dim>>, const BoundaryLoad<Dim>&);                   \
-    template double Bonds<Dim>::energy_at_end(std::span<const Vector<Dim>>, const BoundaryLoad<Dim>&);           \
-    template void Bonds<Dim>::check_fracture_energy() const;                                                     \
+#define ABUT_INSTANTIATE(Dim)                                                                              \
+    template bool Bonds<Dim>::any_breaks() const;                                                          \
+    template void Bonds<Dim>::append_change(std::size_t, const BondPull&, std::vector<BondChange>&) const; \
+    template double Bonds<Dim>::fracture_energy(std::size_t) const;                                        \
+    template BondChange Bonds<Dim>::opened(const BondChange&, const BondOpening&) const;                   \
+    template bool Bonds<Dim>::have_law(std::span<const BondChange>) const;                                 \
+    template double Bonds<Dim>::energy_by_law(std::span<const BondChange>) const;                          \
+    template std::array<double, 2> Bonds<Dim>::rise_of_loss(std::span<const BondChange>) const;            \
+    template void Bonds<Dim>::share_loss(double, std::span<BondChange>) const;                             \
+    template double Bonds<Dim>::beyond_law() const;                                                        \
+    template std::vector<BondChange> Bonds<Dim>::changes() const;                                          \
+    template void Bonds<Dim>::set_shares(std::span<const BondChange>, When);                               \
+    template void Bonds<Dim>::end_changes(std::span<const BondChange>);                                    \
+    template void Bonds<Dim>::see_end(std::span<const Vector<Dim>>, const BoundaryLoad<Dim>&);             \
+    template double Bonds<Dim>::energy_at_end(std::span<const Vector<Dim>>, const BoundaryLoad<Dim>&);     \
+    template void Bonds<Dim>::check_fracture_energy() const;                                               \
     template void Bonds<Dim>::take_over(const Bonds&, std::span<const std::int32_t>);
 ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)

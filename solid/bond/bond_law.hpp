@@ -18,8 +18,8 @@ struct BondChange {
     bool is_pressed;   ///< its sides press on each other at the end
 };
 
-/// What an end of a step would pull a whole place with; with a fracture energy its pressure is left out, which does not fall
-/// with the share.
+/// Pull on a whole place at an end of a step; with a fracture energy without its pressure, which does not fall with the
+/// share.
 struct BondPull {
     double traction;   ///< its size [Pa]
     double stiffness;  ///< of both half cells in its direction [Pa/m]

@@ -168,8 +168,7 @@ void BondSprings<Dim>::push_sides(std::size_t spring, const Vector<Dim>& pull) {
 template <int Dim>
 Vector<Dim> BondSprings<Dim>::pressure(std::size_t spring) {
     const Sides start = sides_at(spring, x_0_, frames_.start()), end = sides_at(spring, x_1_, frames_.end());
-    const double push =
-        pressure_stiffness(springs_[spring]) * pressed_along(start.distance(), end.distance()).gradient;
+    const double push = pressure_stiffness(springs_[spring]) * pressed_along(start.distance(), end.distance()).gradient;
     const Vector<Dim> normal = 0.5 * (start.normal + end.normal), jump = 0.5 * (start.jump + end.jump);
     pushes_[springs_[spring].ends[0].body].moment += push * jump * normal.transpose();
     return push * normal;

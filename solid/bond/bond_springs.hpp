@@ -22,9 +22,9 @@ namespace abut::solid {
 ///
 ///     V = k_12 A/2 |x_2 - x_1|^2,     x = centre + Q (X - mean of X + û_f + G_c (X - x_f))
 ///
-/// so that its mean force over a step is k_12 A times the mean of x_2 - x_1, without a moment. Sides of a place that has opened
-/// press on each other besides, along the normal, which turns with the first body (pressed_sides.hpp): that has a moment.
-/// docs/method.md, Bonds.
+/// so that its mean force over a step is k_12 A times the mean of x_2 - x_1, without a moment. Sides of a place that has
+/// opened press on each other besides, along the normal, which turns with the first body (pressed_sides.hpp): that has a
+/// moment. docs/method.md, Bonds.
 template <int Dim>
 class BondSprings {
 public:
@@ -68,16 +68,15 @@ public:
             const Sides start = sides_at(i, x_0_, frames_.start()), end = sides_at(i, x_1_, frames_.end());
             const bool leaves = leaves_pressure(place);
             const Vector<Dim> slip = leaves ? end.beside_pressure() : end.jump;
-            visit(place,
-                  BondPull{.traction = stiffness * slip.norm(),
-                           .stiffness = stiffness,
-                           .held_0 = 0.5 * stiffness * (leaves ? start.beside_pressure() : start.jump).squaredNorm(),
-                           .pulls_apart = end.jump.dot(tilted_normal(i)) > 0.0,
-                           .is_pressed = end.distance() < 0.0});
+            visit(place, BondPull{.traction = stiffness * slip.norm(),
+                                  .stiffness = stiffness,
+                                  .held_0 = 0.5 * stiffness * (leaves ? start.beside_pressure() : start.jump).squaredNorm(),
+                                  .pulls_apart = end.jump.dot(tilted_normal(i)) > 0.0,
+                                  .is_pressed = end.distance() < 0.0});
         }
     }
-    /// Calls visit(place, is_pressed) where the sides have opened at the end of the step, or are pressed and have slid by half
-    /// of their size, or turned against each other by 0.17: they are no mates any more.
+    /// Calls visit(place, is_pressed) where the sides have opened at the end of the step, or are pressed and have slid by
+    /// half of their size, or turned against each other by 0.17: they are no mates any more.
     template <class Visit>
     void for_each_parting(const Visit& visit) const {
         for (std::size_t i = 0; i < springs_.size(); ++i) {

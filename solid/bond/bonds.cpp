@@ -548,8 +548,8 @@ Vector<Dim> Bonds<Dim>::push_of(const Joint& joint, const Vector<Dim>& jump, con
                       of_second = joint.share[1].transpose() * excess_[joint.face[1]];
     const Vector<Dim> whole = joint.stiffness * jump + of_first + of_second;
     if (share == 1.0) return joint.area * whole;
-    const double pressure = joint.normal_stiffness * pressed.gradient +
-                            pressed.slope * joint.under_pressure.dot(of_first + of_second);
+    const double pressure =
+        joint.normal_stiffness * pressed.gradient + pressed.slope * joint.under_pressure.dot(of_first + of_second);
     return joint.area * (share * whole + (1.0 - share) * pressure * joint.normal);
 }
 

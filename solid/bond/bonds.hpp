@@ -38,8 +38,9 @@ namespace abut::solid {
 /// All of it is quadratic in the displacements of the cells. Where a body may turn: BondSprings. docs/method.md, Bonds.
 ///
 /// A place whose traction t = s K_12 Delta would exceed the strength, pressure not counted (without a fracture energy: one
-/// that pulls its sides apart), gives way: its share s falls, at once to 0 or so that t falls with the opening until all of the fracture energy is taken (bond_law.hpp). What V
-/// loses by that is dissipated. In a step the share lies between those of both ends, so that it is what the law takes.
+/// that pulls its sides apart), gives way: its share s falls, at once to 0 or so that t falls with the opening until all of
+/// the fracture energy is taken (bond_law.hpp). What V loses by that is dissipated. In a step the share lies between those
+/// of both ends, so that it is what the law takes.
 ///
 /// Where it has a fracture energy its sides press on each other as those of a whole place do (pressed_sides.hpp). A place
 /// that bears nothing else is broken; it is gone once its sides have opened, or slid off each other.
@@ -116,8 +117,8 @@ public:
     /// Whether one of them takes a fracture energy.
     [[nodiscard]] bool have_law(std::span<const BondChange> changes) const;
     [[nodiscard]] double energy_by_law(std::span<const BondChange> changes) const;  ///< of all of them [J]
-    /// By how much all of them lose more as their share of the mean force goes to that of the end of the step at which most is
-    /// lost, and less as it goes to that of the other one, if no place knew of another [J].
+    /// By how much all of them lose more as their share of the mean force goes to that of the end of the step at which most
+    /// is lost, and less as it goes to that of the other one, if no place knew of another [J].
     [[nodiscard]] std::array<double, 2> rise_of_loss(std::span<const BondChange> changes) const;
     /// Shares what they have lost together [J] among them, as their laws would have it.
     void share_loss(double lost, std::span<BondChange> changes) const;
@@ -245,9 +246,9 @@ private:
     const BodyFrames<Dim>& frames_;
     const RankPart<Dim>& part_;
     std::vector<BondPlace<Dim>> places_;
-    std::vector<double> share_;     // by place, from 1, whole, to 0, broken
-    std::vector<double> presses_;   // by place: 1 where it is broken and its sides still press on each other as they met, else 0
-    std::vector<double> loosened_;  // by place: its stiffness if it has become a spring [Pa/m]; 0: it has not
+    std::vector<double> share_;             // by place, from 1, whole, to 0, broken
+    std::vector<double> presses_;           // by place: 1 where it is broken and its sides still press on each other, else 0
+    std::vector<double> loosened_;          // by place: its stiffness if it has become a spring [Pa/m]; 0: it has not
     std::vector<double> normal_stiffness_;  // by place, of those that are or were joints, against pressure [Pa/m]
     // By place, where it has a fracture energy: what of it was taken [J/m^2], and its opening over that of a broken place
     std::vector<double> taken_, opened_;
@@ -270,10 +271,10 @@ private:
     std::vector<Vector<Dim>> delta_, delta_here_;      // by bonded face, by those here [m]
     std::vector<Vector<Dim>> jump_at_, delta_at_, delta_here_at_;  // of `displacement_at`
     std::vector<PressedSides> pressed_at_;
-    std::vector<Vector<Dim>> change_here_;                         // of delta in a step; empty: nothing is damped
-    std::vector<Vector<Dim>> excess_;    // of the face's traction over that of its half cell alone, by bonded face [Pa]
-    std::vector<Vector<Dim>> gradient_;  // dV/dû through the corrections, by bonded face [N]
-    FaceCorrections<Dim> of_others_;     // of contact and springs
+    std::vector<Vector<Dim>> change_here_;  // of delta in a step; empty: nothing is damped
+    std::vector<Vector<Dim>> excess_;       // of the face's traction over that of its half cell alone, by bonded face [Pa]
+    std::vector<Vector<Dim>> gradient_;     // dV/dû through the corrections, by bonded face [N]
+    FaceCorrections<Dim> of_others_;        // of contact and springs
     MergedCorrections<Dim> merged_;
 };
 

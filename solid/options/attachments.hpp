@@ -38,7 +38,7 @@ struct Spring {
 /// two groups. They have no contact with each other. docs/method.md, Bonds.
 struct Bond {
     std::array<std::int32_t, 2> sides;  ///< numbered as BodyFriction::bodies, without obstacles
-    /// Largest traction that it bears [Pa], pressure left out; without a fracture energy it is one that parts; infinity: for ever
+    /// Largest traction that it bears [Pa], pressure left out, which must part it if G is 0; infinity: it holds for ever
     double strength = std::numeric_limits<double>::infinity();
     /// G [J/m^2] >= 0 that it takes per area as it opens, with a traction that falls from the strength to 0; 0: it
     /// breaks at once
