@@ -3,9 +3,9 @@
 # Packages of Debian 12: libscotch-dev=7.0.3-2, libscotch-7.0=7.0.3-2. Needs gcc.
 # Guess: SCOTCH_graphPart gives a rank the same cells each time it is called with the same graph; at least once SCOTCH_randomReset is
 #   called before it, on whatever number of threads.
-# Seen: about half of the calls on 900 cells for 7 ranks give other owners than all calls before. After SCOTCH_randomReset they agree
+# Seen: many of 30 calls on 900 cells for 7 ranks give other owners than all calls before. After SCOTCH_randomReset they agree
 #   on one thread, and differ among themselves on four. They agree on four where the context has SCOTCH_OPTIONNUMDETERMINISTIC set
-#   *and* its random numbers are reset; neither of the two is enough. By default the library takes all threads of the machine.
+#   *and* its random numbers are reset; neither of the two is enough.
 set -euo pipefail
 work=$(mktemp -d) && trap 'rm -rf "$work"' EXIT && cd "$work"
 apt-get -qq -y --no-install-recommends --download-only --reinstall -o APT::Sandbox::User=root -o Debug::NoLocking=1 -o Dir::Cache::archives="$work" \
