@@ -174,7 +174,7 @@ struct Bonded {
         mesh = together(mesh::structured_box<Dim>(low, left, coarse, shape, "left"),
                         mesh::structured_box<Dim>(right, high, fine, shape, "right"));
         options.law = solid::ContactLaw::pair_potential;
-        options.bonds = {{.sides = {0, 1}, .strength = 0.01, .fracture_energy = Dim == 2 ? 1e-3 : 2e-3}};
+        options.bonds = {{.sides = {0, 1}, .strength = 0.01, .fracture_energy = Dim == 2 ? 2e-4 : 4e-4}};
         motion.resize(2);
         motion[1] = moving<Dim>(0.05 * Vector<Dim>::Unit(0), AxialVector<Dim>::Constant(0.05));
     }
