@@ -42,7 +42,7 @@ namespace abut::solid {
 /// the fracture energy is taken (bond_law.hpp). What V loses by that is dissipated. In a step the share lies between those
 /// of both ends, so that it is what the law takes.
 ///
-/// Where it has a fracture energy its sides press on each other as those of a whole place do (pressed_sides.hpp). A place
+/// The sides of a place with a fracture energy press on each other as those of a whole one do (pressed_sides.hpp). A place
 /// that bears nothing else is broken; it is gone once its sides have opened, or slid off each other.
 template <int Dim>
 class Bonds {
