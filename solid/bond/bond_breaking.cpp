@@ -197,30 +197,6 @@ void Bonds<Dim>::check_fracture_energy() const {
     springs_->for_each_stiffness(check);
 }
 
-template <int Dim>
-void Bonds<Dim>::take_over(const Bonds& before, std::span<const std::int32_t> old_boundary) {
-    for (std::size_t p = 0; p < places_.size(); ++p) {
-        const BondPlace<Dim>& place = places_[p];
-        const auto from = std::ranges::find_if(before.places_, [&](const BondPlace<Dim>& old) {
-            const auto was = [&](std::size_t side) { return old_boundary[static_cast<std::size_t>(place.faces[side])]; };
-            return old.bond == place.bond && static_cast<std::int32_t>(old.faces[0]) == was(0) &&
-                   static_cast<std::int32_t>(old.faces[1]) == was(1);
-        });
-        if (from == before.places_.end())
-            throw BadInput(bodies_.mesh().name + ": faces are bonded that were not. Keep bonds as they are.");
-        const auto old = static_cast<std::size_t>(from - before.places_.begin());
-        share_[p] = before.share_[old];
-        taken_[p] = before.taken_[old];
-        opened_[p] = before.opened_[old];
-        loosened_[p] = before.loosened_[old];
-        presses_[p] = before.presses_[old];
-        if (!is_joint(p)) normal_stiffness_[p] = before.normal_stiffness_[old];
-        places_[p].strength = from->strength;  // drawn once, whatever numbers the faces have now
-    }
-    leave_out_broken();
-    find_opening();
-}
-
 #define ABUT_INSTANTIATE(Dim)                                                                              \
     template bool Bonds<Dim>::any_breaks() const;                                                          \
     template void Bonds<Dim>::append_change(std::size_t, const BondPull&, std::vector<BondChange>&) const; \
@@ -236,8 +212,7 @@ void Bonds<Dim>::take_over(const Bonds& before, std::span<const std::int32_t> ol
     template void Bonds<Dim>::end_changes(std::span<const BondChange>);                                    \
     template void Bonds<Dim>::see_end(std::span<const Vector<Dim>>, const BoundaryLoad<Dim>&);             \
     template double Bonds<Dim>::energy_at_end(std::span<const Vector<Dim>>, const BoundaryLoad<Dim>&);     \
-    template void Bonds<Dim>::check_fracture_energy() const;                                               \
-    template void Bonds<Dim>::take_over(const Bonds&, std::span<const std::int32_t>);
+    template void Bonds<Dim>::check_fracture_energy() const;
 ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)
 #undef ABUT_INSTANTIATE
