@@ -10,6 +10,7 @@
 #include "abut/solid/boundary/boundary_conditions.hpp"
 #include "abut/solid/ccg/arrays.hpp"
 #include "abut/solid/ccg/ccg.hpp"
+#include "abut/solid/ccg/cell_pool.hpp"
 #include "abut/solid/kinematics/kinematics.hpp"
 #include "abut/solid/material/material.hpp"
 
@@ -111,6 +112,10 @@ public:
     /// Writes them behind `values`.
     void put_memory(std::ptrdiff_t cell, std::vector<double>& values) const;
     void set_memory(std::ptrdiff_t cell, std::span<const double> values);
+    /// Whether a cell remembers the same things as one of another mesh.
+    [[nodiscard]] bool remembers_as(std::ptrdiff_t cell, const CappedJumps& other, std::ptrdiff_t other_cell) const {
+        return contains(cell) == other.contains(other_cell);
+    }
 
 private:
     static constexpr double never_reached = std::numeric_limits<double>::max();  // for want of a cap
@@ -134,5 +139,7 @@ private:
     std::vector<double> loss_, loss_by_flow_;  // by cell
     std::atomic<bool> any_yielded_ = false;
 };
+
+static_assert(RememberingCells<CappedJumps<2>> && RememberingCells<CappedJumps<3>>);
 
 }  // namespace abut::solid

@@ -68,7 +68,7 @@ Ccg<Dim>::Impl::Impl(const mesh::Mesh<Dim>& mesh, std::span<const Material> mate
       viscous(mesh, materials),
       plastic(mesh, materials, kinematics, face_conditions, conditions.free_face_rule, free_faces, arrays),
       capped(mesh, materials, kinematics, face_conditions, free_faces, arrays),
-      sweeps(arrays, arrays, finite, &viscous, &plastic, &capped, &thermal),
+      sweeps(arrays, finite, viscous, plastic, capped, thermal),
       steps(step_sweeps(mesh, kinematics, materials, arrays, finite, sweeps, precision, device)),
       are_moved(free_faces == FreeFaces::are_moved) {
     const auto all = solid::boundary_faces(mesh);

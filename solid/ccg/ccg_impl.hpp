@@ -70,6 +70,21 @@ struct Ccg<Dim>::Impl {
         return -pushes[static_cast<std::size_t>(at - pushed.begin())] / boundary_measure[face];
     }
 
+    /// visit(cells) for all RememberingCells, in the order of saved states.
+    template <class Visit>
+    void for_memories(const Visit& visit) {
+        visit(sweeps.finite());
+        visit(viscous);
+        visit(plastic);
+        visit(capped);
+    }
+    template <class Visit>
+    void for_memories(const Visit& visit) const {
+        visit(sweeps.finite());
+        visit(viscous);
+        visit(plastic);
+        visit(capped);
+    }
     void take_jumps(const Impl& from, std::span<const std::int32_t> old_cells, std::span<const std::int32_t> old_faces);
     void give_way_at_corners(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials);
     [[nodiscard]] FreeFaceAnswers<Dim> answers_of(std::int32_t cell, std::vector<Vector<Dim>> normals) const;

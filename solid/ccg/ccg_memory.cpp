@@ -1,5 +1,4 @@
 // What cells remember and lose: flow, damping and viscosity.
-#include <algorithm>
 #include <optional>
 #include <string>
 
@@ -8,13 +7,6 @@
 
 namespace abut::solid {
 namespace {
-
-/// Whether cells by their index among those of finite bodies that remember, -1: neither does, remember the same things.
-template <int Dim>
-bool remember_alike(const FiniteCells<Dim>& cells, std::int32_t cell, const FiniteCells<Dim>& others, std::int32_t other) {
-    if (cell < 0 || other < 0) return cell < 0 && other < 0;
-    return *cells.inelastic_cell(cell).kind == *others.inelastic_cell(other).kind;
-}
 
 /// Part of the jump of a face that flow makes by moving free faces, as the cell with the half-face sees it: traces do
 /// not have it [m].
@@ -36,6 +28,16 @@ std::int32_t half_face_of(const CcgArrays<Dim>& arrays, std::int32_t cell, std::
     for (std::int32_t i = arrays.half_face_offsets[cell]; i < arrays.half_face_offsets[cell + 1]; ++i)
         if (arrays.half_faces[i].face == face) return i;
     return -1;
+}
+
+/// Throws BadInput unless a cell remembers the same things as the old one.
+template <RememberingCells Cells>
+void check_memory(const Cells& cells, std::int32_t cell, const Cells& before, std::int32_t old) {
+    if (cells.remembers_as(cell, before, old)) return;
+    throw BadInput("cell " + std::to_string(cell) +
+                       ", counted from 0 among those of bodies that deform, is of a "
+                       "material that remembers other things than before. Keep the laws of materials.",
+                   {.cell = cell});
 }
 
 }  // namespace
@@ -68,9 +70,7 @@ void Ccg<Dim>::begin_step(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim
 template <int Dim>
 void Ccg<Dim>::end_step() {
     impl_->sweeps.end_step();
-    impl_->viscous.end_step();
-    impl_->plastic.end_step();
-    impl_->capped.end_step();
+    impl_->for_memories([](auto& cells) { cells.end_step(); });
 }
 
 template <int Dim>
@@ -100,7 +100,7 @@ dynamics::Losses Ccg<Dim>::step_loss(std::int32_t cell) const {
     if (impl_->viscous.any()) loss = impl_->viscous.loss(cell);
     loss.in_cells = impl_->plastic.loss(cell);
     loss.on_faces = impl_->capped.loss_by_flow(cell) - impl_->plastic.work_of_push(cell);
-    if (impl_->finite.any_inelastic()) loss += impl_->sweeps.step_loss(cell);
+    if (impl_->finite.any_inelastic()) loss += impl_->sweeps.finite().loss(cell);
     loss.in_jumps = impl_->capped.loss(cell);
     return loss;
 }
@@ -109,7 +109,7 @@ template <int Dim>
 double Ccg<Dim>::plastic_strain(std::int32_t cell) const {
     const std::int32_t inelastic = impl_->finite.inelastic(cell);
     if (inelastic < 0) return impl_->plastic.plastic_strain(cell);
-    return impl_->finite.inelastic_cell(inelastic).law->plastic_strain(impl_->sweeps.memory_of(inelastic));
+    return impl_->finite.inelastic_cell(inelastic).law->plastic_strain(impl_->sweeps.finite().memory_of(inelastic));
 }
 
 template <int Dim>
@@ -124,99 +124,67 @@ template <int Dim>
 std::optional<double> Ccg<Dim>::Impl::out_of_plane_stress(std::int32_t cell,
                                                           const Matrix<Dim>& displacement_gradient) const {
     if (plastic.contains(cell))
-        return plastic.out_of_plane_stress(cell, displacement_gradient) - sweeps.heat_out_of_plane(cell);
-    if (finite.stretch(cell) && sweeps.bears_nothing(cell)) return 0.0;
-    if (const WarmEnergy<Dim>* warm = finite.warm_energy(cell)) return warm->out_of_plane_stress(sweeps.law_gradient(cell));
-    if (arrays.directed.contains(cell)) return sweeps.directed_out_of_plane_stress(cell) - sweeps.heat_out_of_plane(cell);
+        return plastic.out_of_plane_stress(cell, displacement_gradient) - sweeps.materials().heat_out_of_plane(cell);
+    if (finite.stretch(cell) && sweeps.finite().bears_nothing(cell)) return 0.0;
+    if (const WarmEnergy<Dim>* warm = finite.warm_energy(cell))
+        return warm->out_of_plane_stress(sweeps.finite().law_gradient(cell));
+    if (arrays.directed.contains(cell))
+        return sweeps.directed_out_of_plane_stress(cell) - sweeps.materials().heat_out_of_plane(cell);
     if (const std::int32_t inelastic = finite.inelastic(cell); inelastic >= 0)
-        return finite.inelastic_cell(inelastic).law->out_of_plane_stress(sweeps.law_gradient(cell),
-                                                                         sweeps.memory_of(inelastic));
+        return finite.inelastic_cell(inelastic).law->out_of_plane_stress(sweeps.finite().law_gradient(cell),
+                                                                         sweeps.finite().memory_of(inelastic));
     if (!thermal.any() || finite.contains(cell)) return std::nullopt;
-    return arrays.cells[cell].lambda * displacement_gradient.trace() - sweeps.heat_out_of_plane(cell);
+    return arrays.cells[cell].lambda * displacement_gradient.trace() - sweeps.materials().heat_out_of_plane(cell);
 }
 
 template <int Dim>
 std::vector<std::int32_t> Ccg<Dim>::memory_sizes() const {
-    std::vector<std::int32_t> sizes;
-    for (std::int32_t c = 0; c < n_cells(); ++c)
-        sizes.push_back(impl_->viscous.memory_size(c) + impl_->plastic.memory_size(c) + impl_->capped.memory_size(c));
-    for (std::int32_t i = 0; i < static_cast<std::int32_t>(impl_->finite.n_inelastic()); ++i) {
-        const auto& cell = impl_->finite.inelastic_cell(i);
-        sizes[static_cast<std::size_t>(cell.cell)] += static_cast<std::int32_t>(cell.end - cell.begin);
-    }
+    std::vector<std::int32_t> sizes(static_cast<std::size_t>(n_cells()), 0);
+    impl_->for_memories([&](const auto& cells) {
+        for (std::int32_t c = 0; c < n_cells(); ++c) sizes[static_cast<std::size_t>(c)] += cells.memory_size(c);
+    });
     return sizes;
 }
 
 template <int Dim>
 std::vector<double> Ccg<Dim>::memory() const {
     std::vector<double> values;
-    for (std::int32_t c = 0; c < n_cells(); ++c) {
-        if (const std::int32_t inelastic = impl_->finite.inelastic(c); inelastic >= 0) {
-            const auto& cell = impl_->finite.inelastic_cell(inelastic);
-            const std::span<const double> all = impl_->sweeps.memory();
-            values.insert(values.end(), all.begin() + cell.begin, all.begin() + cell.end);
-        }
-        impl_->viscous.put_memory(c, values);
-        impl_->plastic.put_memory(c, values);
-        impl_->capped.put_memory(c, values);
-    }
+    for (std::int32_t c = 0; c < n_cells(); ++c)
+        impl_->for_memories([&](const auto& cells) { cells.put_memory(c, values); });
     return values;
 }
 
 template <int Dim>
 void Ccg<Dim>::set_memory(std::span<const double> values) {
-    std::vector<double> of_laws;
-    for (std::int32_t c = 0; c < n_cells(); ++c) {
-        const auto take = [&](std::ptrdiff_t size) {
-            const std::span<const double> taken = values.first(static_cast<std::size_t>(size));
-            values = values.subspan(taken.size());
-            return taken;
-        };
-        if (const std::int32_t inelastic = impl_->finite.inelastic(c); inelastic >= 0) {
-            const auto& cell = impl_->finite.inelastic_cell(inelastic);
-            const std::span<const double> of_law = take(cell.end - cell.begin);
-            of_laws.insert(of_laws.end(), of_law.begin(), of_law.end());
-        }
-        if (impl_->viscous.contains(c)) impl_->viscous.set_memory(c, take(impl_->viscous.memory_size(c)));
-        if (impl_->plastic.contains(c)) impl_->plastic.set_memory(c, take(impl_->plastic.memory_size(c)));
-        if (impl_->capped.contains(c)) impl_->capped.set_memory(c, take(impl_->capped.memory_size(c)));
-    }
-    if (impl_->finite.any_inelastic()) impl_->sweeps.set_memory(of_laws);
+    if (impl_->finite.any_inelastic()) impl_->sweeps.finite().forget_ends();
+    for (std::int32_t c = 0; c < n_cells(); ++c)
+        impl_->for_memories([&](auto& cells) {
+            const auto size = static_cast<std::size_t>(cells.memory_size(c));
+            if (size > 0) cells.set_memory(c, values.first(size));
+            values = values.subspan(size);
+        });
 }
 
 template <int Dim>
 void Ccg<Dim>::take_memory(const Ccg& before, std::span<const std::int32_t> old_cells,
                            std::span<const std::int32_t> old_faces) {
-    const Impl& from = *before.impl_;
-    std::vector<double> of_laws(impl_->sweeps.memory().begin(), impl_->sweeps.memory().end()), values;
-    for (std::int32_t c = 0; c < n_cells(); ++c) {
-        const std::int32_t old = old_cells[static_cast<std::size_t>(c)];
-        const std::int32_t inelastic = impl_->finite.inelastic(c), old_inelastic = from.finite.inelastic(old);
-        if (impl_->viscous.contains(c) != from.viscous.contains(old) ||
-            impl_->plastic.contains(c) != from.plastic.contains(old) ||
-            impl_->capped.contains(c) != from.capped.contains(old) ||
-            !remember_alike(impl_->finite, inelastic, from.finite, old_inelastic))
-            throw BadInput("cell " + std::to_string(c) +
-                               ", counted from 0 among those of bodies that deform, is of a "
-                               "material that remembers other things than before. Keep the laws of materials.",
-                           {.cell = c});
-        if (inelastic >= 0) {
-            const auto &cell = impl_->finite.inelastic_cell(inelastic),
-                       &old_cell = from.finite.inelastic_cell(old_inelastic);
-            const std::ptrdiff_t size = std::min(cell.end - cell.begin, old_cell.end - old_cell.begin);
-            std::copy_n(from.sweeps.memory().begin() + old_cell.begin, size, of_laws.begin() + cell.begin);
-        }
-        const auto take = [&](const auto& old_cells_of, auto& cells) {
-            if (!cells.contains(c)) return;
+    if (impl_->finite.any_inelastic()) impl_->sweeps.finite().forget_ends();
+    std::vector<double> values;
+    const auto take = [&](auto& cells, const auto& from) {
+        for (std::int32_t c = 0; c < n_cells(); ++c) {
+            const std::int32_t old = old_cells[static_cast<std::size_t>(c)];
+            check_memory(cells, c, from, old);
             values.clear();
-            old_cells_of.put_memory(old, values);
-            cells.set_memory(c, values);
-        };
-        take(from.viscous, impl_->viscous);
-        take(from.plastic, impl_->plastic);
-    }
-    if (impl_->finite.any_inelastic()) impl_->sweeps.set_memory(of_laws);
-    impl_->take_jumps(from, old_cells, old_faces);
+            from.put_memory(old, values);
+            if (!values.empty()) cells.set_memory(c, values);
+        }
+    };
+    Impl& to = *impl_;
+    const Impl& from = *before.impl_;
+    take(to.sweeps.finite(), from.sweeps.finite());
+    take(to.viscous, from.viscous);
+    take(to.plastic, from.plastic);
+    to.take_jumps(from, old_cells, old_faces);
 }
 
 /// Faces that have become free are, for the cells beside them, where flow would have brought them.
@@ -225,10 +193,11 @@ void Ccg<Dim>::Impl::take_jumps(const Impl& from, std::span<const std::int32_t> 
                                 std::span<const std::int32_t> old_faces) {
     std::vector<double> values;
     for (std::int32_t c = 0; c < arrays.n_cells(); ++c) {
+        const std::int32_t old_cell = old_cells[static_cast<std::size_t>(c)];
+        check_memory(capped, c, from.capped, old_cell);
         if (!capped.contains(c)) continue;
         values.clear();
         for (std::int32_t i = arrays.half_face_offsets[c]; i < arrays.half_face_offsets[c + 1]; ++i) {
-            const std::int32_t old_cell = old_cells[static_cast<std::size_t>(c)];
             const std::int32_t old_face = old_faces[static_cast<std::size_t>(arrays.half_faces[i].face)];
             Vector<Dim> lasting = -jump_of_tilts(arrays, plastic, c, i);
             if (const std::int32_t old = half_face_of(from.arrays, old_cell, old_face); old >= 0)

@@ -1,5 +1,9 @@
 #pragma once
 // Private to the sources of this layer.
+#include <cmath>
+#include <cstdint>
+
+#include "abut/base/large_array.hpp"
 #include "abut/solid/ccg/lanes.hpp"
 
 namespace abut::solid {
@@ -21,6 +25,18 @@ template <int Dim, class Real>
             four_times += (i == j ? 1 : 2) * twice * twice;
         }
     return four_times / 4;
+}
+
+/// Root of the largest squared(tensor) of the tensors [begin, end); not a number where one is none.
+template <int Dim, class Real, class Squared>
+[[nodiscard]] double largest_root(const LargeArray<Real>& tensors, std::int32_t begin, std::int32_t end,
+                                  const Squared& squared) {
+    double largest = 0.0;
+    for (std::int32_t i = begin; i < end; ++i) {
+        const double value = squared(load_tensor<Dim>(tensors, i));
+        largest = value <= largest ? largest : value;
+    }
+    return std::sqrt(largest);
 }
 
 }  // namespace abut::solid

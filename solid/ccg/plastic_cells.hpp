@@ -11,6 +11,7 @@
 #include "abut/solid/boundary/boundary_conditions.hpp"
 #include "abut/solid/ccg/arrays.hpp"
 #include "abut/solid/ccg/ccg.hpp"
+#include "abut/solid/ccg/cell_pool.hpp"
 #include "abut/solid/ccg/free_face_of_cell.hpp"
 #include "abut/solid/kinematics/kinematics.hpp"
 #include "abut/solid/material/flow_stress.hpp"
@@ -115,6 +116,10 @@ public:
     /// Writes them behind `values`.
     void put_memory(std::ptrdiff_t cell, std::vector<double>& values) const;
     void set_memory(std::ptrdiff_t cell, std::span<const double> values);
+    /// Whether a cell remembers the same things as one of another mesh.
+    [[nodiscard]] bool remembers_as(std::ptrdiff_t cell, const PlasticCells& other, std::ptrdiff_t other_cell) const {
+        return contains(cell) == other.contains(other_cell);
+    }
 
 private:
     /// Components of a symmetric tensor in space; in the plane, of one without shear out of it. Products of vectors are
@@ -215,5 +220,7 @@ private:
     std::vector<Push> pushes_;
     std::vector<Shift> shifts_;  // push by push
 };
+
+static_assert(RememberingCells<PlasticCells<2>> && RememberingCells<PlasticCells<3>>);
 
 }  // namespace abut::solid

@@ -28,7 +28,7 @@ std::int32_t position(const List& sorted, const Value& value, const Key& key = {
 /// Chunks of cells with the faces they are the first side of, and which of them read each other's results.
 template <int Dim, class Real>
 void CcgSweeps<Dim, Real>::set_chunks() {
-    const CcgArrays<Dim>& a = arrays_;
+    const CcgArrays<Dim>& a = state_.arrays;
     const auto begin_chunk = [&](std::int32_t cell, std::int32_t end) {
         const auto face = static_cast<std::int32_t>(std::partition_point(a.face_cells.begin(), a.face_cells.end(),
                                                                          [&](const auto& side) { return side[0] < cell; }) -
@@ -36,8 +36,7 @@ void CcgSweeps<Dim, Real>::set_chunks() {
         chunks_.push_back({.cell = cell,
                            .face = face,
                            .boundary = position(a.boundary_faces, face),
-                           .simplices = cell < end && a.simplices.contains(cell),
-                           .has_finite = finite_.any_in(cell, end)});
+                           .kind = cell < end ? kind_of(cell) : Kind::linear});
     };
     std::vector<std::int32_t> chunk_of(a.cells.size());
     for (std::size_t body = 0; body + 1 < a.body_begin.size(); ++body)
@@ -98,7 +97,7 @@ void CcgSweeps<Dim, Real>::set_chunks() {
 
 template <int Dim, class Real>
 SweepLists CcgSweeps<Dim, Real>::lists_of(const WantedElements& wanted) const {
-    const CcgArrays<Dim>& a = arrays_;
+    const CcgArrays<Dim>& a = state_.arrays;
     SweepLists lists;
     const auto append_cells = [](OfChunks<Run>& runs, const Chunk& from, const Chunk& to, const std::vector<bool>& cells) {
         append_runs(runs, from.cell, to.cell, [&](std::int32_t c) { return cells[c]; });
@@ -151,18 +150,18 @@ void CcgSweeps<Dim, Real>::compute_only(const Region<Dim>& region) {
         for (const std::int32_t i : elements) wanted[i] = true;
         return wanted;
     };
-    const std::size_t n_cells = arrays_.cells.size(), n_faces = arrays_.faces.size();
+    const std::size_t n_cells = state_.arrays.cells.size(), n_faces = state_.arrays.faces.size();
     WantedElements wanted{.loaded = marks(n_cells, region.input_cells),
                           .displacement_gradients = marks(n_cells, region.displacement_gradient_cells),
                           .stresses = marks(n_cells, region.stress_cells),
                           .cell_gradients = marks(n_cells, region.cells),
                           .reconstructed = marks(n_faces, region.reconstructed),
                           .face_gradients = marks(n_faces, region.energy_gradient_faces)};
-    for (const BoundaryFace b : region.reconstructed_boundary) wanted.reconstructed[arrays_.face_of(b)] = true;
-    for (const BoundaryFace b : region.faces) wanted.face_gradients[arrays_.face_of(b)] = true;
+    for (const BoundaryFace b : region.reconstructed_boundary) wanted.reconstructed[state_.arrays.face_of(b)] = true;
+    for (const BoundaryFace b : region.faces) wanted.face_gradients[state_.arrays.face_of(b)] = true;
     for (const std::int32_t c : region.cells)  // contact may ask for boundary faces that no cell needs
-        for (const HalfFace& half_face : arrays_.half_faces_of(c))
-            if (arrays_.boundary_index[half_face.face] != no_face) wanted.face_gradients[half_face.face] = true;
+        for (const HalfFace& half_face : state_.arrays.half_faces_of(c))
+            if (state_.arrays.boundary_index[half_face.face] != no_face) wanted.face_gradients[half_face.face] = true;
     wanted_ = lists_of(wanted);
 }
 

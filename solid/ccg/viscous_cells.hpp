@@ -6,6 +6,7 @@
 
 #include "abut/mesh/mesh.hpp"
 #include "abut/solid/ccg/ccg.hpp"
+#include "abut/solid/ccg/cell_pool.hpp"
 #include "abut/solid/ccg/directed_cells.hpp"
 #include "abut/solid/ccg/finite_cell.hpp"
 #include "abut/solid/material/material.hpp"
@@ -51,6 +52,10 @@ public:
     /// Writes them behind `values`.
     void put_memory(std::ptrdiff_t cell, std::vector<double>& values) const;
     void set_memory(std::ptrdiff_t cell, std::span<const double> values);
+    /// Whether a cell remembers the same things as one of another mesh.
+    [[nodiscard]] bool remembers_as(std::ptrdiff_t cell, const ViscousCells& other, std::ptrdiff_t other_cell) const {
+        return contains(cell) == other.contains(other_cell);
+    }
 
 private:
     /// Rates that acted in a step.
@@ -81,5 +86,7 @@ private:
     std::vector<std::int32_t> index_;  // of each cell; empty where no body is damped
     std::vector<Cell> cells_;
 };
+
+static_assert(RememberingCells<ViscousCells<2>> && RememberingCells<ViscousCells<3>>);
 
 }  // namespace abut::solid
