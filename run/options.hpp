@@ -11,10 +11,10 @@
 #include "abut/dynamics/scheme.hpp"
 #include "abut/geometry/pair_potential/pair_potential.hpp"
 #include "abut/solid/boundary/boundary_conditions.hpp"
-#include "abut/solid/ccg/precision.hpp"
 #include "abut/solid/ccg/step_device.hpp"
 #include "abut/solid/combinations/features.hpp"
 #include "abut/solid/kinematics/kinematics.hpp"
+#include "abut/solid/operator/precision.hpp"
 
 namespace abut::run {
 

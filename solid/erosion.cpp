@@ -8,9 +8,9 @@
 
 #include "abut/base/decompositions.hpp"
 #include "abut/base/parallel.hpp"
-#include "abut/solid/ccg/joined_cells.hpp"
 #include "abut/solid/cell_view.hpp"
 #include "abut/solid/kinematics/properties.hpp"
+#include "abut/solid/operator/joined_cells.hpp"
 #include "abut/solid/options/made_features.hpp"
 #include "abut/solid/solid.hpp"
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "abut/solid/body/body_frame.hpp"
-#include "abut/solid/ccg/lanes.hpp"
+#include "abut/solid/operator/lanes.hpp"
 
 namespace abut::solid {
 

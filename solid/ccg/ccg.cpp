@@ -10,10 +10,10 @@
 #include "abut/base/rotation.hpp"
 #include "abut/solid/ccg/ccg_impl.hpp"
 #include "abut/solid/ccg/device_sweeps.hpp"
-#include "abut/solid/ccg/region.hpp"
 #include "abut/solid/ccg/single_sweeps.hpp"
 #include "abut/solid/combinations/combinations.hpp"
 #include "abut/solid/kinematics/properties.hpp"
+#include "abut/solid/operator/region.hpp"
 
 namespace abut::solid {
 namespace {

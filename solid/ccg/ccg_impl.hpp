@@ -5,17 +5,17 @@
 #include <span>
 #include <vector>
 
-#include "abut/solid/ccg/arrays.hpp"
-#include "abut/solid/ccg/capped_jumps.hpp"
 #include "abut/solid/ccg/ccg.hpp"
-#include "abut/solid/ccg/finite_cells.hpp"
-#include "abut/solid/ccg/free_face_answers.hpp"
-#include "abut/solid/ccg/motion_bound.hpp"
-#include "abut/solid/ccg/plastic_cells.hpp"
 #include "abut/solid/ccg/step_sweeps.hpp"
 #include "abut/solid/ccg/sweeps.hpp"
-#include "abut/solid/ccg/thermal_cells.hpp"
-#include "abut/solid/ccg/viscous_cells.hpp"
+#include "abut/solid/cells/capped_jumps.hpp"
+#include "abut/solid/cells/finite_cells.hpp"
+#include "abut/solid/cells/plastic_cells.hpp"
+#include "abut/solid/cells/thermal_cells.hpp"
+#include "abut/solid/cells/viscous_cells.hpp"
+#include "abut/solid/operator/arrays.hpp"
+#include "abut/solid/operator/free_face_answers.hpp"
+#include "abut/solid/operator/motion_bound.hpp"
 
 namespace abut::solid {
 

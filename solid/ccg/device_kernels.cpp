@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "abut/base/error.hpp"
-#include "abut/solid/ccg/components.hpp"
-#include "abut/solid/ccg/simplex_elements.hpp"
+#include "abut/solid/cells/simplex_elements.hpp"
+#include "abut/solid/operator/components.hpp"
 
 // The only source that sees Kokkos; compiled by the compiler that Kokkos was built with. From Kokkos 3.4 on.
 

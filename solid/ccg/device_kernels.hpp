@@ -5,7 +5,7 @@
 #include <span>
 
 #include "abut/solid/ccg/step_device.hpp"
-#include "abut/solid/ccg/sweep_tables.hpp"
+#include "abut/solid/cells/sweep_tables.hpp"
 
 namespace abut::solid {
 

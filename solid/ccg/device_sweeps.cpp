@@ -1,7 +1,7 @@
 #include "abut/solid/ccg/device_sweeps.hpp"
 
 #include "abut/base/parallel.hpp"
-#include "abut/solid/ccg/simplex_elements.hpp"
+#include "abut/solid/cells/simplex_elements.hpp"
 
 namespace abut::solid {
 

@@ -3,8 +3,8 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "abut/solid/ccg/cell_moments.hpp"
-#include "abut/solid/ccg/sweep_tables.hpp"
+#include "abut/solid/cells/cell_moments.hpp"
+#include "abut/solid/cells/sweep_tables.hpp"
 
 namespace abut::solid {
 

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "abut/base/parallel.hpp"
-#include "abut/solid/ccg/simplex_elements.hpp"
+#include "abut/solid/cells/simplex_elements.hpp"
 
 namespace abut::solid {
 namespace {

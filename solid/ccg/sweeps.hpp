@@ -7,15 +7,15 @@
 #include <utility>
 #include <vector>
 
-#include "abut/solid/ccg/arrays.hpp"
 #include "abut/solid/ccg/ccg.hpp"
-#include "abut/solid/ccg/finite_pool.hpp"
-#include "abut/solid/ccg/linear_materials.hpp"
-#include "abut/solid/ccg/linear_pool.hpp"
 #include "abut/solid/ccg/placed_corrections.hpp"
-#include "abut/solid/ccg/sweep_lists.hpp"
 #include "abut/solid/ccg/sweep_schedule.hpp"
-#include "abut/solid/ccg/sweep_state.hpp"
+#include "abut/solid/cells/finite_pool.hpp"
+#include "abut/solid/cells/linear_materials.hpp"
+#include "abut/solid/cells/linear_pool.hpp"
+#include "abut/solid/cells/sweep_lists.hpp"
+#include "abut/solid/cells/sweep_state.hpp"
+#include "abut/solid/operator/arrays.hpp"
 
 namespace abut::solid {
 
@@ -114,7 +114,7 @@ public:
 private:
     static constexpr bool is_double = std::is_same_v<Real, double>;
     using Vectors = Lanes<Dim, Real>;
-    /// Of what single precision does not have.
+    /// Member that single precision does not have.
     struct Absent {};
 
     enum Stage { loading, reconstruction, displacement_gradients, stresses, face_gradients, cell_gradients, n_stages };

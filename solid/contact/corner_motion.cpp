@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "abut/base/parallel.hpp"
-#include "abut/solid/ccg/lanes.hpp"
 #include "abut/solid/contact/frame_motion.hpp"
+#include "abut/solid/operator/lanes.hpp"
 
 namespace abut::solid {
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "abut/solid/body/body_frame.hpp"
-#include "abut/solid/ccg/corner_weights.hpp"
+#include "abut/solid/operator/corner_weights.hpp"
 
 namespace abut::solid {
 

@@ -3,9 +3,9 @@
 
 #include "abut/base/option.hpp"
 #include "abut/solid/boundary/boundary_conditions.hpp"
-#include "abut/solid/ccg/precision.hpp"
 #include "abut/solid/ccg/step_device.hpp"
 #include "abut/solid/kinematics/kinematics.hpp"
+#include "abut/solid/operator/precision.hpp"
 
 namespace abut::solid {
 

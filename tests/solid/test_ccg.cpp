@@ -2,7 +2,7 @@
 
 #include <cstring>
 
-#include "abut/solid/ccg/largest_motion.hpp"
+#include "abut/solid/operator/largest_motion.hpp"
 #include "solid/dense_stiffness.hpp"
 #include "solid/scenes.hpp"
 

@@ -6,8 +6,8 @@
 
 #include "abut/base/decompositions.hpp"
 #include "abut/base/rotation.hpp"
-#include "abut/solid/ccg/edge_step.hpp"
-#include "abut/solid/ccg/finite_cell.hpp"
+#include "abut/solid/cells/edge_step.hpp"
+#include "abut/solid/cells/finite_cell.hpp"
 #include "abut/solid/material/material.hpp"
 #include "solid/scenes.hpp"
 

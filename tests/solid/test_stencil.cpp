@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "abut/base/eigen.hpp"
-#include "abut/solid/ccg/stencil.hpp"
+#include "abut/solid/operator/stencil.hpp"
 #include "solid/scenes.hpp"
 
 using namespace abut;
