@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cctype>
+#include <string>
+#include <vector>
 
 #include "abut/base/counted.hpp"
 #include "abut/base/error.hpp"
@@ -116,22 +118,22 @@ std::string surface_info(const fs::path& path) {
     return text;
 }
 
-/// Content of a file that may hold any of them. If that is nothing, all reasons.
+/// Content of a file that may hold a mesh or a surface. Of a surface also why it is no mesh. If it holds nothing, all reasons.
 std::string mesh_or_surface_info(const fs::path& path) {
-    struct Kind {
-        const char* name;
-        std::string (*info)(const fs::path&);
-    };
-    std::string reasons;
-    for (const Kind kind :
-         {Kind{"a mesh in 3D", mesh_info<3>}, {"a mesh in 2D", mesh_info<2>}, {"a surface", surface_info}}) {
+    std::vector<std::string> reasons;
+    for (const auto& mesh_info_of : {mesh_info<3>, mesh_info<2>}) {
         try {
-            return kind.info(path);
+            return mesh_info_of(path);
         } catch (const Error& error) {
-            reasons += fmt::format("\n  as {}: {}", kind.name, error.what());
+            reasons.emplace_back(error.what());
         }
     }
-    throw BadInput(fmt::format("{}: it cannot be read{}", path.string(), reasons));
+    try {
+        return surface_info(path) + info_line("no mesh", reasons.front());
+    } catch (const Error& error) {
+        throw BadInput(fmt::format("{}: it cannot be read\n  as a mesh in 3D: {}\n  as a mesh in 2D: {}\n  as a surface: {}",
+                                   path.string(), reasons[0], reasons[1], error.what()));
+    }
 }
 
 template <int Dim>

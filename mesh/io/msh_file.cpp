@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <optional>
 #include <tuple>
 
 #include "abut/base/sort_unique.hpp"
@@ -63,12 +64,12 @@ private:
                             ": is not a Gmsh mesh file: it does not start with '$MeshFormat'. Save it with gmsh "
                             "-format msh41.");
         const std::string_view version = values_.word(), type = values_.word(), size = values_.word();
-        // All of version 2 has one grammar.
-        constexpr std::array<std::string_view, 5> known = {"2", "2.0", "2.1", "2.2", "4.1"};
-        if (std::ranges::find(known, version) == known.end() || (type != "0" && type != "1"))
+        const std::optional<double> number = number_in(version);                                 // Netgen writes 2.000000
+        const bool is_known = number && ((*number >= 2.0 && *number <= 2.2) || *number == 4.1);  // version 2: one grammar
+        if (!is_known || (type != "0" && type != "1"))
             throw MeshError(file_.name + ": has the Gmsh format " + in_quotes(version) +
                             ", 2.0 to 2.2 and 4.1 can be read. Save it with gmsh -format msh41.");
-        is_version_4_ = version == "4.1";
+        is_version_4_ = *number == 4.1;
         if (type == "1") read_byte_order(size);
         values_.check_has_end("MeshFormat");
         values_.finish_section("MeshFormat");
@@ -140,7 +141,7 @@ private:
 
     /// Points, curves, surfaces, volumes: a tag, the box around it (of a point: where it is), the tags of its physical
     /// groups and those of its boundary (a point has none). A partitioned one has its parent and its parts before the
-    /// box.
+    /// box. Where its parent has more dimensions it is a cut between parts: the group of that body is not for it.
     void read_entities(bool are_parts) {
         if (values_.is_binary()) (void)values_.rest_of_line();
         if (are_parts) {
@@ -156,8 +157,9 @@ private:
     }
     void read_entity(std::int32_t dimension, bool is_part) {
         const std::int32_t tag = values_.next_int("the tag of an entity");
+        bool is_cut = false;
         if (is_part) {
-            (void)values_.next_int("the dimension of a parent");
+            is_cut = values_.next_int("the dimension of a parent") > dimension;
             (void)values_.next_int("the tag of a parent");
             skip_tags("the number of parts of an entity", "a part");
         }
@@ -165,7 +167,7 @@ private:
         auto& groups = groups_of_entity_[{dimension, tag}];
         const std::int64_t n_groups = values_.next_count("the number of physical groups of an entity", 1, 4);
         for (std::int64_t i = 0; i < n_groups; ++i)
-            if (const std::int32_t group = group_tag(values_.next_int("a physical group")); group > 0) {
+            if (const std::int32_t group = group_tag(values_.next_int("a physical group")); group > 0 && !is_cut) {
                 groups.push_back(group);
                 file_.groups.insert({dimension, group});
             }

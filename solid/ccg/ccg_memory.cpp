@@ -168,19 +168,24 @@ void Ccg<Dim>::set_memory(std::span<const double> values) {
 template <int Dim>
 void Ccg<Dim>::take_memory(const Ccg& before, std::span<const std::int32_t> old_cells,
                            std::span<const std::int32_t> old_faces) {
-    if (impl_->finite.any_inelastic()) impl_->sweeps.finite().forget_ends();
+    Impl& to = *impl_;
+    const Impl& from = *before.impl_;
+    for (std::int32_t c = 0; c < n_cells(); ++c) {
+        const std::int32_t old = old_cells[static_cast<std::size_t>(c)];
+        check_memory(to.sweeps.finite(), c, from.sweeps.finite(), old);
+        check_memory(to.viscous, c, from.viscous, old);
+        check_memory(to.plastic, c, from.plastic, old);
+        check_memory(to.capped, c, from.capped, old);
+    }
+    if (to.finite.any_inelastic()) to.sweeps.finite().forget_ends();
     std::vector<double> values;
-    const auto take = [&](auto& cells, const auto& from) {
+    const auto take = [&](auto& cells, const auto& old_cells_of) {
         for (std::int32_t c = 0; c < n_cells(); ++c) {
-            const std::int32_t old = old_cells[static_cast<std::size_t>(c)];
-            check_memory(cells, c, from, old);
             values.clear();
-            from.put_memory(old, values);
+            old_cells_of.put_memory(old_cells[static_cast<std::size_t>(c)], values);
             if (!values.empty()) cells.set_memory(c, values);
         }
     };
-    Impl& to = *impl_;
-    const Impl& from = *before.impl_;
     take(to.sweeps.finite(), from.sweeps.finite());
     take(to.viscous, from.viscous);
     take(to.plastic, from.plastic);
@@ -193,9 +198,8 @@ void Ccg<Dim>::Impl::take_jumps(const Impl& from, std::span<const std::int32_t> 
                                 std::span<const std::int32_t> old_faces) {
     std::vector<double> values;
     for (std::int32_t c = 0; c < arrays.n_cells(); ++c) {
-        const std::int32_t old_cell = old_cells[static_cast<std::size_t>(c)];
-        check_memory(capped, c, from.capped, old_cell);
         if (!capped.contains(c)) continue;
+        const std::int32_t old_cell = old_cells[static_cast<std::size_t>(c)];
         values.clear();
         for (std::int32_t i = arrays.half_face_offsets[c]; i < arrays.half_face_offsets[c + 1]; ++i) {
             const std::int32_t old_face = old_faces[static_cast<std::size_t>(arrays.half_faces[i].face)];

@@ -1,4 +1,5 @@
 #include "abut/solid/ccg/sweeps.hpp"
+#include "abut/solid/cells/simplex_elements.hpp"
 
 // What the sweeps do with one chunk, and with one element whatever its body is.
 
@@ -30,10 +31,10 @@ void CcgSweeps<Dim, Real>::set_any_stress(std::int32_t c) {
     const Kind kind = kind_of(c);
     in_pool(*this, kind, [c](auto& pool) { pool.set_stress(c); });
     if (kind == Kind::finite) return;
-    materials_.take_lasting_jumps(c);
+    materials_.remove_lasting_jumps(c);
     if (const std::int32_t i = state_.element.tables.affine_index_of(c); i >= 0)
         state_.element.set_any_affine_gradients(state_.arrays.affine.cells[static_cast<std::size_t>(i)]);
-    materials_.add_stress(c);
+    materials_.add_stress_of_state(c);
 }
 
 /// Adds what contact adds to the stress of a cell, and what its free face does.
@@ -80,7 +81,7 @@ template <int Dim, class Real>
 void CcgSweeps<Dim, Real>::stresses_of_chunk(std::int32_t k) {
     const CellsOfChunk chunk{wanted_.stresses[k], wanted_.condensed_stresses[k]};
     in_pool_of_chunk(k, [&](auto& pool) { pool.set_stresses(chunk); });
-    with_materials_of(k, [&](auto& materials) { materials.take_lasting_jumps(chunk.cells); });
+    with_materials_of(k, [&](auto& materials) { materials.remove_lasting_jumps(chunk.cells); });
     for (const AffineCell& cell : wanted_.affine_gradients[k]) state_.element.set_any_affine_gradients(cell);
     with_materials_of(k, [&](auto& materials) { materials.add_stresses(chunk.cells); });
     for (const Run& run : chunk.cells) add_moments(run.begin, run.end);

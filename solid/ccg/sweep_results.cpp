@@ -1,10 +1,12 @@
 // What the sweeps know of single cells after a call.
 #include <algorithm>
+#include <cmath>
 #include <utility>
 #include <vector>
 
 #include "abut/base/parallel.hpp"
 #include "abut/solid/ccg/sweeps.hpp"
+#include "abut/solid/operator/largest_strain.hpp"
 
 namespace abut::solid {
 namespace {

@@ -136,7 +136,7 @@ void CcgSweeps<Dim, Real>::take_ends(const StepEnds<Dim>& ends) {
     if (!state_.finite.takes_ends() || ends.start.empty()) return;
     static const BoundaryLoad<Dim> none;
     begin_step(ends.start, ends.start_load ? *ends.start_load : none, ends.dt);
-    finite_.begin_end(ends.end, ends.end_load ? *ends.end_load : none);
+    finite_.fill_end(ends.end, ends.end_load ? *ends.end_load : none);
 }
 
 /// Takes the start from where the last step ended, if that is here; what materials remember goes on wherever the step
@@ -156,7 +156,7 @@ void CcgSweeps<Dim, Real>::begin_step(std::span<const Vector<Dim>> u, const Boun
     each_chunk([&](std::int32_t k) { reconstruct_chunk(k); });
     each_chunk([&](std::int32_t k) { displacement_gradients_of_chunk(k); });
     each_chunk([&](std::int32_t k) { stresses_of_chunk(k); });
-    finite_.start_is_set(load);
+    finite_.keep_start(load);
 }
 
 // A part of the mesh -------------------------------------------------------------------------------------------------

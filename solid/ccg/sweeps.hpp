@@ -36,7 +36,7 @@ namespace abut::solid {
 /// and in a condensed cell the free face follows from the others: û_b - u_c = -A_bb^-1 sigma' |b| n_b, sigma' without
 /// it; with z = A_bb^-1 y_b, R^T y_b is what the stress -C:(z (x) |b| n_b)/|c| does on the faces of the cell.
 ///
-/// Cells are in three pools: CellPool. A chunk of the mesh has cells of one of them.
+/// Cells are in three pools (CellPool). All cells of a chunk of the mesh are in the same one.
 ///
 /// Real is what the numbers of the operators and the work arrays are, all but displacements: these are double, and so are
 /// their differences, before they are rounded, and the sums that cells receive. In float there are no bodies of
@@ -44,7 +44,7 @@ namespace abut::solid {
 template <int Dim, class Real = double>
 class CcgSweeps {
 public:
-    /// Steps of nothing but linear elasticity. All must outlive the sweeps.
+    /// For single precision: all bodies are of linear elasticity. All must outlive the sweeps.
     CcgSweeps(const CcgArrays<Dim>& arrays, const CcgCoefficients<Dim, Real>& coefficients,
               const FiniteCells<Dim>& finite) requires std::is_same_v<Real, float>;
     /// All must outlive the sweeps.
@@ -82,6 +82,7 @@ public:
 
     /// See Ccg.
     void begin_step(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load, double dt);
+    /// Keeps where the step ended. Cells that remember end it by RememberingCells::end_step.
     void end_step() { state_.change.keep_end(); }
     [[nodiscard]] FiniteExtremes finite_extremes(std::span<const std::int32_t> cells) const;
     void watch_strains() { strain_bounds_.assign(chunks_.size() - 1, 0.0); }

@@ -12,7 +12,6 @@
 #include "abut/solid/kinematics/kinematics.hpp"
 #include "abut/solid/material/material.hpp"
 #include "abut/solid/operator/arrays.hpp"
-#include "abut/solid/operator/operator_values.hpp"
 
 namespace abut::solid {
 

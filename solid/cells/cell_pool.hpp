@@ -15,8 +15,8 @@ struct CellsOfChunk {
     std::span<const CondensedCell> condensed;  // among them
 };
 
-/// Cells of one kind, as the sweeps visit them. A chunk has cells of one pool. What a function writes is in the arrays of
-/// SweepState; functions of different chunks may be called from several threads at once.
+/// Cells of one kind, as the sweeps visit them. All cells of a chunk are of one pool. Functions may be called at once from
+/// several threads for different chunks, or for different cells.
 template <class Pool>
 concept CellPool = requires(Pool& pool, const Pool& fixed, const CellsOfChunk& chunk, std::span<const Run> runs,
                             std::span<const BoundaryFace> rows, void (*load_cell)(std::ptrdiff_t), std::int32_t c) {
@@ -26,14 +26,14 @@ concept CellPool = requires(Pool& pool, const Pool& fixed, const CellsOfChunk& c
     pool.reconstruct(runs, rows);
     // G_c and the traces of cells, or of simplices their stress and d_c.
     pool.set_gradients(chunk);
-    // S_c and the sum of k [u], nothing but elasticity in them.
+    // S_c and the sum of k [u]; of simplices the latter alone. LinearMaterials adds to them, not to those of finite bodies.
     pool.set_stresses(chunk);
     // y_f of interior faces.
     pool.set_face_gradients(runs);
     // One cell, of a part of the mesh: `set_gradients`, `set_stresses`.
     pool.set_gradient(c);
     pool.set_stress(c);
-    // Results. The largest strain of the cells [first, last), at most.
+    // Results. An upper bound on the strain of the cells [begin, end).
     { fixed.largest_strain(c, c) } -> std::same_as<double>;
     // Twice the elastic energy of a cell over its measure, without jumps [J/m^3].
     { fixed.twice_energy_density(c) } -> std::same_as<double>;
@@ -48,7 +48,7 @@ concept RememberingCells = requires(Cells& cells, const Cells& fixed, std::ptrdi
     { fixed.memory_size(c) } -> std::same_as<std::int32_t>;
     // Writes them behind `values`.
     fixed.put_memory(c, values);
-    // Takes as many as `memory_size`.
+    // Takes what `put_memory` wrote, of this cell or of one that it `remembers_as`.
     cells.set_memory(c, given);
     // Whether a cell remembers the same things as one of another mesh.
     { fixed.remembers_as(c, fixed, c) } -> std::same_as<bool>;

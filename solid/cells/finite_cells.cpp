@@ -132,13 +132,6 @@ std::vector<double> FiniteCells<Dim>::initial_memory() const {
     return memory;
 }
 
-template <int Dim>
-bool FiniteCells<Dim>::any_in(std::int32_t begin, std::int32_t end) const {
-    for (std::int32_t c = begin; c < end; ++c)
-        if (contains(c)) return true;
-    return false;
-}
-
 template class FiniteCells<2>;
 template class FiniteCells<3>;
 

@@ -79,8 +79,6 @@ public:
     [[nodiscard]] bool contains(std::ptrdiff_t cell) const {
         return any() && position_[static_cast<std::size_t>(cell)] != linear;
     }
-    /// Whether one of the cells from `begin` to before `end` is.
-    [[nodiscard]] bool any_in(std::int32_t begin, std::int32_t end) const;
     /// Position of a cell of such a body in `free`; -1 where it has no free face.
     [[nodiscard]] std::int32_t free_position(std::ptrdiff_t cell) const { return position_[static_cast<std::size_t>(cell)]; }
     [[nodiscard]] std::span<const FreeCell<Dim>> free() const { return free_; }

@@ -30,11 +30,6 @@ void FinitePool<Dim>::reconstruct(std::span<const Run> faces, std::span<const Bo
     for (const BoundaryFace b : rows) state_.change.reconstruct_finite(b);
 }
 
-template <int Dim>
-void FinitePool<Dim>::set_face_gradients(std::span<const Run> faces) {
-    for_runs(faces, [&](std::int32_t f) { store(state_.element.interior_gradient(f), state_.work.of_face, f); });
-}
-
 // Gradients ----------------------------------------------------------------------------------------------------------
 
 template <int Dim>
@@ -126,7 +121,7 @@ void FinitePool<Dim>::advance_free(std::int32_t c, std::int32_t inelastic, const
     end.set_shape(inelastic, shape);
     std::ranges::copy(before, after.begin());
     const LeastEnergy<Dim> at_first(free, end.law(inelastic), g, shape);
-    (void)advance_to(inelastic, at_first.gradient());
+    advance_to(inelastic, at_first.gradient());
     if (std::ranges::equal(before, after)) {
         if (fate(inelastic) == Fate::changes) fate(inelastic) = Fate::stays;
         free_[static_cast<std::size_t>(cells_.free_position(c))].least = at_first;
@@ -134,7 +129,7 @@ void FinitePool<Dim>::advance_free(std::int32_t c, std::int32_t inelastic, const
     }
     const LeastEnergy<Dim> least(free, SteppedLaw<Dim>(law, state_.dt, before, after), g, shape);
     end.set_shape(inelastic, least.shape());
-    (void)advance_to(inelastic, least.gradient());
+    advance_to(inelastic, least.gradient());
 }
 
 // Stresses -----------------------------------------------------------------------------------------------------------
@@ -291,7 +286,7 @@ void FinitePool<Dim>::set_start(std::span<const Run> cells, std::span<const Vect
 }
 
 template <int Dim>
-void FinitePool<Dim>::start_is_set(const BoundaryLoad<Dim>& load) {
+void FinitePool<Dim>::keep_start(const BoundaryLoad<Dim>& load) {
     kept_.start.load_displacement = load.displacement;
     if (cells_.any_warm()) kept_.start.temperature = load.temperature;
     kept_.start.is_set = true;
@@ -299,7 +294,7 @@ void FinitePool<Dim>::start_is_set(const BoundaryLoad<Dim>& load) {
 }
 
 template <int Dim>
-void FinitePool<Dim>::begin_end(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load) {
+void FinitePool<Dim>::fill_end(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load) {
     kept_.try_end();
     end_ = u;
     end_element_ = state_.element;

@@ -15,8 +15,8 @@
 
 namespace abut::solid {
 
-/// Cells of bodies of Kinematics::finite. Where their mean force is that of both ends of a step, the sweeps compute the end,
-/// and what this pool kept of the start makes the mean of it. docs/method.md, Bodies that bend.
+/// Cells of bodies of Kinematics::finite. Where the mean force is that of both ends of a step, the sweeps compute the end,
+/// and this pool takes the mean with the start, which it has kept. docs/method.md, Bodies that bend.
 template <int Dim>
 class FinitePool {
 public:
@@ -39,7 +39,7 @@ public:
     void set_stresses(const CellsOfChunk& chunk) {
         for_runs(chunk.cells, [&](std::int32_t c) { set_stress(c); });
     }
-    void set_face_gradients(std::span<const Run> faces);
+    void set_face_gradients(std::span<const Run> faces) { set_interior_gradients(state_, faces); }
     void set_gradient(std::int32_t c);
     void set_stress(std::int32_t c);
     /// |E|.
@@ -48,9 +48,9 @@ public:
 
     // A step. See StepStage
 
-    /// Begins one at a state. Returns whether that has to be evaluated, as the last step did not end there: by
-    /// `set_start` of all chunks, the sweeps, and `start_is_set`. each_chunk(task): task(cells) for each chunk, on all
-    /// threads.
+    /// Begins a step at a state. Returns true if that must be evaluated since neither kept end is this state. Then call
+    /// `set_start` for all chunks, run the sweeps to stresses, and call `keep_start`. `each_chunk(task)` calls
+    /// task(cells) for each chunk, on all threads.
     template <class EachChunk>
     [[nodiscard]] bool begin_step(const EachChunk& each_chunk, std::span<const Vector<Dim>> u,
                                   const BoundaryLoad<Dim>& load) {
@@ -65,9 +65,9 @@ public:
         return true;
     }
     void set_start(std::span<const Run> cells, std::span<const Vector<Dim>> u);
-    void start_is_set(const BoundaryLoad<Dim>& load);
+    void keep_start(const BoundaryLoad<Dim>& load);
     /// From now on the sweeps compute the end of the step, until `leave`.
-    void begin_end(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load);
+    void fill_end(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load);
     void leave();
     /// Faces are evaluated at the end of the step, until `return_to` the stage before.
     void try_end() { kept_.try_end(); }
@@ -83,22 +83,24 @@ public:
     void set_memory(std::ptrdiff_t c, std::span<const double> values);
     [[nodiscard]] bool remembers_as(std::ptrdiff_t c, const FinitePool& other, std::ptrdiff_t other_cell) const;
     void end_step() { kept_.commit(); }
-    /// Ends of steps are of no use any more: other memory is set.
+    /// Drops both kept ends, since other memory is set: the next step evaluates its start again.
     void forget_ends();
     /// z of a cell, by FiniteCells::inelastic.
     [[nodiscard]] std::span<const double> memory_of(std::int32_t index) const { return kept_.here().memory->of(index); }
 
     // Contact
 
-    /// dV/dF over |c| of what contact adds at faces of a cell with free ones: in the state, or along the step.
+    /// dV/dF over |c| [Pa] from `gradient`, dV/dF_cond over |c|, which contact adds to a cell with free faces: in a state,
+    /// or along the step whose end is filled.
     [[nodiscard]] Matrix<Dim> pull_back_contact(std::int32_t c, const Matrix<Dim>& gradient);
-    /// û_f and F - I of a boundary face and the cell behind it as contact sees them, where those of affine faces are given.
+    /// û_f and F - I of a boundary face and the cell behind it, as contact sees them. `affine` and `g` are those with affine
+    /// free faces.
     [[nodiscard]] std::pair<Vector<Dim>, Matrix<Dim>> tilted_face(BoundaryFace face, const Vector<Dim>& affine,
                                                                   const Matrix<Dim>& g) const;
 
     // Results of the last call
 
-    /// Part of [u] without what lasts.
+    /// [u] without its lasting part [m].
     [[nodiscard]] Lanes<Dim> elastic_jump(std::int32_t c, std::int32_t half_face) const;
     /// F - I of a cell with a law of its own, its free faces where its energy is least.
     [[nodiscard]] Matrix<Dim> law_gradient(std::int32_t c) const;
@@ -135,7 +137,7 @@ private:
     void set_free_faces(std::int32_t c, const Matrix<Dim>& g);
     [[nodiscard]] LeastEnergy<Dim> least_energy(std::int32_t c, const StoredEnergy<Dim>& law, const Matrix<Dim>& g) const;
     void advance(std::int32_t c, std::int32_t inelastic, const Matrix<Dim>& g);
-    [[nodiscard]] Response<Dim> advance_to(std::int32_t inelastic, const Matrix<Dim>& g);
+    Response<Dim> advance_to(std::int32_t inelastic, const Matrix<Dim>& g);
     void advance_inside(std::int32_t c, std::int32_t inelastic, const Matrix<Dim>& g);
     void advance_free(std::int32_t c, std::int32_t inelastic, const Matrix<Dim>& g);
     [[nodiscard]] Tensor elastic_stress_of(std::int32_t c, const Tensor& strain) const;

@@ -62,7 +62,7 @@ void FinitePool<Dim>::put_memory(std::ptrdiff_t c, std::vector<double>& values) 
     values.insert(values.end(), all.begin() + cell.begin, all.begin() + cell.end);
 }
 
-/// Takes what both have, where a cell has free faces no more or not yet: its shape is missing on one side.
+/// A cell that has gained or lost free faces lacks its shape on one side: only the numbers that both sides have are taken.
 template <int Dim>
 void FinitePool<Dim>::set_memory(std::ptrdiff_t c, std::span<const double> values) {
     const std::int32_t inelastic = cells_.inelastic(c);

@@ -131,14 +131,14 @@ Vector<Dim> LinearMaterials<Dim>::jump_of_flow(std::int32_t c, std::int32_t half
 }
 
 template <int Dim>
-void LinearMaterials<Dim>::take_lasting_jumps(std::span<const Run> cells) {
+void LinearMaterials<Dim>::remove_lasting_jumps(std::span<const Run> cells) {
     if (!capped_.any()) return;
-    for_runs(cells, [&](std::int32_t c) { take_lasting_jumps(c); });
+    for_runs(cells, [&](std::int32_t c) { remove_lasting_jumps(c); });
 }
 
 /// In a step the mean of both ends.
 template <int Dim>
-void LinearMaterials<Dim>::take_jumps_of(std::int32_t c) {
+void LinearMaterials<Dim>::remove_jumps_of(std::int32_t c) {
     const CcgArrays<Dim>& arrays = state_.arrays;
     ChangeInStep<Dim, double>& in_step = state_.change;
     if (in_step.of_linear()) capped_.begin(c);
@@ -174,7 +174,7 @@ void LinearMaterials<Dim>::take_jumps_of(std::int32_t c) {
 // One cell in a state ------------------------------------------------------------------------------------------------
 
 template <int Dim>
-void LinearMaterials<Dim>::add_stress(std::int32_t c) {
+void LinearMaterials<Dim>::add_stress_of_state(std::int32_t c) {
     if (has_stress_of_material()) add_stress_of_material(c);
     if (plastic_.contains(c)) state_.add_stress(c, -plastic_.stress(c));
 }

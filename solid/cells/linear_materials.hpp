@@ -13,7 +13,8 @@
 namespace abut::solid {
 
 /// Stresses that cells whose strains are linear have beside lambda and mu of their strain: directions, heat, flow,
-/// damping, and jumps that last. It adds to what LinearPool and SimplexPool compute, between their sweeps.
+/// damping, and jumps that last. In each sweep they add to what LinearPool and
+/// SimplexPool have computed.
 template <int Dim>
 class LinearMaterials {
 public:
@@ -24,24 +25,26 @@ public:
 
     // A chunk
 
-    /// Lets metal flow in the step, after the gradients of its cells: jumps look at the flow of both of theirs.
+    /// Lets metal flow in the step, after gradients and before stresses: a jump depends on the flow of both cells.
     void let_flow(std::span<const Run> cells);
-    /// Takes what lasts of the jumps out of those that push the cells, after their stresses.
-    void take_lasting_jumps(std::span<const Run> cells);
+    /// Removes the lasting parts of jumps from what pushes the cells, after their stresses.
+    void remove_lasting_jumps(std::span<const Run> cells);
     /// Adds the stresses of flow and damping, of directions and heat.
     void add_stresses(std::span<const Run> cells);
 
     // One cell in a state, not in a step
 
-    void take_lasting_jumps(std::int32_t c) {
-        if (capped_.contains(c)) take_jumps_of(c);
+    void remove_lasting_jumps(std::int32_t c) {
+        if (capped_.contains(c)) remove_jumps_of(c);
     }
-    void add_stress(std::int32_t c);
+    /// Adds the stresses of directions, heat and flow.
+    void add_stress_of_state(std::int32_t c);
     /// sigma_c [Pa].
     [[nodiscard]] Matrix<Dim> stress(std::int32_t c) const;
-    /// CellPool::twice_energy_density, which is `elastic`, with the energy of all of this [J/m^3].
+    /// `elastic`, the CellPool::twice_energy_density of the cell, plus twice the energy density of directions, heat and
+    /// flow [J/m^3].
     [[nodiscard]] double twice_energy_density(std::int32_t c, double elastic) const;
-    /// Part of [u] without what lasts.
+    /// [u] without its lasting part [m].
     [[nodiscard]] Lanes<Dim> elastic_jump(std::int32_t c, std::int32_t half_face) const {
         const Lanes<Dim> all = state_.jump(c, half_face);
         if (!capped_.contains(c)) return all;
@@ -70,7 +73,7 @@ private:
     [[nodiscard]] Matrix<Dim> trace_change(std::int32_t c) const;
     [[nodiscard]] Vector<Dim> jump_change(std::int32_t c, std::int32_t half_face, const Matrix<Dim>& of_cell) const;
     [[nodiscard]] Vector<Dim> jump_of_flow(std::int32_t c, std::int32_t half_face) const;
-    void take_jumps_of(std::int32_t c);
+    void remove_jumps_of(std::int32_t c);
 
     SweepState<Dim, double>& state_;
     ViscousCells<Dim>& viscous_;

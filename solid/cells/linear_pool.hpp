@@ -1,7 +1,6 @@
 #pragma once
 // Private to the sources of this layer.
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <span>
 
@@ -12,7 +11,7 @@
 
 namespace abut::solid {
 
-/// CellPool::load and `reconstruct` of the state that the sweeps are given.
+/// Base of LinearPool and SimplexPool: both compute the state that the sweeps are given.
 template <int Dim, class Real>
 class PoolOfGivenState {
 public:
@@ -53,9 +52,7 @@ public:
     void set_stresses(const CellsOfChunk& chunk) {
         for_runs(chunk.cells, [&](std::int32_t c) { state_.element.set_stress(c); });
     }
-    void set_face_gradients(std::span<const Run> faces) {
-        for_runs(faces, [&](std::int32_t f) { store(state_.element.interior_gradient(f), state_.work.of_face, f); });
-    }
+    void set_face_gradients(std::span<const Run> faces) { set_interior_gradients(state_, faces); }
     void set_gradient(std::int32_t c) { state_.element.set_displacement_gradient(c); }
     void set_stress(std::int32_t c) { state_.element.set_stress(c); }
 

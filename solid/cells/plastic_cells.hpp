@@ -15,7 +15,6 @@
 #include "abut/solid/material/material.hpp"
 #include "abut/solid/operator/arrays.hpp"
 #include "abut/solid/operator/free_face_of_cell.hpp"
-#include "abut/solid/operator/operator_values.hpp"
 
 namespace abut::solid {
 

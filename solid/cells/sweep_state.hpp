@@ -1,12 +1,14 @@
 #pragma once
 // Private to the sources of this layer.
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "abut/solid/cells/cell_moments.hpp"
 #include "abut/solid/cells/change_in_step.hpp"
 #include "abut/solid/cells/finite_cells.hpp"
 #include "abut/solid/cells/sweep_elements.hpp"
+#include "abut/solid/cells/sweep_lists.hpp"
 #include "abut/solid/cells/work_arrays.hpp"
 #include "abut/solid/operator/arrays.hpp"
 #include "abut/solid/operator/operator_values.hpp"
@@ -72,5 +74,11 @@ struct SweepState {
     double dt = 0.0;                  // of the last step [s]
     std::vector<double> temperature;  // BoundaryLoad::temperature
 };
+
+/// y_f of interior faces between cells of any shape.
+template <int Dim, class Real>
+void set_interior_gradients(SweepState<Dim, Real>& state, std::span<const Run> faces) {
+    for_runs(faces, [&](std::int32_t f) { store(state.element.interior_gradient(f), state.work.of_face, f); });
+}
 
 }  // namespace abut::solid

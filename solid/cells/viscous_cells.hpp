@@ -4,12 +4,12 @@
 #include <span>
 #include <vector>
 
+#include "abut/dynamics/losses.hpp"
 #include "abut/mesh/mesh.hpp"
 #include "abut/solid/cells/cell_pool.hpp"
 #include "abut/solid/cells/finite_cell.hpp"
 #include "abut/solid/material/material.hpp"
 #include "abut/solid/operator/directed_cells.hpp"
-#include "abut/solid/operator/operator_values.hpp"
 
 namespace abut::solid {
 

@@ -27,14 +27,14 @@ template <int Dim, class Real>
     return four_times / 4;
 }
 
-/// Root of the largest squared(tensor) of the tensors [begin, end); not a number where one is none.
+/// Square root of the largest squared(tensor) of the tensors [begin, end). The result is NaN if any of them is.
 template <int Dim, class Real, class Squared>
 [[nodiscard]] double largest_root(const LargeArray<Real>& tensors, std::int32_t begin, std::int32_t end,
                                   const Squared& squared) {
     double largest = 0.0;
     for (std::int32_t i = begin; i < end; ++i) {
         const double value = squared(load_tensor<Dim>(tensors, i));
-        largest = value <= largest ? largest : value;
+        largest = value <= largest || std::isnan(largest) ? largest : value;
     }
     return std::sqrt(largest);
 }

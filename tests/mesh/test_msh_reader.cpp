@@ -205,6 +205,39 @@ TEST_CASE("our reader of MSH finds the elements, nodes and groups that Gmsh's re
     }
 }
 
+TEST_CASE("a mesh that Gmsh has cut into parts is that of the whole: a cut is no group", "[mesh][files][msh]") {
+    const ScratchFolder folder;
+    const int dimension = GENERATE(2, 3);
+    const bool binary = GENERATE(false, true), ghosts = GENERATE(false, true);
+    CAPTURE(dimension, binary, ghosts);
+    {
+        const OpenGmsh open;
+        make_bodies(dimension, 1);
+        write(folder / "whole.msh", 4.1, binary, false);
+        gmsh::option::setNumber("Mesh.PartitionCreateGhostCells", ghosts);
+        gmsh::model::mesh::partition(3);
+        write(folder / "parts.msh", 4.1, binary, false);
+    }
+    const auto check_alike = [](const auto& whole, const auto& parts) {
+        CHECK(parts.n_cells() == whole.n_cells());
+        CHECK(parts.boundary_faces.size() == whole.boundary_faces.size());
+        CHECK(parts.body_names == whole.body_names);
+        REQUIRE(parts.groups.size() == whole.groups.size());
+        for (const auto& group : whole.groups) CHECK(parts.group(group.name).faces.size() == group.faces.size());
+    };
+    if (dimension == 2)
+        check_alike(read_gmsh<2>(folder / "whole.msh"), read_gmsh<2>(folder / "parts.msh"));
+    else
+        check_alike(read_gmsh<3>(folder / "whole.msh"), read_gmsh<3>(folder / "parts.msh"));
+}
+
+TEST_CASE("a version is a number, whatever its digits", "[mesh][files][msh]") {
+    const ScratchFolder folder;
+    const std::string version = GENERATE("2", "2.0", "2.000000", "2.20");
+    save(folder / "a.msh", "$MeshFormat\n" + version + " 0 8\n$EndMeshFormat\n" + nodes + elements);
+    CHECK(read_gmsh<3>(folder / "a.msh").n_cells() == 1);
+}
+
 TEST_CASE("an element of format 2.2 in two groups is in both", "[mesh][files][msh]") {
     const ScratchFolder folder;
     {

@@ -197,6 +197,10 @@ TEST_CASE("abut info says what is in scenes, surfaces and meshes", "[programs][a
                            "$Elements\n1\n1 3 2 7 1 1 2 3 4\n$EndElements\n";
     CHECK_THAT(answer("info " + mesh.string()),
                Contains("a mesh in 2D") && Contains("1 quadrangle") && Contains("body 'plate'") && Contains("6 m^2"));
+    const fs::path sheet = folder.path() / "sheet.msh";  // a triangle in space
+    std::ofstream(sheet) << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n3\n1 0 0 0\n2 1 0 0\n3 0 0 1\n$EndNodes\n"
+                            "$Elements\n1\n1 2 2 7 1 1 2 3\n$EndElements\n";
+    CHECK_THAT(answer("info " + sheet.string()), Contains("a surface") && Contains("no mesh") && Contains("sheet.msh: "));
     for (const char* name : {"broken.msh", "unknown.xyz"}) {
         std::ofstream(folder.path() / name) << "nothing\n";
         const Outcome outcome = run_program("abut", "info " + (folder.path() / name).string(), "");
