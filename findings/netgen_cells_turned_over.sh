@@ -4,7 +4,7 @@
 #   python3 of Debian with numpy.
 # Guess: an export brings cells into the order of the format it writes: volumes are positive in a file for Gmsh as in one for Abaqus.
 # Seen: in the file for Abaqus the volume of a unit cube is +1. In both formats for Gmsh and in the neutral one all cells have
-#   negative volumes, as in Netgen itself. Triangles face outwards in all of them. What sums volumes of the cells gets -1.
+#   negative volumes, as in Netgen itself. Their triangles face outwards. What sums volumes of the cells gets -1.
 set -euo pipefail
 work=$(mktemp -d) && trap 'rm -rf "$work"' EXIT && cd "$work"
 apt-get -qq -y --no-install-recommends --download-only --reinstall -o APT::Sandbox::User=root -o Debug::NoLocking=1 -o Dir::Cache::archives="$work" \
