@@ -101,6 +101,21 @@ def figures_of(run, dim):
 
 
 @claim
+def metal_that_planes_press_far_beyond_yield_bears_what_statics_allows_and_nears_the_exact_force_with_more_cells(programs):
+    """Of n layers those on the planes pull along them by the limit of plane strain at most, 2/sqrt(3) of the flow stress, which is what the
+    block bears: n - 2 others are pressed along by as much in all, and bear at most that more. Edges that bear nothing are 2 columns
+    of n. Of triangles half a layer touches."""
+    for shape, layers, counts in (("quadrangle", 1, (8, 16)), ("triangle", 2, (4, 8))):
+        errors = []
+        for across in counts:
+            force, _ = figures_of(pressed_block(programs, shape, across), 2)
+            n = layers * across
+            require(1 - 2 / n <= force <= 1 + 2 / (n - 2), f"{across} {shape}s across bear {force:.3f} of the exact force")
+            errors.append(abs(force - 1))
+        require(errors[1] < errors[0], f"{shape}s: errors {errors} do not fall with more cells")
+
+
+@claim
 def metal_that_planes_press_far_beyond_yield_is_warned_of_and_the_page_says_what_it_bears(programs):
     """Finite blocks: docs/validation.md has force and share of faces as they are rounded; above a share of 0.05 a run warns."""
     text = (HERE.parent.parent / "docs/validation.md").read_text().partition("### Metal between planes")[2].partition("\n### ")[0]
