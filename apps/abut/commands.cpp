@@ -18,6 +18,7 @@
 #include "abut/input/scene_file.hpp"
 #include "apps/abut/asked.hpp"
 #include "apps/abut/build_info.hpp"
+#include "apps/abut/diff.hpp"
 #include "apps/abut/restart.hpp"
 #include "apps/abut/sweep.hpp"
 #include "apps/detect/detect.hpp"
@@ -51,8 +52,10 @@ struct CommandLine {
     CommandParser* keys = nullptr;
     CommandParser* materials = nullptr;
     CommandParser* detect = nullptr;
+    CommandParser* diff = nullptr;
     Asked asked;
     DetectOptions detection;
+    DiffOptions difference;
 };
 
 const Program abut_program{.name = "abut",
@@ -61,7 +64,7 @@ const Program abut_program{.name = "abut",
                            .footer =
                                "abut run --help lists the options of a run, abut help the topics. Units are SI. Exit codes: "
                                "0 good, 1 an error, with "
-                               "its message, 130, 143 or 129 ended by SIGINT, SIGTERM or SIGHUP.",
+                               "its message, 2 two runs differ, 130, 143 or 129 ended by SIGINT, SIGTERM or SIGHUP.",
                            .takes_ranks = true};
 
 void add_scene_options(CommandParser& command, CommandLine& line) {
@@ -118,6 +121,14 @@ void add_commands(CommandParser& parser, CommandLine& line) {
     line.detect = &parser.add_command("detect", "finds which faces of bodies lie opposite each other, and how near");
     line.detect->end_help_with(detect_program.footer);
     add_options(*line.detect, line.detection);
+    line.diff =
+        &parser.add_command("diff", "says whether the results of two runs are the same, and where they first differ");
+    line.diff->path("first", line.difference.first, "the folder of results of a run").required().takes("DIR");
+    line.diff->path("second", line.difference.second, "that of another run").required().takes("DIR");
+    add_number(*line.diff, "--tolerance", line.difference.tolerance,
+               "part of the largest value of a column or a field by which values may differ; 0: no bit",
+               {.above = 0.0, .from = true});
+    line.diff->end_help_with("Exit codes: 0 the same, 2 they differ, 1 an error.");
     add_asked(parser, line.asked);
     parser.explain_unknown(where_in_laboratory);
 }
@@ -236,6 +247,13 @@ void check_file(const fs::path& path, const input::Overrides& overrides) {
     for (const std::string& warning : checked.warnings) fmt::print("  {:<16}{}\n", "warning", warning);
 }
 
+/// The exit code.
+int print_diff(const DiffOptions& options) {
+    const DiffAnswer answer = diff(options);
+    fmt::print("{}", answer.text);
+    return answer.is_same ? 0 : runs_differ;
+}
+
 void write_new_scene(fs::path path) {
     if (path.extension() != ".toml") path += ".toml";
     if (fs::exists(path)) throw BadInput(fmt::format("{}: the file is there already. Give another name.", path.string()));
@@ -253,8 +271,9 @@ void write_new_scene(fs::path path) {
 int run_abut(int argc, char** argv) {
     CommandLine line;
     Program program = abut_program;
+    int answered = 0;
     const auto add_options = [&](CommandParser& parser) { add_commands(parser, line); };
-    return run_program(program, argc, argv, add_options, [&] {
+    const int exit_code = run_program(program, argc, argv, add_options, [&] {
         program.messages = line.messages;
         line.scene = scene_file(line.scene);
         if (!line.run->is_given() && !line.restart->is_given()) refuse_ranks("this command");
@@ -276,9 +295,12 @@ int run_abut(int argc, char** argv) {
             fmt::print("{}", input::table_of_materials());
         else if (line.detect->is_given())
             detect(line.detection);
+        else if (line.diff->is_given())
+            answered = print_diff(line.difference);
         else
             fmt::print("{}", answer(line.asked));
     });
+    return exit_code == 0 ? answered : exit_code;
 }
 
 }  // namespace abut::apps

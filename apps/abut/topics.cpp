@@ -111,6 +111,7 @@ const Topic exit_codes{"exit-codes", "Exit codes",
   1    an error, with a message on standard error that says where, how much, how much is allowed and
        what to do: a command line, a file or a scene that is wrong; a folder that another run has; a
        run that diverges or presses faces in too deep
+  2    of `abut diff`: the two runs differ
   130  ended by SIGINT (Ctrl-C) after a whole step; all files are finished, "complete" is false in
        summary.json
   143  the same by SIGTERM

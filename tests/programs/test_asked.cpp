@@ -24,8 +24,8 @@ using Catch::Contains;
 namespace fs = std::filesystem;
 
 const std::vector<std::string> topics = {"scene", "units", "materials", "contact", "kinematics", "output", "exit-codes"};
-const std::vector<std::string> commands = {"run",    "check", "new",  "keys",       "materials",
-                                           "detect", "info",  "help", "completion", "man"};
+const std::vector<std::string> commands = {"run",  "check", "new",  "keys",       "materials", "detect",
+                                           "diff", "info",  "help", "completion", "man"};
 
 std::string answer(const std::string& arguments, const std::string& before = "") {
     const Outcome outcome = run_program("abut", arguments, "", before);
@@ -161,7 +161,7 @@ TEST_CASE("abut help explains topics and commands in as many columns as there ar
         CHECK(longest_line(answer("help " + topic)) <= 80);
     }
     CHECK(answer("help run") == answer("run --help"));
-    for (const char* code : {"0 ", "1 ", "130 ", "143 "})
+    for (const char* code : {"0 ", "1 ", "2 ", "130 ", "143 "})
         CHECK_THAT(answer("help exit-codes"), Contains(std::string("\n  ") + code));
     const Outcome unknown = run_program("abut", "help nothing", "");
     CHECK(unknown.exit_code == 1);

@@ -1,0 +1,25 @@
+#pragma once
+#include <filesystem>
+#include <string>
+
+namespace abut::apps {
+
+/// Arguments of `abut diff`.
+struct DiffOptions {
+    std::filesystem::path first, second;  ///< folders of results
+    double tolerance = 0.0;               ///< of run::compare_runs
+};
+
+/// Exit code of two runs that differ; 1 is that of errors.
+inline constexpr int runs_differ = 2;
+
+/// Comparison of two runs in words.
+struct DiffAnswer {
+    std::string text;  ///< the verdict, then a line for each thing that differs
+    bool is_same;      ///< of the results; scenes and settings may differ
+};
+
+/// Throws BadInput as run::compare_runs.
+[[nodiscard]] DiffAnswer diff(const DiffOptions& options);
+
+}  // namespace abut::apps
