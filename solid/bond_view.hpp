@@ -20,7 +20,7 @@ public:
     /// How much of each of SolidOptions::bonds is bonded (n_bonds).
     [[nodiscard]] std::span<const BondCoverage> coverage() const;
     [[nodiscard]] bool may_break() const;  ///< whether one has a strength
-    /// Whether it bears nothing; its sides may still press on each other, and contact has them once they have opened.
+    /// Whether it bears nothing any more: contact has its faces.
     [[nodiscard]] bool is_broken(std::size_t place) const;
     /// Share of the pull of a place that is left at the same jump [-]: 1 whole, 0 broken.
     [[nodiscard]] double share(std::size_t place) const;

@@ -18,7 +18,7 @@
 namespace abut::solid {
 namespace {
 
-constexpr std::uint32_t version = 11;
+constexpr std::uint32_t version = 12;
 
 template <int Dim>
 std::string kind() {

@@ -126,35 +126,32 @@ std::vector<BondChange> Solid<Dim>::bonds_that_give_way(const Step& step, const 
     return changes;
 }
 
-/// Broken places become springs or go, and each part of what has come apart or become loose in a step that ended at q takes
-/// a frame of its own. What V loses by that is booked. Faces that a break has laid free touch nothing until contact looks
-/// again.
+/// Broken places go, and each part of what has come apart or become loose in a step that ended at q takes a frame of its
+/// own. Contact takes over what sides of broken places press with. What V loses by that is booked. Other faces that a break
+/// has laid free touch nothing until contact looks again.
 template <int Dim>
 void Solid<Dim>::part_frames(std::span<const Vector<Dim>> q) {
-    const bool any_broke = bonds_->any_broke();
+    const bool any_broke = bonds_->any_broke(), hands_over = bonds_->any_broke_pressed();
     const auto energy_in_frames = [&] {
         frames_->stand_at(of_cells(q));
         if (contact_) contact_->evaluate_listed(q, time_);
         return stored_energy(q, loads_->end()) + (contact_ ? contact_->energy() : 0.0) + point_loads_->energy(q);
     };
-    if (any_broke) {
-        const bool changes_energy = bonds_->any_broke_pressed();
-        const double before = changes_energy ? energy_in_frames() : 0.0;
-        const std::vector<std::size_t> become_springs = bonds_->leave_out_broken();
-        if (!become_springs.empty()) bonds_->soften(become_springs, energy_in_frames() - before);
-        if (changes_energy) dissipated_.at_splits += before - energy_in_frames();
-    }
+    double before = hands_over ? energy_in_frames() : 0.0;
+    if (any_broke) bonds_->leave_out_broken();
+    if (hands_over) bonds_->hand_over(before - energy_in_frames());
     std::vector<std::size_t> loose;
     if (const std::vector<std::size_t> opening = bonds_->opening_bodies(); !opening.empty())
         loose = bonds_->loose_bonds(frames_->own_turns(of_cells(q), opening));
     const bool part = !loose.empty() || (any_broke && bonds_->frame_groups() != frames_->united());
     if (part) {
-        const double before = energy_in_frames();
+        if (!hands_over) before = energy_in_frames();
         if (!loose.empty()) bonds_->loosen(loose);
         unite_frames();
         frames_->end_at(of_cells(q));
-        dissipated_.at_splits += before - energy_in_frames();
     }
+    if (contact_ && hands_over) contact_->end_list();
+    if (hands_over || part) dissipated_.at_splits += before - energy_in_frames();
     if (contact_ && (any_broke || part)) contact_->jumped(q, time_);  // more faces may touch than in its list
 }
 

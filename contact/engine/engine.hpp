@@ -128,6 +128,9 @@ public:
         report_.candidates_max = std::max(report_.candidates_max, report_.candidates);
     }
 
+    /// Others may be wanted: what needs a list makes another one.
+    void end_list() { list_is_valid_ = false; }
+
     // Contact, with the list as it is
 
     /// `dt`: length of the step [s].
@@ -323,7 +326,7 @@ private:
         const auto [facet_1, facet_2] = found_[i];
         const FirstLook first = law_.decide_first(i, start, !has_searched_ || is_new(facet_1) || is_new(facet_2));
         if (first.admission != FirstAdmission::missed) return {.admitted = first.admission == FirstAdmission::admitted};
-        if (was_kept_apart(found_[i])) return {.admitted = true, .offset = first.overlap};
+        if (was_kept_apart(found_[i])) return {.admitted = true, .offset = first.idle_overlap};
         ++report_.missed_contacts;
         return {};
     }

@@ -141,6 +141,11 @@ void NodalContact<Dim>::search(PointsView<Dim> x_0, PointsView<Dim> x_1) {
 }
 
 template <int Dim>
+void NodalContact<Dim>::end_list() {
+    implementation_->engine.end_list();
+}
+
+template <int Dim>
 const NodalStep<Dim>& NodalContact<Dim>::step_listed(double dt, PointsView<Dim> x_0, PointsView<Dim> x_1, TakenForce take) {
     return implementation_->engine.step(dt, {implementation_->listed_start(x_0), implementation_->listed_end(x_1), take});
 }

@@ -274,6 +274,24 @@ bool NodeLaw<Dim>::sees_from_outside(const Path& path) {
     return any;
 }
 
+/// How much of the overlap of a pair does not act, so that it has `energy_at_first` at most [m].
+template <int Dim>
+double NodeLaw<Dim>::idle_overlap(const NodalPair<Dim>& pair, State x) const {
+    const geometry::PairCorners<Dim> corners = pair.at(x);
+    const auto state = geometry::pair_state<Dim>(corners, pair.law);
+    const Face face_1 = acting().face_of(Facet{pair.facet_1}), face_2 = acting().face_of(Facet{pair.facet_2});
+    const double energy = options_.energy_at_first ? state.overlap * options_.energy_at_first(face_1, face_2) : 0.0;
+    if (energy <= 0.0) return -state.gap;
+    if (state.energy <= energy) return 0.0;
+    double acts = 0.0, idle = -state.gap;  // with this much idle it has more energy, and less
+    for (int halving = 0; halving < 52; ++halving) {
+        geometry::PairLaw<Dim> law = pair.law;
+        law.offset = 0.5 * (acts + idle);
+        (geometry::pair_state<Dim>(corners, law).energy > energy ? acts : idle) = law.offset;
+    }
+    return idle;
+}
+
 /// A pair of one body that is pressed in when the run begins lies inside of it.
 template <int Dim>
 FirstLook NodeLaw<Dim>::decide_first(std::size_t p, State x, bool run_begins) const {
@@ -281,7 +299,7 @@ FirstLook NodeLaw<Dim>::decide_first(std::size_t p, State x, bool run_begins) co
     if (pair.body_1 != pair.body_2) {
         const FirstAdmission first = contact::decide_first<Dim>(pair, x, sides_, run_begins);
         if (first != FirstAdmission::missed) return {first};
-        return {first, -geometry::pair_state<Dim>(pair.at(x), pair.law).gap};
+        return {first, idle_overlap(pair, x)};
     }
     const geometry::PairCorners<Dim> corners = pair.at(x);
     const auto state = geometry::pair_state<Dim>(corners, pair.law);

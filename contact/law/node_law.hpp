@@ -107,6 +107,7 @@ private:
     [[nodiscard]] bool may_come_together(FacetPair pair, const PlacedFacets& placed, double reach) const;
     [[nodiscard]] bool is_seen_from_outside(const NodalPair<Dim>& pair, State x) const;
     void set_inside_pairs_apart(std::vector<FacetPair>& pairs, State x_0);
+    [[nodiscard]] double idle_overlap(const NodalPair<Dim>& pair, State x) const;
     void begin_interference(State x_0);
     [[noreturn]] void refuse_deep_interference(const NodalPair<Dim>& pair) const;
     void set_offsets(double dt);

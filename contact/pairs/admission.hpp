@@ -12,7 +12,7 @@ enum class FirstAdmission {
 /// A look at a pair that was not in the list before.
 struct FirstLook {
     FirstAdmission admission;
-    double overlap = 0.0;  ///< of one that is missed: by how much it is pressed in [m]
+    double idle_overlap = 0.0;  ///< of one that is missed: how much of its overlap does not act, if it was kept apart [m]
 };
 /// A pair that is pressed in when it is first seen is no contact, unless the run only begins.
 [[nodiscard]] inline FirstAdmission first_admission(bool is_shallow, bool is_pressed_in, bool run_begins) {

@@ -33,7 +33,7 @@ void Bonds<Dim>::append_change(std::size_t place, const BondPull& pull, std::vec
                        .taken = taken,
                        .stiffness = stiffness,
                        .rise = held_1 - held_0,
-                       .is_pressed = energy > 0.0 && pull.is_pressed});
+                       .pressed = energy > 0.0 ? pull.pressed : 0.0});
 }
 
 template <int Dim>
@@ -113,7 +113,7 @@ std::vector<BondChange> Bonds<Dim>::changes() const {
                            .stiffness = traction.squaredNorm() / energy,
                            .held_0 = 0.5 * before.dot(joint.stiffness * before),
                            .pulls_apart = traction.dot(joint.normal) > 0.0,
-                           .is_pressed = normal_part(joint, jump_1_[p]) < 0.0},
+                           .pressed = pressed_energy(joint, jump_1_[p])},
                           changes);
     }
     springs_->for_each_pull([&](std::size_t place) { return fracture_energy(place) > 0.0; },
@@ -132,20 +132,14 @@ void Bonds<Dim>::set_shares(std::span<const BondChange> changes, When when) {
 
 template <int Dim>
 void Bonds<Dim>::end_changes(std::span<const BondChange> changes) {
-    any_broke_ = any_broke_pressed_ = false;
-    springs_->for_each_parting([&](std::size_t place, bool is_pressed) {
-        if (presses_[place] == 0.0) return;
-        presses_[place] = 0.0;
-        any_broke_ = true;
-        any_broke_pressed_ = any_broke_pressed_ || is_pressed;
-    });
+    any_broke_ = false;
+    broke_pressed_.clear();
     if (changes.empty()) return;
     set_shares(changes, When::end);
     for (const BondChange& change : changes) {
         if (change.end == 0.0) {
             any_broke_ = true;
-            any_broke_pressed_ = any_broke_pressed_ || change.is_pressed;
-            presses_[change.place] = change.is_pressed ? 1.0 : 0.0;
+            if (change.pressed > 0.0) broke_pressed_.push_back(change);
         }
         if (fracture_energy(change.place) == 0.0) continue;
         taken_[change.place] += change.taken;

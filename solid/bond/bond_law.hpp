@@ -15,7 +15,7 @@ struct BondChange {
     double taken;      ///< what its law takes in the step; after Bonds::share_loss what it has lost [J/m^2]
     double stiffness;  ///< of both half cells in the direction of the traction [Pa/m]
     double rise;       ///< of what a whole place holds, in the step [J/m^2]
-    bool is_pressed;   ///< its sides press on each other at the end
+    double pressed;    ///< energy by which its sides press on each other at the end [J/m^2]
 };
 
 /// Pull on a whole place at an end of a step; with a fracture energy without its pressure, which does not fall with the
@@ -25,7 +25,7 @@ struct BondPull {
     double stiffness;  ///< of both half cells in its direction [Pa/m]
     double held_0;     ///< energy of it at the start of the step [J/m^2]
     bool pulls_apart;  ///< its sides
-    bool is_pressed;   ///< they press on each other
+    double pressed;    ///< energy by which they press on each other [J/m^2]
 };
 
 /// Energy per area that half cells of this stiffness in series hold at the strength of a bond [J/m^2].

@@ -20,7 +20,7 @@ void Bonds<Dim>::save(StateWriter& state) const {
     state.put_all(std::span<const double>(loosened_));
     state.put_all(std::span<const double>(taken_));
     state.put_all(std::span<const double>(opened_));
-    state.put_all(std::span<const double>(presses_));
+    state.put_all(std::span<const double>(pressed_energy_));
     state.put_all(std::span<const double>(normal_stiffness_));
 }
 
@@ -38,12 +38,12 @@ void Bonds<Dim>::restore(StateReader& state) {
         if (of_places.size() != share.size())
             throw BadInput(mesh_.name + ": the saved state of its bonds is damaged. Take another checkpoint.");
     }
-    auto& [strengths, loosened, taken, opened, presses, normal_stiffness] = others;
+    auto& [strengths, loosened, taken, opened, pressed_energy, normal_stiffness] = others;
     share_ = share;
     loosened_ = loosened;
     taken_ = taken;
     opened_ = opened;
-    presses_ = presses;
+    pressed_energy_ = pressed_energy;
     leave_out_broken();
     normal_stiffness_ = normal_stiffness;
     make_springs();
@@ -54,7 +54,7 @@ void Bonds<Dim>::restore(StateReader& state) {
 template <int Dim>
 void Bonds<Dim>::break_all() {
     for (std::size_t p = 0; p < places_.size(); ++p)
-        if (std::isfinite(places_[p].strength)) share_[p] = presses_[p] = 0.0;
+        if (std::isfinite(places_[p].strength)) share_[p] = 0.0;
     leave_out_broken();
 }
 
@@ -74,7 +74,7 @@ void Bonds<Dim>::take_over(const Bonds& before, std::span<const std::int32_t> ol
         taken_[p] = before.taken_[old];
         opened_[p] = before.opened_[old];
         loosened_[p] = before.loosened_[old];
-        presses_[p] = before.presses_[old];
+        pressed_energy_[p] = before.pressed_energy_[old];
         if (!is_joint(p)) normal_stiffness_[p] = before.normal_stiffness_[old];
         places_[p].strength = from->strength;  // drawn once, whatever numbers the faces have now
     }

@@ -12,7 +12,6 @@ constexpr std::size_t nowhere = std::numeric_limits<std::size_t>::max();
 // Of the spring over that of a half cell, where faces are affine and do not give way to what pulls at them: as stiff as
 // it may be without a shorter step.
 constexpr double affine_stiffness = 2.0;
-constexpr double turned_mates = 0.17;  // [rad]: sides that have turned so far against each other are no mates any more
 
 }  // namespace
 
@@ -183,15 +182,6 @@ Vector<Dim> BondSprings<Dim>::tilted_normal(std::size_t spring) const {
     return frames_.end()[end.body].turn * in_frame;
 }
 
-template <int Dim>
-bool BondSprings<Dim>::are_no_mates(std::size_t spring, const Vector<Dim>& slip) const {
-    const BondPlace<Dim>& place = places_[springs_[spring].place];
-    const auto normal = [&](std::size_t side) -> Vector<Dim> {
-        return frames_.end()[springs_[spring].ends[side].body].turn * place.normal;
-    };
-    return slip.norm() > half_size(place) || normal(0).dot(normal(1)) < std::cos(turned_mates);
-}
-
 /// What springs of no length resist tiny displacements with does not depend on how the bodies stand.
 template <int Dim>
 FaceCorrections<Dim> BondSprings<Dim>::stiffness_of(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load) {
@@ -248,12 +238,11 @@ double BondSprings<Dim>::pressure_energy(std::size_t spring) const {
     return 0.5 * pressure_stiffness(springs_[spring]) * pressed * pressed;
 }
 
+/// All of it, whatever the share [J].
 template <int Dim>
-double BondSprings<Dim>::pressure_energy(std::span<const std::size_t> places) const {
-    double energy = 0.0;
-    for (std::size_t i = 0; i < springs_.size(); ++i)
-        if (std::ranges::binary_search(places, springs_[i].place)) energy += pressure_energy(i);
-    return energy;
+double BondSprings<Dim>::pressed_energy(std::size_t spring) const {
+    const double pressed = std::min(sides_at(spring, x_1_, frames_.end()).distance(), 0.0);
+    return 0.5 * springs_[spring].normal_stiffness * pressed * pressed;
 }
 
 template class BondSprings<2>;

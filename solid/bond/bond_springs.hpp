@@ -54,8 +54,6 @@ public:
     /// Pushes of the springs on each body, added to those of others (n_bodies that deform).
     [[nodiscard]] std::span<const BodyPush<Dim>> pushes(std::span<const BodyPush<Dim>> others);
     [[nodiscard]] double energy() const;  ///< at the end of the step [J]
-    /// Part of it that these hold by their pressure, by increasing place [J].
-    [[nodiscard]] double pressure_energy(std::span<const std::size_t> places) const;
     /// The end alone: `energy` is that of it. What springs pull with stays.
     void see_end(std::span<const Vector<Dim>> q_1, const BoundaryLoad<Dim>& load_1, StepState state);
     /// Calls visit(place, pull) with what the end of the step pulls each with, without its pressure where
@@ -72,17 +70,7 @@ public:
                                   .stiffness = stiffness,
                                   .held_0 = 0.5 * stiffness * (leaves ? start.beside_pressure() : start.jump).squaredNorm(),
                                   .pulls_apart = end.jump.dot(tilted_normal(i)) > 0.0,
-                                  .is_pressed = end.distance() < 0.0});
-        }
-    }
-    /// Calls visit(place, is_pressed) where the sides have opened at the end of the step, or are pressed and have slid by
-    /// half of their size, or turned against each other by 0.17: they are no mates any more.
-    template <class Visit>
-    void for_each_parting(const Visit& visit) const {
-        for (std::size_t i = 0; i < springs_.size(); ++i) {
-            const Sides end = sides_at(i, x_1_, frames_.end());
-            const bool is_pressed = end.distance() < 0.0;
-            if (!is_pressed || are_no_mates(i, end.beside_pressure())) visit(springs_[i].place, is_pressed);
+                                  .pressed = pressed_energy(i) / places_[place].area});
         }
     }
     /// Calls visit(place, k_12) [Pa/m].
@@ -130,9 +118,9 @@ private:
         const BondSpring& of = springs_[spring];
         return {x[spring][1] - x[spring][0], frames[of.ends[0].body].turn * places_[of.place].normal};
     }
+    [[nodiscard]] double pressed_energy(std::size_t spring) const;
     [[nodiscard]] double pressure_energy(std::size_t spring) const;
     [[nodiscard]] Vector<Dim> tilted_normal(std::size_t spring) const;
-    [[nodiscard]] bool are_no_mates(std::size_t spring, const Vector<Dim>& slip) const;
     void push_sides(std::size_t spring, const Vector<Dim>& pull);
     /// Stiffness against pressure beyond that of the pull [N/m]; 0 without a fracture energy, and of whole places that never
     /// were joints.

@@ -45,7 +45,7 @@ Bonds<Dim>::Bonds(const Bodies<Dim>& bodies, Ccg<Dim>& ccg, const BodyFrames<Dim
       part_(part),
       places_(bodies.bond_places()),
       share_(places_.size(), 1.0),
-      presses_(places_.size(), 0.0),
+      pressed_energy_(places_.size(), 0.0),
       loosened_(places_.size(), 0.0),
       normal_stiffness_(places_.size(), 0.0),
       taken_(places_.size(), 0.0),
@@ -96,37 +96,33 @@ void Bonds<Dim>::make_joints(std::span<const std::size_t> of_joints) {
     if (ccg_.any_damped()) change_here_.resize(faces_->here().size());
 }
 
-/// Springs of the places that are no joints and not gone.
+/// Springs of the places that are no joints and not broken.
 template <int Dim>
 void Bonds<Dim>::make_springs() {
     std::vector<std::size_t> of_springs;
     for (std::size_t p = 0; p < places_.size(); ++p)
-        if (!is_joint(p) && !is_gone(p)) of_springs.push_back(p);
+        if (!is_joint(p) && !is_broken(p)) of_springs.push_back(p);
     springs_ = std::make_unique<BondSprings<Dim>>(bodies_, ccg_, frames_, part_, places_, of_springs, share_, loosened_,
                                                   normal_stiffness_);
 }
 
-/// Joints that are broken or loosened become springs, and places that are gone take no part.
+/// Joints that are loosened become springs, and places that are broken take no part.
 template <int Dim>
-std::vector<std::size_t> Bonds<Dim>::leave_out_broken() {
-    std::vector<std::size_t> become_springs;
-    for (const Joint& joint : joints_)
-        if (!is_joint(joint.place) && !is_gone(joint.place)) become_springs.push_back(joint.place);
+void Bonds<Dim>::leave_out_broken() {
     make_springs();
     const std::vector<std::size_t> of_joints = held_joints();
-    if (std::ranges::equal(of_joints, joints_, {}, {}, &Joint::place)) return become_springs;
+    if (std::ranges::equal(of_joints, joints_, {}, {}, &Joint::place)) return;
     faces_.emplace(mesh_, part_, places_, of_joints);
     make_joints(of_joints);
-    return become_springs;
 }
 
 template <int Dim>
-void Bonds<Dim>::soften(std::span<const std::size_t> places, double energy) {
+void Bonds<Dim>::hand_over(double energy) {
     constexpr double least = 0.1;
-    const double held = springs_->pressure_energy(places);
-    if (!(held > 0.0) || energy <= 0.0) return;
-    for (const std::size_t place : places) normal_stiffness_[place] *= std::max(1.0 - energy / held, least);
-    make_springs();
+    double pressed = 0.0;
+    for (const BondChange& change : broke_pressed_) pressed += places_[change.place].area * change.pressed;
+    const double share = pressed > energy ? std::max(energy / pressed, least) : 1.0;
+    for (const BondChange& change : broke_pressed_) pressed_energy_[change.place] = share * change.pressed;
 }
 
 template <int Dim>

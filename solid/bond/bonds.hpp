@@ -1,5 +1,6 @@
 #pragma once
 // Private to the sources of this layer.
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -43,7 +44,7 @@ namespace abut::solid {
 /// of both ends, so that it is what the law takes.
 ///
 /// The sides of a place with a fracture energy press on each other as those of a whole one do (pressed_sides.hpp). A place
-/// that bears nothing else is broken; it is gone once its sides have opened, or slid off each other.
+/// that bears nothing else is broken, and contact takes over by what its sides press.
 template <int Dim>
 class Bonds {
 public:
@@ -56,10 +57,10 @@ public:
     [[nodiscard]] bool any() const { return !places_.empty(); }
     [[nodiscard]] std::span<const BondPlace<Dim>> places() const { return places_; }
     [[nodiscard]] std::span<const BondCoverage> coverage() const { return bodies_.bond_coverage(); }
-    /// Whether it bears nothing: its sides may still press on each other as they are.
+    /// Whether it bears nothing any more.
     [[nodiscard]] bool is_broken(std::size_t place) const { return share_[place] == 0.0; }
-    /// Whether its sides have opened, or slid off each other, since: contact alone keeps them apart.
-    [[nodiscard]] bool is_gone(std::size_t place) const { return is_broken(place) && presses_[place] == 0.0; }
+    /// Energy by which its sides pressed on each other as it broke, once it is handed over to contact [J/m^2]; else 0.
+    [[nodiscard]] double pressed_energy(std::size_t place) const { return pressed_energy_[place]; }
     /// Whether one has a strength.
     [[nodiscard]] bool any_breaks() const;
 
@@ -128,17 +129,15 @@ public:
     void set_shares(std::span<const BondChange> changes, When when);
     /// The step has ended, and these places have the share of its end from now on.
     void end_changes(std::span<const BondChange> changes);
-    /// Whether a place broke or went in the last step that has ended so.
+    /// Whether a place broke in the last step that has ended so.
     [[nodiscard]] bool any_broke() const { return any_broke_; }
     /// Whether one did so under pressure: V changes in the next `leave_out_broken`.
-    [[nodiscard]] bool any_broke_pressed() const { return any_broke_pressed_; }
-    /// Places that are broken are springs against pressure alone, and those that are gone take no part any more. Returns
-    /// joints that have become springs. A call of all ranks.
-    std::vector<std::size_t> leave_out_broken();
-    /// These springs, by increasing place, hold less of their pressure by this energy [J] in the state of the last
-    /// `stand_at`, a tenth of it at least: half cells press on several faces of a cell with less than springs do. A call of
-    /// all ranks.
-    void soften(std::span<const std::size_t> places, double energy);
+    [[nodiscard]] bool any_broke_pressed() const { return !broke_pressed_.empty(); }
+    /// Places that are broken take no part any more. A call of all ranks.
+    void leave_out_broken();
+    /// Places that broke so leave to contact what their sides press: together no more than this energy [J], but a tenth of
+    /// it at least. Half cells press on several faces of a cell with less than contact does.
+    void hand_over(double energy);
     [[nodiscard]] double share(std::size_t place) const { return share_[place]; }
     /// Energy that places with a fracture energy have lost beyond what belongs to their openings; less than 0: they have
     /// lost less [J].
@@ -224,6 +223,10 @@ private:
                          std::vector<Vector<Dim>>& delta, std::vector<Vector<Dim>>& here) const;
     [[nodiscard]] double share_of(const Joint& joint) const { return share_[joint.place]; }
     [[nodiscard]] static double normal_part(const Joint& joint, const Vector<Dim>& jump) { return joint.normal.dot(jump); }
+    [[nodiscard]] static double pressed_energy(const Joint& joint, const Vector<Dim>& jump) {
+        const double pressed = std::min(normal_part(joint, jump), 0.0);
+        return 0.5 * joint.normal_stiffness * pressed * pressed;
+    }
     /// The jump without what the sides are pressed.
     [[nodiscard]] static Vector<Dim> beside_pressure(const Joint& joint, const Vector<Dim>& jump) {
         const double along = normal_part(joint, jump);
@@ -247,12 +250,13 @@ private:
     const RankPart<Dim>& part_;
     std::vector<BondPlace<Dim>> places_;
     std::vector<double> share_;             // by place, from 1, whole, to 0, broken
-    std::vector<double> presses_;           // by place: 1 where it is broken and its sides still press on each other, else 0
+    std::vector<double> pressed_energy_;    // by place [J/m^2]
     std::vector<double> loosened_;          // by place: its stiffness if it has become a spring [Pa/m]; 0: it has not
     std::vector<double> normal_stiffness_;  // by place, of those that are or were joints, against pressure [Pa/m]
     // By place, where it has a fracture energy: what of it was taken [J/m^2], and its opening over that of a broken place
     std::vector<double> taken_, opened_;
-    bool any_broke_ = false, any_broke_pressed_ = false;  // in the last step
+    bool any_broke_ = false;                 // in the last step
+    std::vector<BondChange> broke_pressed_;  // in the last step, under pressure
     std::vector<std::size_t> opening_;   // first place of each bond of grains in one frame that has begun to open and holds
     std::vector<BondChange> in_middle_;  // whose share is that of the mean force of a step
     std::unique_ptr<BondSprings<Dim>> springs_;

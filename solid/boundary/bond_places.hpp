@@ -1,6 +1,5 @@
 #pragma once
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -25,12 +24,6 @@ struct BondPlace {
     Vector<Dim> normal;                  ///< from the first face into the second
     double strength;                     ///< Bond::strength, or what was drawn from its Weibull distribution [Pa]
 };
-
-/// Half of how long a place is, or wide in space [m].
-template <int Dim>
-[[nodiscard]] double half_size(const BondPlace<Dim>& place) {
-    return 0.5 * (Dim == 2 ? place.area : std::sqrt(place.area));
-}
 
 /// How much of the two sides of a bond holds on to each other at rest.
 struct BondCoverage {

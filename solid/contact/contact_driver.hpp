@@ -73,6 +73,8 @@ public:
     /// Goes on from there, in q, where the last step ended at `time`; frames and loads are those of q.
     virtual void restore(std::span<const std::byte> state, std::span<const Vector<Dim>> q, double time) = 0;
 
+    /// Other faces may touch from now on: the next call looks for them.
+    virtual void end_list() {}
     /// Goes on where `before`, of the same law, has stopped; to be followed by `state` and `restore`. `old_boundary`:
     /// of each boundary face of the mesh its index in that of `before`, -1: it was not there.
     virtual void take_over(const ContactDriver& before, std::span<const std::int32_t> old_boundary) = 0;

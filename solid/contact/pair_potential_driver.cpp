@@ -72,12 +72,23 @@ public:
             return bonds_.places()[entry.place].bodies[1 - entry.side] == body && !bonds_.is_broken(entry.place);
         });
     }
-    /// Whether both are the sides of a broken place that still press on each other.
-    [[nodiscard]] bool press(contact::Face face_1, contact::Face face_2) const {
-        return std::ranges::any_of(of(face_1), [&](const Entry& entry) {
-            const std::size_t mate = bonds_.places()[entry.place].numbers[1 - entry.side];
-            return mate == static_cast<std::size_t>(face_2) && !bonds_.is_gone(entry.place);
+    /// Energy by which both, sides of one place, pressed on each other as it broke [J/m^2]; 0 of others.
+    [[nodiscard]] double pressed_energy(contact::Face face_1, contact::Face face_2) const {
+        const auto mates = std::ranges::find_if(of(face_1), [&](const Entry& entry) {
+            return bonds_.places()[entry.place].numbers[1 - entry.side] == static_cast<std::size_t>(face_2);
         });
+        return mates != of(face_1).end() ? bonds_.pressed_energy(mates->place) : 0.0;
+    }
+    /// The mean of that of broken places that held the face to the body.
+    [[nodiscard]] double pressed_energy(contact::Face face, std::int32_t body) const {
+        double energy = 0.0, area = 0.0;
+        for (const auto& [number, place, side] : of(face)) {
+            const BondPlace<Dim>& at = bonds_.places()[place];
+            if (at.bodies[1 - side] != body || !bonds_.is_broken(place)) continue;
+            energy += at.area * bonds_.pressed_energy(place);
+            area += at.area;
+        }
+        return area > 0.0 ? energy / area : 0.0;
     }
 
 private:
@@ -96,17 +107,24 @@ private:
     std::vector<std::size_t> begin_;  // of each face, one more at the end
 };
 
-/// Leaves out pairs of faces of which one is bonded to the body of the other, or which press on each other as sides of a
-/// broken place, and faces that are bonded all over, as the bonds are when it is asked.
+/// Leaves out pairs of faces of which one is bonded to the body of the other, and faces that are bonded all over, as the
+/// bonds are when it is asked. Sides that pressed on each other as their place broke go on to do so, and their neighbours
+/// take over what they slide off.
 template <int Dim>
 void leave_out_bonded(const CornerSurface<Dim>& corners, const Bonds<Dim>& bonds, contact::NodalOptions& options) {
     if (!bonds.any()) return;
     const auto of_faces = std::make_shared<const BondsOfFaces<Dim>>(bonds);
     options.covered = [of_faces](contact::Face face) { return of_faces->covers(face); };
-    options.wanted = [of_faces, body_of = corners.bodies_of_faces()](contact::Face face_1, contact::Face face_2) {
+    const std::vector<std::int32_t> body_of = corners.bodies_of_faces();
+    options.wanted = [of_faces, body_of](contact::Face face_1, contact::Face face_2) {
         const auto body = [&](contact::Face face) { return body_of[static_cast<std::size_t>(face)]; };
-        return !of_faces->joins(face_1, body(face_2)) && !of_faces->joins(face_2, body(face_1)) &&
-               !of_faces->press(face_1, face_2);
+        return (!of_faces->joins(face_1, body(face_2)) && !of_faces->joins(face_2, body(face_1))) ||
+               of_faces->pressed_energy(face_1, face_2) > 0.0;
+    };
+    options.energy_at_first = [of_faces, body_of](contact::Face face_1, contact::Face face_2) {
+        const auto body = [&](contact::Face face) { return body_of[static_cast<std::size_t>(face)]; };
+        if (const double of_mates = of_faces->pressed_energy(face_1, face_2); of_mates > 0.0) return of_mates;
+        return std::min(of_faces->pressed_energy(face_1, body(face_2)), of_faces->pressed_energy(face_2, body(face_1)));
     };
 }
 

@@ -32,6 +32,7 @@ public:
                 double dt) override;
     void follow_jump(std::span<const Vector<Dim>>, double) override {}
     void jumped(std::span<const Vector<Dim>>, double) override { has_stepped_ = false; }
+    void end_list() override { contact_.end_list(); }
     [[nodiscard]] double energy_at_end(std::span<const Vector<Dim>> q) override;
     void end_step() override;
     [[nodiscard]] std::vector<std::byte> state() const override;

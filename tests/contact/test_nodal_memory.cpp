@@ -1,4 +1,5 @@
 // What pairs of facets remember, what a list may leave out, and what a look elsewhere must not change.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -287,6 +288,29 @@ TEST_CASE(
     CHECK(go(restarted, faces, {0.0, -0.05}, {0.0, -0.08}).energy == contact.last().energy);
     CHECK(contact.evaluate(at(-0.07)).energy == Approx(0.5 * 1.5 * 0.02 * 0.02));
     go(contact, faces, {0.0, -0.08}, {0.0, 0.01});
+    CHECK(go(contact, faces, {0.0, 0.01}, {0.0, -0.05}).energy == Approx(0.5 * 1.5 * 0.05 * 0.05));
+    CHECK(contact.report().missed_contacts == 0);
+}
+
+TEST_CASE(
+    "faces that were held together have the energy from the moment on that they are let go with, all of their overlap's at "
+    "most",
+    "[contact][nodal]") {
+    const TwoFaces faces;
+    bool holds = true;
+    contact::NodalOptions options = held_apart(with_skin(0.05), holds, GENERATE(false, true));
+    const double pressed = GENERATE(0.02, 0.08), acts = std::min(pressed, 0.05);
+    options.energy_at_first = [pressed](Face, Face) { return 0.5 * 1.5 * pressed * pressed; };
+    const auto at = [&](double y) { return faces.at(0.0, y); };
+    NodalContact<2> contact(faces.scene.surface(), options);
+    contact.step(1.0, at(-0.05), at(-0.05));
+    holds = false;
+    contact.end_list();
+    CHECK(contact.evaluate(at(-0.05)).energy == Approx(0.5 * 1.5 * acts * acts).epsilon(1e-12));
+    CHECK(contact.step(1.0, at(-0.05), at(-0.05)).energy == Approx(0.5 * 1.5 * acts * acts).epsilon(1e-12));
+    CHECK(contact.last().energy <= 0.5 * 1.5 * pressed * pressed);
+    CHECK(go(contact, faces, {0.0, -0.05}, {0.0, -0.06}).energy == Approx(0.5 * 1.5 * std::pow(acts + 0.01, 2)));
+    go(contact, faces, {0.0, -0.06}, {0.0, 0.01});
     CHECK(go(contact, faces, {0.0, 0.01}, {0.0, -0.05}).energy == Approx(0.5 * 1.5 * 0.05 * 0.05));
     CHECK(contact.report().missed_contacts == 0);
 }
