@@ -251,7 +251,7 @@ void check_file(const fs::path& path, const input::Overrides& overrides) {
 int print_diff(const DiffOptions& options) {
     const DiffAnswer answer = diff(options);
     fmt::print("{}", answer.text);
-    return answer.is_same ? 0 : runs_differ;
+    return answer.is_same ? 0 : exit_code_of_difference;
 }
 
 void write_new_scene(fs::path path) {

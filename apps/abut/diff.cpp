@@ -57,7 +57,11 @@ std::string verdict_of_same(double tolerance) {
 
 std::string verdict(const DiffOptions& options, const RunComparison& comparison) {
     const std::string runs = fmt::format("{} and {}", options.first.string(), options.second.string());
-    if (comparison.is_same()) return fmt::format("{} are {}.\n", runs, verdict_of_same(options.tolerance));
+    if (comparison.is_same()) {
+        const bool is_all = std::ranges::all_of(comparison.parts, [](const auto& part) { return part.remarks.empty(); });
+        return fmt::format("{} are {}{}.\n", runs, verdict_of_same(options.tolerance),
+                           is_all ? "" : " in all that was compared");
+    }
     const PartComparison* first = comparison.first_to_part();
     if (!first) return fmt::format("{} are {} in all that both have.\n", runs, verdict_of_same(options.tolerance));
     const run::Parting& parting = *first->parting;

@@ -7,11 +7,11 @@ namespace abut::apps {
 /// Arguments of `abut diff`.
 struct DiffOptions {
     std::filesystem::path first, second;  ///< folders of results
-    double tolerance = 0.0;               ///< of run::compare_runs
+    double tolerance = 0.0;               ///< see run::compare_runs; 0: bitwise
 };
 
 /// Exit code of two runs that differ; 1 is that of errors.
-inline constexpr int runs_differ = 2;
+inline constexpr int exit_code_of_difference = 2;
 
 /// Comparison of two runs in words.
 struct DiffAnswer {

@@ -118,7 +118,8 @@ std::string surface_info(const fs::path& path) {
     return text;
 }
 
-/// Content of a file that may hold a mesh or a surface. Of a surface also why it is no mesh. If it holds nothing, all reasons.
+/// Content of a file that may hold a mesh or a surface; of a surface also why it is no mesh. Throws with all reasons if it
+/// holds neither.
 std::string mesh_or_surface_info(const fs::path& path) {
     std::vector<std::string> reasons;
     for (const auto& mesh_info_of : {mesh_info<3>, mesh_info<2>}) {

@@ -87,7 +87,7 @@ public:
     PartComparison run() && {
         const auto n = std::min(first_.size(), second_.size());
         while (frame_ < n && compare(first_[frame_], second_[frame_])) ++frame_;
-        result_.compared = counted(static_cast<std::int64_t>(frame_), "frame");
+        if (frame_ > 0 || n == 0) result_.compared = counted(static_cast<std::int64_t>(frame_), "frame");
         const auto more = std::max(std::ssize(first_), std::ssize(second_)) - static_cast<std::ptrdiff_t>(n);
         if (frame_ == n && more > 0)
             result_.lacks.push_back(
@@ -106,7 +106,7 @@ private:
                 result_.remarks.push_back("frames in pieces are not compared");
                 return false;
             }
-        return file_bytes(a.file) == file_bytes(b.file) ||
+        return (tolerance_ == 0.0 && file_bytes(a.file) == file_bytes(b.file)) ||
                compare_arrays(mesh::read_arrays(a.file), mesh::read_arrays(b.file));
     }
 
@@ -168,6 +168,9 @@ private:
                          first->described(first->values.first()));
         else if (end_)
             tell_parting(static_cast<std::int64_t>(frame_), first_[frame_].time, *end_);
+        if (first && end_)
+            result_.remarks.push_back(fmt::format("from frame {} on frames are not compared: {} is {} | {}", frame_,
+                                                  end_->name, end_->first, end_->second));
         result_.largest = largest_of(std::move(all));
     }
 

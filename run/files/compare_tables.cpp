@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 #include <fstream>
+#include <limits>
 #include <optional>
 #include <string_view>
 #include <utility>
@@ -22,12 +23,18 @@ std::optional<double> number_in(std::string_view cell) {
     return error == std::errc{} && end == cell.data() + cell.size() ? std::optional(number) : std::nullopt;
 }
 
+/// Commas between quotation marks belong to a text.
 void split_line(const std::string& line, std::vector<std::string_view>& cells) {
     cells.clear();
-    for (std::size_t begin = 0, end = 0; end != std::string::npos; begin = end + 1) {
-        end = line.find(',', begin);
-        cells.push_back(std::string_view(line).substr(begin, end - begin));
+    bool is_quoted = false;
+    std::size_t begin = 0;
+    for (std::size_t i = 0; i < line.size(); ++i) {
+        if (line[i] == '"') is_quoted = !is_quoted;
+        if (line[i] != ',' || is_quoted) continue;
+        cells.push_back(std::string_view(line).substr(begin, i - begin));
+        begin = i + 1;
     }
+    cells.push_back(std::string_view(line).substr(begin));
 }
 
 /// Lines of a table, one at a time.
@@ -79,7 +86,11 @@ public:
         : first_(first), second_(second), has_same_head_(first_.line() == second_.line()) {
         result_.name = first.filename().string();
         if (result_.name.ends_with(".partial")) result_.name = second.filename().string();
-        match_columns(tolerance);
+        if (first_.line().empty() || second_.line().empty())
+            result_.remarks.push_back(
+                fmt::format("the table of the {} run has no heading yet", first_.line().empty() ? "first" : "second"));
+        else
+            match_columns(tolerance);
     }
 
     PartComparison run() && {
@@ -128,16 +139,23 @@ private:
         const bool is_same = has_same_head_ && first_.line() == second_.line();
         ++row_;
         const ComparedValues::Place here = place();
+        if (!is_same && are_of_others(here)) return false;
+        constexpr double none = std::numeric_limits<double>::quiet_NaN();  // of an empty cell beside a number
         for (Column& column : columns_) {
-            const std::string_view a = first_.cell(column.first), b = second_.cell(column.second);
-            const auto x = number_in(a), y = is_same ? x : number_in(b);
-            if (a != b && (!x || !y || column.name == "step")) {
-                other_rows_ = {here, {column.name, std::string(a), std::string(b)}};
-                return false;
-            }
-            if (x && y) column.values.add(*x, *y, here);
+            const auto x = number_in(first_.cell(column.first)), y = is_same ? x : number_in(second_.cell(column.second));
+            if (x || y) column.values.add(x.value_or(none), y.value_or(none), here);
         }
         return true;
+    }
+    /// Whether the step or a text differs.
+    bool are_of_others(const ComparedValues::Place& here) {
+        for (const Column& column : columns_) {
+            const std::string_view a = first_.cell(column.first), b = second_.cell(column.second);
+            if (a == b || (column.name != "step" && (number_in(a) || number_in(b)))) continue;
+            other_rows_ = {here, {column.name, std::string(a), std::string(b)}};
+            return true;
+        }
+        return false;
     }
 
     void tell_rows_of_one() {

@@ -288,7 +288,7 @@ void add_lost_parts(Counts& counts, const RunResult<Dim>& result) {
         share > large_split_share)
         warn(counts, WarningKind::splits, share, large_split_share,
              fmt::format(
-                 "fragments that came apart, turned against each other or slid off each other under pressure changed V by "
+                 "fragments that came apart, turned against each other or broke under pressure changed V by "
                  "{:.2g} of the energy in play, {:g} is safe: strains are linear in the frame that each takes. Take larger "
                  "grains, or finite kinematics",
                  share, large_split_share));

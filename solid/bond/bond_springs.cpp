@@ -238,13 +238,6 @@ double BondSprings<Dim>::pressure_energy(std::size_t spring) const {
     return 0.5 * pressure_stiffness(springs_[spring]) * pressed * pressed;
 }
 
-/// All of it, whatever the share [J].
-template <int Dim>
-double BondSprings<Dim>::pressed_energy(std::size_t spring) const {
-    const double pressed = std::min(sides_at(spring, x_1_, frames_.end()).distance(), 0.0);
-    return 0.5 * springs_[spring].normal_stiffness * pressed * pressed;
-}
-
 template class BondSprings<2>;
 template class BondSprings<3>;
 

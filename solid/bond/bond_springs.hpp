@@ -66,11 +66,12 @@ public:
             const Sides start = sides_at(i, x_0_, frames_.start()), end = sides_at(i, x_1_, frames_.end());
             const bool leaves = leaves_pressure(place);
             const Vector<Dim> slip = leaves ? end.beside_pressure() : end.jump;
+            const double pressed = std::min(end.distance(), 0.0);
             visit(place, BondPull{.traction = stiffness * slip.norm(),
                                   .stiffness = stiffness,
                                   .held_0 = 0.5 * stiffness * (leaves ? start.beside_pressure() : start.jump).squaredNorm(),
                                   .pulls_apart = end.jump.dot(tilted_normal(i)) > 0.0,
-                                  .pressed = pressed_energy(i) / places_[place].area});
+                                  .pressed = 0.5 * springs_[i].normal_stiffness * pressed * pressed / places_[place].area});
         }
     }
     /// Calls visit(place, k_12) [Pa/m].
@@ -118,7 +119,6 @@ private:
         const BondSpring& of = springs_[spring];
         return {x[spring][1] - x[spring][0], frames[of.ends[0].body].turn * places_[of.place].normal};
     }
-    [[nodiscard]] double pressed_energy(std::size_t spring) const;
     [[nodiscard]] double pressure_energy(std::size_t spring) const;
     [[nodiscard]] Vector<Dim> tilted_normal(std::size_t spring) const;
     void push_sides(std::size_t spring, const Vector<Dim>& pull);

@@ -72,14 +72,18 @@ public:
             return bonds_.places()[entry.place].bodies[1 - entry.side] == body && !bonds_.is_broken(entry.place);
         });
     }
-    /// Energy by which both, sides of one place, pressed on each other as it broke [J/m^2]; 0 of others.
+    /// Energy by which both pressed on each other as the places between them broke [J/m^2]; 0 of others, and while one
+    /// holds.
     [[nodiscard]] double pressed_energy(contact::Face face_1, contact::Face face_2) const {
-        const auto mates = std::ranges::find_if(of(face_1), [&](const Entry& entry) {
-            return bonds_.places()[entry.place].numbers[1 - entry.side] == static_cast<std::size_t>(face_2);
-        });
-        return mates != of(face_1).end() ? bonds_.pressed_energy(mates->place) : 0.0;
+        double energy = 0.0;
+        for (const Entry& entry : of(face_1)) {
+            if (bonds_.places()[entry.place].numbers[1 - entry.side] != static_cast<std::size_t>(face_2)) continue;
+            if (!bonds_.is_broken(entry.place)) return 0.0;
+            energy += bonds_.pressed_energy(entry.place);
+        }
+        return energy;
     }
-    /// The mean of that of broken places that held the face to the body.
+    /// Mean over the broken places that held the face to the body, by area [J/m^2].
     [[nodiscard]] double pressed_energy(contact::Face face, std::int32_t body) const {
         double energy = 0.0, area = 0.0;
         for (const auto& [number, place, side] : of(face)) {
@@ -108,8 +112,8 @@ private:
 };
 
 /// Leaves out pairs of faces of which one is bonded to the body of the other, and faces that are bonded all over, as the
-/// bonds are when it is asked. Sides that pressed on each other as their place broke go on to do so, and their neighbours
-/// take over what they slide off.
+/// bonds are when it is asked. A pair of sides that pressed as their place broke begins with the energy of that; neighbours
+/// begin with the lesser one of both faces.
 template <int Dim>
 void leave_out_bonded(const CornerSurface<Dim>& corners, const Bonds<Dim>& bonds, contact::NodalOptions& options) {
     if (!bonds.any()) return;

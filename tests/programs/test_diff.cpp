@@ -70,7 +70,7 @@ TEST_CASE("abut diff finds runs on one and two threads bitwise identical, whatev
                              Contains("checkpoint (step 12") && Contains("summary.json") && !Contains("settings"));
 }
 
-TEST_CASE("abut diff names the setting that was changed, and the first record, at which speeds differ", "[programs][diff]") {
+TEST_CASE("abut diff names the key that was changed, and finds the first record where values differ", "[programs][diff]") {
     const auto slow = short_run("", "diff_slow"), fast = short_run("--set bodies.left.density=1.5", "diff_fast");
     const Outcome differ = compare(slow.directory, fast.directory);
     CAPTURE(differ.out, differ.error);
