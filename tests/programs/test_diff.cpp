@@ -132,6 +132,41 @@ TEST_CASE("abut diff compares no rows behind one of another step or of other bod
     CHECK_THAT(of_steps.out, Contains("from row 2 on rows are of another step") && !Contains("kinetic"));
 }
 
+TEST_CASE("abut diff takes NaN as NaN, 0 as another number than -0, columns in any order and names with commas",
+          "[programs][diff]") {
+    const TwoRuns runs("step,body,push [N],pull [N]\n0,\"a,b\",nan,0\n1,\"a,b\",2,0\n",
+                       "step,body,pull [N],push [N]\n0,\"a,b\",0,nan\n1,\"a,b\",-0,2\n");
+    const Outcome differ = compare(runs.a, runs.b);
+    CAPTURE(differ.out, differ.error);
+    CHECK(differ.exit_code == 2);
+    CHECK_THAT(first_line(differ.out), Contains("row 2, step 1: pull [N] is 0 | -0"));
+    CHECK(compare(runs.a, runs.b, "--tolerance 1e-12").exit_code == 0);
+}
+
+TEST_CASE("abut diff compares the rows behind an empty cell, which is no number", "[programs][diff]") {
+    const TwoRuns runs("step,time [s],kinetic [J]\n0,0,\n5,0.5,1\n", "step,time [s],kinetic [J]\n0,0,2\n5,0.5,3\n");
+    const Outcome differ = compare(runs.a, runs.b);
+    CAPTURE(differ.out, differ.error);
+    CHECK(differ.exit_code == 2);
+    CHECK_THAT(first_line(differ.out), Contains("row 1, step 0, t = 0 s: kinetic [J] is nan | 2"));
+    CHECK_THAT(differ.out, Contains("energy.csv") && !Contains("rows are of another"));
+}
+
+TEST_CASE("abut diff names frames in HDF5 of the second run alone, and says what of both it does not compare",
+          "[programs][diff]") {
+    const TwoRuns runs(three_rows, three_rows);
+    write_file(runs.b / "bodies.h5", "of the second run");
+    const Outcome differ = compare(runs.a, runs.b);
+    CAPTURE(differ.out, differ.error);
+    CHECK(differ.exit_code == 2);
+    CHECK_THAT(differ.out, Contains("bodies.h5          in the second run only"));
+    write_file(runs.a / "bodies.h5", "of the first run");
+    const Outcome same = compare(runs.a, runs.b);
+    CHECK(same.exit_code == 0);
+    CHECK_THAT(first_line(same.out), Contains("bitwise identical in all that was compared"));
+    CHECK_THAT(same.out, Contains("frames in one file of HDF5 are not compared"));
+}
+
 TEST_CASE("abut diff names columns and files that one run alone has", "[programs][diff]") {
     const TwoRuns runs(three_rows, "step,time [s],kinetic [J],work [J]\n0,0,2,0\n5,0.5,1,0\n10,1,0.5,0\n");
     write_file(runs.a / "probes.csv", three_rows);
