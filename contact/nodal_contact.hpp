@@ -40,8 +40,8 @@ struct NodalOptions {
     /// between two searches. A pair of two bodies that lies inside of each other when it is wanted for the first time is a
     /// contact whose overlap at that moment does not act, until it has been apart.
     std::function<bool(Face, Face)> wanted;
-    /// Energy per area that such a pair has from that moment on, >= 0 [J/m^2]: it takes over from what held the faces until
-    /// then, and so much less of its overlap does not act, all of it at most; empty: none.
+    /// Energy per area [J/m^2], >= 0, that such a pair has at that moment: what held the faces together pressed them with
+    /// it. Only so much of the overlap is idle; where all of it holds less, none is. Empty: 0.
     std::function<double(Face, Face)> energy_at_first;
     /// Which faces of the host nothing can touch, as between bodies that are bonded there; empty: none. They cost a search
     /// nothing. What it says may change between two searches, and pairs of a face that is laid bare are wanted from then on.
@@ -106,8 +106,8 @@ public:
     [[nodiscard]] double bevel_stretch() const;
     /// Makes a new list for a step from x_0 to x_1; throws as `step`. The list holds for that step, however long it is.
     void search(PointsView<Dim> x_0, PointsView<Dim> x_1);
-    /// Ends the list, as `NodalOptions::wanted`, `covered` or `energy_at_first` have changed: `step` and `evaluate` make
-    /// another one.
+    /// Ends the list after a change of what `NodalOptions::wanted`, `covered` or `energy_at_first` answer. `step` makes a
+    /// new one, `evaluate` one for itself; `step_listed` and `evaluate_listed` throw Misuse until `search`.
     void end_list();
     /// Like `step` and `evaluate`, without checking that the list is valid: they read the nodes of the list alone,
     /// `last().nodes`. Throw Misuse without a list.

@@ -13,7 +13,7 @@ struct Losses {
     double by_viscosity = 0.0;  ///< of shocks: >= 0
     double lagged = 0.0;  ///< what damping has taken and may give back in the next step, as it acts on the mean of two rates
     double in_bonds = 0.0;   ///< what bonds lost as they opened or broke: >= 0
-    double at_splits = 0.0;  ///< as fragments take frames, and sides under pressure part: small, without a sign
+    double at_splits = 0.0;  ///< by frames of fragments, and as contact takes over at a break: small, without a sign
 
     [[nodiscard]] double total() const;
     Losses& operator+=(const Losses& other);

@@ -128,7 +128,7 @@ public:
         report_.candidates_max = std::max(report_.candidates_max, report_.candidates);
     }
 
-    /// Others may be wanted: what needs a list makes another one.
+    /// Ends the list: others may be wanted now.
     void end_list() { list_is_valid_ = false; }
 
     // Contact, with the list as it is

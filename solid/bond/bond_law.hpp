@@ -15,7 +15,7 @@ struct BondChange {
     double taken;      ///< what its law takes in the step; after Bonds::share_loss what it has lost [J/m^2]
     double stiffness;  ///< of both half cells in the direction of the traction [Pa/m]
     double rise;       ///< of what a whole place holds, in the step [J/m^2]
-    double pressed;    ///< energy by which its sides press on each other at the end [J/m^2]
+    double pressed;    ///< energy by which its sides press on each other at the end, before shares change [J/m^2]
 };
 
 /// Pull on a whole place at an end of a step; with a fracture energy without its pressure, which does not fall with the

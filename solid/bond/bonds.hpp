@@ -44,7 +44,7 @@ namespace abut::solid {
 /// of both ends, so that it is what the law takes.
 ///
 /// The sides of a place with a fracture energy press on each other as those of a whole one do (pressed_sides.hpp). A place
-/// that bears nothing else is broken, and contact takes over by what its sides press.
+/// that bears nothing else is broken, and contact takes over the energy by which its sides press.
 template <int Dim>
 class Bonds {
 public:
@@ -131,12 +131,13 @@ public:
     void end_changes(std::span<const BondChange> changes);
     /// Whether a place broke in the last step that has ended so.
     [[nodiscard]] bool any_broke() const { return any_broke_; }
-    /// Whether one did so under pressure: V changes in the next `leave_out_broken`.
+    /// Whether one broke under pressure: V changes in the next `leave_out_broken`.
     [[nodiscard]] bool any_broke_pressed() const { return !broke_pressed_.empty(); }
     /// Places that are broken take no part any more. A call of all ranks.
     void leave_out_broken();
-    /// Places that broke so leave to contact what their sides press: together no more than this energy [J], but a tenth of
-    /// it at least. Half cells press on several faces of a cell with less than contact does.
+    /// Hands over to contact what the sides of these places press with, less by one factor so that it is this energy [J] at
+    /// most, but 0.1 at least: half cells press on several faces of a cell with less energy than contact does. To be called
+    /// behind `leave_out_broken`.
     void hand_over(double energy);
     [[nodiscard]] double share(std::size_t place) const { return share_[place]; }
     /// Energy that places with a fracture energy have lost beyond what belongs to their openings; less than 0: they have
@@ -250,7 +251,7 @@ private:
     const RankPart<Dim>& part_;
     std::vector<BondPlace<Dim>> places_;
     std::vector<double> share_;             // by place, from 1, whole, to 0, broken
-    std::vector<double> pressed_energy_;    // by place [J/m^2]
+    std::vector<double> pressed_energy_;    // by place, handed over to contact [J/m^2]
     std::vector<double> loosened_;          // by place: its stiffness if it has become a spring [Pa/m]; 0: it has not
     std::vector<double> normal_stiffness_;  // by place, of those that are or were joints, against pressure [Pa/m]
     // By place, where it has a fracture energy: what of it was taken [J/m^2], and its opening over that of a broken place
