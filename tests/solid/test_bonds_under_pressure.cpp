@@ -53,7 +53,7 @@ TurningScene<Dim> sheared(BondOfBars bond, double pass, Kinematics kinematics = 
                              {kinematics, kinematics});
 }
 
-/// Of a whole bar [-].
+/// Mean velocity of a bar [-].
 template <int Dim>
 Vector<Dim> velocity_of(const TurningScene<Dim>& scene, std::int32_t bar) {
     Vector<Dim> momentum = Vector<Dim>::Zero();

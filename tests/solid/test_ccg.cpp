@@ -2,7 +2,9 @@
 
 #include <cstring>
 
+#include "abut/base/large_array.hpp"
 #include "abut/solid/operator/largest_motion.hpp"
+#include "abut/solid/operator/largest_strain.hpp"
 #include "solid/dense_stiffness.hpp"
 #include "solid/scenes.hpp"
 
@@ -324,6 +326,24 @@ TEMPLATE_TEST_CASE_SIG("the bound on the motion of any cell is not more than sqr
     CHECK(bound() <= std::sqrt(static_cast<double>(Dim)) * largest * (1.0 + 1e-15));
     b.back() = std::numeric_limits<double>::quiet_NaN();
     CHECK(std::isnan(bound()));
+}
+
+TEMPLATE_TEST_CASE_SIG("the bound on the strain of cells is that of the largest, and NaN wherever one of them is",
+                       "[solid][ccg]", ((int Dim), Dim), 2, 3) {
+    constexpr std::int32_t n = 5;
+    LargeArray<double> gradients(std::size_t{solid::lane_width<Dim> * Dim * n}, 0.0);
+    const auto bound = [&](std::int32_t begin, std::int32_t end) {
+        return solid::largest_root<Dim>(gradients, begin, end, [](const auto& g) { return solid::squared_norm<Dim>(g); });
+    };
+    const auto set = [&](std::int32_t i, double value) {
+        store_tensor(solid::load_packed<Dim>(Matrix<Dim>(value * Matrix<Dim>::Identity())), gradients, i);
+    };
+    for (std::int32_t i = 0; i < n; ++i) set(i, i == 2 ? -3.0 : 1.0);
+    CHECK(bound(0, n) == Approx(3.0 * std::sqrt(static_cast<double>(Dim))).epsilon(1e-15));
+    CHECK(bound(3, n) == Approx(std::sqrt(static_cast<double>(Dim))).epsilon(1e-15));
+    const std::int32_t broken = GENERATE(0, 3, 4);
+    set(broken, std::numeric_limits<double>::quiet_NaN());
+    CHECK(std::isnan(bound(0, n)));
 }
 
 TEMPLATE_TEST_CASE_SIG("the mean gradient of a step is the gradient at its middle", "[solid][ccg]", ((int Dim), Dim), 2, 3) {
