@@ -337,11 +337,10 @@ Mesh<Dim> combined(std::span<const Mesh<Dim>> meshes, const IsDone& is_done) {
 
 template <int Dim>
 const BoundaryGroup& Mesh<Dim>::group(const std::string& group_name) const {
+    const auto found = std::ranges::find(groups, group_name, &BoundaryGroup::name);
+    if (found != groups.end()) return *found;
     std::string known;
-    for (const BoundaryGroup& candidate : groups) {
-        if (candidate.name == group_name) return candidate;
-        known += (known.empty() ? "'" : ", '") + candidate.name + "'";
-    }
+    for (const BoundaryGroup& candidate : groups) known += (known.empty() ? "'" : ", '") + candidate.name + "'";
     throw BadInput(name + ": there is no boundary group '" + group_name + "'. The mesh has " +
                    (known.empty() ? "none: name surfaces as physical groups." : known + "."));
 }

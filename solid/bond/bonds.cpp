@@ -57,7 +57,7 @@ Bonds<Dim>::Bonds(const Bodies<Dim>& bodies, Ccg<Dim>& ccg, const BodyFrames<Dim
     faces_.emplace(mesh_, part, places_, of_joints);
     dynamics::agreed(part.ranks(), [&] {
         for (const BondFaces<Dim>* faces : std::array<const BondFaces<Dim>*, 2>{&*faces_, &springs_->faces()})
-            for (const BoundaryFace face : faces->own_faces()) check(face);
+            check(faces->own_faces());
     });
     make_joints(of_joints);
     check_fracture_energy();
@@ -187,25 +187,29 @@ std::vector<BoundaryFace> Bonds<Dim>::boundary_of(std::int32_t cell) const {
 }
 
 template <int Dim>
-void Bonds<Dim>::check(BoundaryFace face) const {
-    const std::int32_t cell = cell_of(mesh_, face);
-    const std::string who = mesh_.name + ": a bonded face of body '" +
-                            mesh_.body_names[static_cast<std::size_t>(mesh_.cell_body[cell])] + "' (cell " +
-                            std::to_string(mesh_.cell_label[cell]) + ")";
-    if (!ccg_.prescribed()[face].isZero(0.0))
-        throw BadInput(who + " is held by a support. Leave it out of the support's group, or bond other faces.",
-                       {.cell = cell});
+void Bonds<Dim>::check(std::span<const BoundaryFace> bonded) const {
+    const auto who = [&](BoundaryFace face) {
+        const std::int32_t cell = cell_of(mesh_, face);
+        return mesh_.name + ": a bonded face of body '" + mesh_.body_names[static_cast<std::size_t>(mesh_.cell_body[cell])] +
+               "' (cell " + std::to_string(mesh_.cell_label[cell]) + ")";
+    };
+    for (const BoundaryFace face : bonded)
+        if (!ccg_.prescribed()[face].isZero(0.0))
+            throw BadInput(who(face) + " is held by a support. Leave it out of the support's group, or bond other faces.",
+                           {.cell = cell_of(mesh_, face)});
     for (const TractionCondition<Dim>& condition : bodies_.deformable_options().boundary.traction) {
         const std::vector<std::int32_t>& loaded = mesh_.group(condition.group).faces;
         const auto is_loaded = [&](BoundaryFace b) { return std::ranges::binary_search(loaded, mesh_face(mesh_, b)); };
-        if (is_loaded(face))
-            throw BadInput(who + " has a traction on it (group '" + condition.group +
-                               "'). Leave it out of that group, or bond other faces.",
-                           {.cell = cell});
-        if (condition.from_outside && std::ranges::any_of(boundary_of(cell), is_loaded))
-            throw BadInput(who + " has a load from outside beside it (group '" + condition.group +
-                               "'), on a face that moves with the bond. Leave a cell between both.",
-                           {.cell = cell});
+        for (const BoundaryFace face : bonded) {
+            if (is_loaded(face))
+                throw BadInput(who(face) + " has a traction on it (group '" + condition.group +
+                                   "'). Leave it out of that group, or bond other faces.",
+                               {.cell = cell_of(mesh_, face)});
+            if (condition.from_outside && std::ranges::any_of(boundary_of(cell_of(mesh_, face)), is_loaded))
+                throw BadInput(who(face) + " has a load from outside beside it (group '" + condition.group +
+                                   "'), on a face that moves with the bond. Leave a cell between both.",
+                               {.cell = cell_of(mesh_, face)});
+        }
     }
 }
 

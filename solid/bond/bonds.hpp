@@ -204,7 +204,7 @@ private:
     }
     void check_bodies() const;
     void check_metal(std::span<const std::size_t> of_joints) const;
-    void check(BoundaryFace face) const;
+    void check(std::span<const BoundaryFace> bonded) const;
     [[nodiscard]] std::vector<BoundaryFace> boundary_of(std::int32_t cell) const;
     [[nodiscard]] Matrix<Dim> stiffness_of(BoundaryFace face) const;
     void take_faces();

@@ -51,7 +51,7 @@ TEST_CASE("curves of discs that collide go from the speeds at the start to those
     CHECK(std::filesystem::exists(outcome.directory / "velocities.gp"));
 }
 
-TEST_CASE("spheres that collide come as close as Hertz says, within 10 % on a coarse mesh", "[programs]") {
+TEST_CASE("spheres that collide come as close as Hertz says, within 10 % on a coarse mesh", "[programs][long]") {
     const auto outcome = run_well("study sphere_collision", "--faces 1.5 --coarse 0.8", "sphere_collision");
     CHECK(study_quantity(outcome, 0, "largest approach").error < 0.1);
     CHECK(study_quantity(outcome, 0, "duration").error < 0.1);

@@ -48,14 +48,14 @@ def ball_on_plate(programs, law, counts):
 @claim
 def a_ball_on_a_coarse_plate_comes_back_with_its_own_speed(programs):
     for counts in ("[4,4,1]", "[8,8,2]"):
-        for law in ("automatic", "pair_potential", "reconstruction"):
+        for law in ("automatic", "reconstruction"):
             ball_on_plate(programs, law, counts)
 
 
 @claim
 def a_disc_on_a_coarse_block_is_not_pushed_sideways(programs):
     for counts in ("[4,2]", "[10,5]", "[17,8]", "[40,20]"):  # cells of 50, 20, 12 and 5 times those of the disc
-        for law in ("automatic", "pair_potential", "reconstruction"):
+        for law in ("automatic", "reconstruction"):
             run = Run(programs, "coarse_below_2d.toml", "--law", law, "--set", f"bodies.block.counts={counts}").require_end()
             x, y = run.body("disc")["velocity_final"]
             # A flat block pushes nothing sideways. Under the potential a coarse face tilts as one, by 2 to 3 % (docs/validation.md).
