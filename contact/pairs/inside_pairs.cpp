@@ -14,6 +14,9 @@ namespace abut::contact {
 namespace {
 
 constexpr double rounding = 1e-9;  // of the size of a pair
+/// Of D. Along a crack with bends faces of two bodies lie behind each other by less, and come to bear as they slide; far
+/// sides lie deeper, by two cells at least.
+constexpr double inside_depth_of_bodies = 0.5;
 
 /// Middle of a facet from its first corner on, and its normal, of any length.
 template <int Dim>
@@ -76,7 +79,14 @@ bool InsidePairs<Dim>::lies_inside_at_rest(FacetPair pair) const {
     const double near = reach_[static_cast<std::size_t>(facet_1)] + reach_[static_cast<std::size_t>(facet_2)];
     if ((facets_.centroid[facet_2] - facets_.centroid[facet_1]).squaredNorm() >= near * near) return false;
     const double gap = gap_at_rest(facets_, facet_1, facet_2);
-    return std::isfinite(gap) && gap < outside_gap(facets_, pair);
+    return std::isfinite(gap) && gap < highest_gap_inside(pair);
+}
+
+template <int Dim>
+double InsidePairs<Dim>::highest_gap_inside(FacetPair pair) const {
+    const std::int32_t facet_1 = number_of(pair.facet_1), facet_2 = number_of(pair.facet_2);
+    if (facets_.body[facet_1] == facets_.body[facet_2]) return outside_gap(facets_, pair);
+    return -inside_depth_of_bodies * 0.5 * (facets_.cell_depth[facet_1] + facets_.cell_depth[facet_2]);
 }
 
 template <int Dim>
