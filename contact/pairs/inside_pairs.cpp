@@ -14,8 +14,8 @@ namespace abut::contact {
 namespace {
 
 constexpr double rounding = 1e-9;  // of the size of a pair
-/// Of D. Along a crack with bends faces of two bodies lie behind each other by less, and come to bear as they slide; far
-/// sides lie deeper, by two cells at least.
+/// Depth, of D, from which on faces of two bodies are far sides. Along a crack with bends they lie behind each other by
+/// less, and bear as they slide.
 constexpr double inside_depth_of_bodies = 0.5;
 
 /// Middle of a facet from its first corner on, and its normal, of any length.

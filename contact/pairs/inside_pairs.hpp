@@ -37,7 +37,7 @@ public:
 
 private:
     [[nodiscard]] bool lies_inside_at_rest(FacetPair pair) const;
-    /// Below it a pair lies inside [m].
+    /// Gap below which a pair lies inside [m].
     [[nodiscard]] double highest_gap_inside(FacetPair pair) const;
 
     SurfaceView<Dim> facets_;
