@@ -16,7 +16,7 @@ namespace {
 constexpr double rounding = 1e-9;  // of the size of a pair
 /// Depth, of D, from which on faces of two bodies are far sides. Along a crack with bends they lie behind each other by
 /// less, and bear as they slide.
-constexpr double inside_depth_of_bodies = 0.5;
+constexpr double inside_depth_of_bodies = 0.25;
 
 /// Middle of a facet from its first corner on, and its normal, of any length.
 template <int Dim>
@@ -86,7 +86,7 @@ template <int Dim>
 double InsidePairs<Dim>::highest_gap_inside(FacetPair pair) const {
     const std::int32_t facet_1 = number_of(pair.facet_1), facet_2 = number_of(pair.facet_2);
     if (facets_.body[facet_1] == facets_.body[facet_2]) return outside_gap(facets_, pair);
-    return -inside_depth_of_bodies * 0.5 * (facets_.cell_depth[facet_1] + facets_.cell_depth[facet_2]);
+    return -inside_depth_of_bodies * (facets_.cell_depth[facet_1] + facets_.cell_depth[facet_2]);
 }
 
 template <int Dim>

@@ -13,7 +13,7 @@ namespace abut::contact {
 /// Pairs of facets of one piece that lie inside of each other and near at rest, as the two sides of a wedge or of a thin
 /// plate do: they are marked, and no contact. A mark goes for good once the pair is seen from outside: a plate that is
 /// rolled up touches itself with what were its two sides. A piece is a body that touches itself, or bodies that were one or
-/// are bonded; facets of two bodies are marked from half of D on. docs/method_details.md, A body that touches itself.
+/// are bonded; facets of two bodies are marked from a quarter of D on. docs/method_details.md, A body that touches itself.
 template <int Dim>
 class InsidePairs {
 public:
