@@ -289,29 +289,53 @@ void keep_joined(JoinedCells<Dim>& joined, std::int32_t cell, std::vector<typena
     std::erase_if(near, [&](const Near& of) { return !is_joined(of); });
 }
 
+/// Cells within two faces of that of a face, by distance, then number. Of cells much longer than thick the nearest may all
+/// be of one row.
+template <int Dim>
+std::vector<typename NearestCells<Dim>::Near> within_two_faces(const mesh::Mesh<Dim>& mesh, const NearestCells<Dim>& nearest,
+                                                               std::int32_t face, std::vector<std::int32_t>& guess) {
+    const std::int32_t cell = mesh.face_cells[face][0];
+    const Vector<Dim>& point = mesh.face_centroid[face];
+    auto near = nearest.find(mesh.cell_body[cell], point, 1, guess);
+    add_neighbours<Dim>(mesh, cell, point, near);
+    for (const auto& beside : std::vector(near)) add_neighbours<Dim>(mesh, beside.cell, point, near);
+    std::ranges::sort(near, {}, [](const auto& of) { return std::tie(of.distance, of.cell); });
+    return near;
+}
+
+/// The best simplex of these cells, which are sorted; nothing where they span none. `halvings`: of the smallest volume.
+template <int Dim>
+std::optional<FaceStencil<Dim>> spanned_by(const mesh::Mesh<Dim>& mesh, std::int32_t face,
+                                           std::vector<typename NearestCells<Dim>::Near> near, JoinedCells<Dim>* joined,
+                                           int& halvings) {
+    const std::int32_t cell = mesh.face_cells[face][0];
+    if (joined) keep_joined<Dim>(*joined, cell, near);
+    const bool hollow = mesh.is_boundary(face) && !near.empty() && is_hollow<Dim>(mesh, face, near);
+    if (hollow) add_neighbours<Dim>(mesh, cell, mesh.face_centroid[face], near);
+    double smallest_volume = volume_floor * mesh.cell_measure[cell];
+    SimplexSearch<Dim> search(mesh, mesh.face_centroid[face], near);
+    for (halvings = 0; halvings <= max_floor_halvings; ++halvings, smallest_volume *= 0.5) {
+        if (halvings > 0 && search.all_are_below(smallest_volume)) continue;
+        search.set_smallest_volume(smallest_volume);
+        if (auto found = hollow ? search.most_exact() : search.best()) return found;
+    }
+    return std::nullopt;
+}
+
 /// The stencil of a face; nothing where the cells near it, or those among them that are `joined`, span no simplex.
 template <int Dim>
 std::optional<FaceStencil<Dim>> found_stencil(const mesh::Mesh<Dim>& mesh, const NearestCells<Dim>& nearest,
                                               std::int32_t face, JoinedCells<Dim>* joined, std::vector<std::int32_t>& guess,
                                               int& halvings) {
-    const std::int32_t cell = mesh.face_cells[face][0];
+    const std::int32_t body = mesh.cell_body[mesh.face_cells[face][0]];
     // Regular layers may put the nearest centroids all in one plane: then look further.
     for (std::size_t wanted = n_nearest<Dim>; wanted <= 4 * n_nearest<Dim>; wanted *= 2) {
-        auto near = nearest.find(mesh.cell_body[cell], mesh.face_centroid[face], wanted, guess);
+        auto near = nearest.find(body, mesh.face_centroid[face], wanted, guess);
         const bool is_all = near.size() < wanted;
-        if (joined) keep_joined<Dim>(*joined, cell, near);
-        const bool hollow = mesh.is_boundary(face) && !near.empty() && is_hollow<Dim>(mesh, face, near);
-        if (hollow) add_neighbours<Dim>(mesh, cell, mesh.face_centroid[face], near);
-        double smallest_volume = volume_floor * mesh.cell_measure[cell];
-        SimplexSearch<Dim> search(mesh, mesh.face_centroid[face], near);
-        for (halvings = 0; halvings <= max_floor_halvings; ++halvings, smallest_volume *= 0.5) {
-            if (halvings > 0 && search.all_are_below(smallest_volume)) continue;
-            search.set_smallest_volume(smallest_volume);
-            if (auto found = hollow ? search.most_exact() : search.best()) return found;
-        }
-        if (is_all) break;
+        if (auto found = spanned_by<Dim>(mesh, face, std::move(near), joined, halvings)) return found;
+        if (is_all) return std::nullopt;
     }
-    return std::nullopt;
+    return spanned_by<Dim>(mesh, face, within_two_faces<Dim>(mesh, nearest, face, guess), joined, halvings);
 }
 
 /// `joined`: null where no cells have left.

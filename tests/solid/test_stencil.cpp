@@ -331,6 +331,27 @@ TEST_CASE("no interior face of a uniform grid extrapolates", "[solid][stencil]")
     }
 }
 
+TEMPLATE_TEST_CASE_SIG("cells forty times as long as thick have stencils, as all cells near a face may be of one row",
+                       "[solid][stencil]", ((int Dim), Dim), 2, 3) {
+    std::array<int, Dim> counts;
+    counts.fill(3);
+    counts[Dim - 1] = 80;
+    Vector<Dim> upper = Vector<Dim>::Constant(3.0);
+    upper[Dim - 1] = 2.0;
+    const auto mesh = mesh::structured_box<Dim>(Vector<Dim>::Zero(), upper, counts,
+                                                Dim == 2 ? CellShape::quadrangle : CellShape::hexahedron, "pile");
+    solid::StencilReport report;
+    const auto faces = all_faces(mesh);
+    const auto stencils = solid::select_stencils<Dim>(mesh, faces, report);
+    for (std::size_t i = 0; i < faces.size(); ++i) {
+        Vector<Dim> point = Vector<Dim>::Zero();
+        for (std::size_t j = 0; j <= Dim; ++j) point += stencils[i].weights[j] * mesh.cell_centroid[stencils[i].cells[j]];
+        CAPTURE(faces[i]);
+        CHECK((point - mesh.face_centroid[faces[i]]).norm() < 1e-12);
+        CHECK(std::ranges::min(stencils[i].weights) > (mesh.is_boundary(faces[i]) ? -0.5 - 1e-12 : -1e-12));
+    }
+}
+
 TEMPLATE_TEST_CASE_SIG("a body one cell thick is refused with the face and the remedy", "[solid][stencil]", ((int Dim), Dim),
                        2, 3) {
     std::array<int, Dim> counts;
