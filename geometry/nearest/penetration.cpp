@@ -31,7 +31,8 @@ void add_middle(const Vector<3>& from, const Vector<3>& to, const Box<3>& box, P
         const double length = to[i] - from[i];
         if (length == 0.0 && (from[i] < box.lower[i] || from[i] > box.upper[i])) return;
         if (length == 0.0) continue;
-        const auto [enters, leaves] = std::minmax((box.lower[i] - from[i]) / length, (box.upper[i] - from[i]) / length);
+        const auto [enters, leaves] =
+            std::minmax({(box.lower[i] - from[i]) / length, (box.upper[i] - from[i]) / length});  // values, not references
         begin = std::max(begin, enters);
         end = std::min(end, leaves);
     }
