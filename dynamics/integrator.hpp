@@ -163,8 +163,19 @@ public:
     void parasitic_momentum(std::span<double> e) {
         if constexpr (!Scheme::has_half_steps) return std::fill(e.begin(), e.end(), 0.0);
         system_.force(q_, e);
-        add_scaled(p_after_, -1.0, p_before_, scratch_);
-        for (std::size_t i = 0; i < q_.size(); ++i) e[i] = scratch_[i] - step_of(i) * e[i];
+        subtract_from_jump(e);
+    }
+    /// V at the present node [J], and e as `parasitic_momentum` gives it.
+    [[nodiscard]] double potential_and_parasitic_momentum(std::span<double> e) {
+        if constexpr (Scheme::has_half_steps && requires { system_.potential_and_force(q_, e); }) {
+            const double potential = system_.potential_and_force(q_, e);
+            subtract_from_jump(e);
+            return potential;
+        } else {
+            const double potential = system_.potential(q_);
+            parasitic_momentum(e);
+            return potential;
+        }
     }
     /// Sum of all jumps of the pseudo-energy that restarts caused [J].
     [[nodiscard]] double restart_jumps() const { return restart_jumps_; }
@@ -216,6 +227,11 @@ protected:
 
 private:
     Scheme& scheme() { return static_cast<Scheme&>(*this); }
+    /// Makes e of the force at the present node.
+    void subtract_from_jump(std::span<double> force) {
+        add_scaled(p_after_, -1.0, p_before_, scratch_);
+        for (std::size_t i = 0; i < q_.size(); ++i) force[i] = scratch_[i] - step_of(i) * force[i];
+    }
     double step_of(std::size_t i) const {
         if constexpr (requires(const Scheme& s) { s.local_step(i); })
             return static_cast<const Scheme&>(*this).local_step(i);

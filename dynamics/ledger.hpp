@@ -126,7 +126,7 @@ void add_motion(LedgerEntry<Dim>& entry, const RunView<Dim>& run, std::span<cons
 [[nodiscard]] double largest_angle(std::span<const double> angles);
 }  // namespace detail
 
-/// Measures the present state; costs about two force evaluations. `system` is that of the integrator; `restarts` are those
+/// Measures the present state; costs about two force evaluations, or one where the system has `potential_and_force`. `system` is that of the integrator; `restarts` are those
 /// of the run, if it has any, and `eroded` what has left it.
 template <class Scheme, PointSystem S>
 [[nodiscard]] LedgerEntry<S::dimension> measure(Integrator<Scheme, S>& integrator, S& system,
@@ -134,14 +134,13 @@ template <class Scheme, PointSystem S>
     constexpr int Dim = S::dimension;
     LedgerEntry<Dim> entry{};
     entry.eroded = eroded;
-    entry.potential = system.potential(integrator.q());
+    std::vector<double> e(integrator.q().size());
+    entry.potential = integrator.potential_and_parasitic_momentum(e);
     entry.kinetic = integrator.kinetic_energy();
     entry.energy = entry.kinetic + entry.potential;
     entry.pseudo_energy = integrator.pseudo_energy(entry.potential);
     entry.restart_jumps = integrator.restart_jumps();
     entry.restarts = restarts;
-    std::vector<double> e(integrator.q().size());
-    integrator.parasitic_momentum(e);
     if constexpr (requires { system.work(); }) entry.work = system.work();
     double friction = 0.0;
     if constexpr (requires { system.contact_counts(); }) {

@@ -255,21 +255,47 @@ void Solid<Dim>::set_rates(std::span<const double> q, std::span<const double> p)
     point_loads_->set_rates(q_here, part_->filled(as_vectors<Dim>(std::span<const double>(v)), kept_v));
 }
 
+/// Frames and contact stand in this state.
+template <int Dim>
+void Solid<Dim>::stand_at(std::span<const Vector<Dim>> u) {
+    frames_->stand_at(of_cells(u));
+    if (contact_) contact_->evaluate(u, time_);
+}
+
 template <int Dim>
 void Solid<Dim>::force(std::span<const double> q, std::span<double> force) {
     const auto u = state_here(q);
     const auto gradient = result_here(force);
-    frames_->stand_at(of_cells(u));
-    if (contact_) contact_->evaluate(u, time_);
+    stand_at(u);
     bonds_->stand_at(u, loads_->end());
     ccg_.gradient(in_frames(u, all_cells_), loads_->end(), corrections(), gradient);
+    add_other_forces(u, gradient);
+    take_result(force);
+}
+
+template <int Dim>
+double Solid<Dim>::potential_and_force(std::span<const double> q, std::span<double> force) {
+    const auto u = state_here(q);
+    const auto gradient = result_here(force);
+    stand_at(u);
+    bonds_->stand_at(u, loads_->end());
+    std::vector<double> energies(static_cast<std::size_t>(bodies_->n_cells()));
+    ccg_.gradient_and_energies(in_frames(u, all_cells_), loads_->end(), corrections(), gradient, energies);
+    const double potential = with_other_energies(u, sum_of_stored(energies, loads_->end()));
+    add_other_forces(u, gradient);
+    take_result(force);
+    return potential;
+}
+
+/// Makes the force of the gradient of cells.
+template <int Dim>
+void Solid<Dim>::add_other_forces(std::span<const Vector<Dim>> u, std::span<Vector<Dim>> gradient) {
     bonds_->add_gradient(gradient);
     to_force(u, u, gradient);
     if (point_loads_->any())
         point_loads_->add_at(
             u, time_, [this](std::int32_t body) { return mean_turn(body); }, gradient);
     bodies_->rigid().add_constraint_forces(u, gradient);
-    take_result(force);
 }
 
 template <int Dim>
@@ -279,9 +305,14 @@ double Solid<Dim>::potential(std::span<const double> q) {
 
 template <int Dim>
 double Solid<Dim>::potential_here(std::span<const Vector<Dim>> u) {
-    frames_->stand_at(of_cells(u));
-    if (contact_) contact_->evaluate(u, time_);
-    double energy = stored_energy(u, loads_->end()) - loads_->body_work(of_cells(u));
+    stand_at(u);
+    return with_other_energies(u, stored_energy(u, loads_->end()));
+}
+
+/// V, of what cells and bonds store.
+template <int Dim>
+double Solid<Dim>::with_other_energies(std::span<const Vector<Dim>> u, double stored) const {
+    double energy = stored - loads_->body_work(of_cells(u));
     if (contact_) energy += contact_->energy();
     energy += point_loads_->energy(u);
     for (auto i = static_cast<std::size_t>(bodies_->n_cells()); i < u.size(); ++i) energy -= rigid_force_[i].dot(u[i]);
@@ -293,7 +324,11 @@ template <int Dim>
 double Solid<Dim>::stored_energy(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load) {
     bonds_->stand_at(u, load);
     const auto in_frame = in_frames(u, all_cells_);
-    const std::vector<double> of_cells = ccg_.cell_energies(in_frame, load, corrections());
+    return sum_of_stored(ccg_.cell_energies(in_frame, load, corrections()), load);
+}
+
+template <int Dim>
+double Solid<Dim>::sum_of_stored(std::span<const double> of_cells, const BoundaryLoad<Dim>& load) const {
     const double stored =
         bonds_->energy() + part_->sum_of_cells([&](std::int32_t c) { return of_cells[static_cast<std::size_t>(c)]; });
     const BoundaryConditions<Dim>& conditions = bodies_->deformable_options().boundary;

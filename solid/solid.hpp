@@ -149,6 +149,8 @@ public:
 
     /// Elastic and stabilisation energy of the state with its contact corrections, less the work of the loads [J].
     [[nodiscard]] double potential(std::span<const double> q);
+    /// `potential`, and `force` of the same state: less than both one after the other.
+    [[nodiscard]] double potential_and_force(std::span<const double> q, std::span<double> force);
     /// Work of prescribed displacements, of changing tractions, of moving obstacles and of interference so far [J].
     [[nodiscard]] double work() const { return work_; }
     /// Energy that materials have dissipated so far by flow, damping and viscosity, and bonds that broke; friction is
@@ -232,8 +234,12 @@ private:
                                  contact::TakenForce take);
     [[nodiscard]] std::span<Vector<Dim>> result_here(std::span<double> of_points);
     void take_result(std::span<double> of_points) const;
+    void stand_at(std::span<const Vector<Dim>> u);
     [[nodiscard]] double potential_here(std::span<const Vector<Dim>> u);
+    [[nodiscard]] double with_other_energies(std::span<const Vector<Dim>> u, double stored) const;
     [[nodiscard]] double stored_energy(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load);
+    [[nodiscard]] double sum_of_stored(std::span<const double> of_cells, const BoundaryLoad<Dim>& load) const;
+    void add_other_forces(std::span<const Vector<Dim>> u, std::span<Vector<Dim>> gradient);
     void unite_frames();
     void part_frames(std::span<const Vector<Dim>> q);
     void meet_other_ranks();

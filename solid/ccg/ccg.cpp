@@ -214,6 +214,15 @@ void Ccg<Dim>::gradient(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>&
 }
 
 template <int Dim>
+void Ccg<Dim>::gradient_and_energies(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load,
+                                     const FaceCorrections<Dim>& corrections, std::span<Vector<Dim>> result,
+                                     std::span<double> energies) {
+    impl_->keep_pushes(corrections);
+    impl_->sweeps.gradient_and_energies(u, load, corrections, result, energies);
+    impl_->steps_were_last = impl_->steps_have_state = false;
+}
+
+template <int Dim>
 void Ccg<Dim>::step_gradient(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load,
                              const FaceCorrections<Dim>& corrections, std::span<Vector<Dim>> result) {
     impl_->keep_pushes(corrections);

@@ -89,6 +89,10 @@ public:
     /// dV/du_c (n_cells) [N] for V(u, û + delta) less the work of tractions; the gradients of `corrections` are added.
     void gradient(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load, const FaceCorrections<Dim>& corrections,
                   std::span<Vector<Dim>> result);
+    /// As `gradient`, with `cell_energies` of the same state (n_cells) [J]: less than both one after the other.
+    void gradient_and_energies(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load,
+                               const FaceCorrections<Dim>& corrections, std::span<Vector<Dim>> result,
+                               std::span<double> energies);
     /// As `gradient`, in the precision and on the device of steps.
     void step_gradient(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load,
                        const FaceCorrections<Dim>& corrections, std::span<Vector<Dim>> result);

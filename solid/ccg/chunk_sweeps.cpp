@@ -78,6 +78,11 @@ void CcgSweeps<Dim, Real>::displacement_gradients_of_chunk(std::int32_t k) {
 }
 
 template <int Dim, class Real>
+void CcgSweeps<Dim, Real>::energies_of_chunk(std::int32_t k, std::span<double> result) const {
+    for_runs(wanted_.cell_gradients[k], [&](std::int32_t c) { result[static_cast<std::size_t>(c)] = energy(c); });
+}
+
+template <int Dim, class Real>
 void CcgSweeps<Dim, Real>::stresses_of_chunk(std::int32_t k) {
     const CellsOfChunk chunk{wanted_.stresses[k], wanted_.condensed_stresses[k]};
     in_pool_of_chunk(k, [&](auto& pool) { pool.set_stresses(chunk); });
@@ -120,6 +125,7 @@ ABUT_INSTANTIATE(3, float)
 #define ABUT_INSTANTIATE(Dim)                                                                         \
     template Lanes<Dim> CcgSweeps<Dim>::any_boundary_displacement(const double*, BoundaryFace) const; \
     template void CcgSweeps<Dim>::set_any_traces(std::int32_t);                                       \
+    template void CcgSweeps<Dim>::energies_of_chunk(std::int32_t, std::span<double>) const;           \
     template void CcgSweeps<Dim>::set_any_stress(std::int32_t);                                       \
     template void CcgSweeps<Dim>::answer_to_corrections(std::int32_t);
 ABUT_INSTANTIATE(2)

@@ -74,11 +74,20 @@ void CcgSweeps<Dim, Real>::gradient_of_packed(LargeArray<double>& u, const Bound
     run_sweeps([](std::ptrdiff_t) {}, load, corrections, result);
 }
 
-/// load_cell(c) sets u_c.
+template <int Dim, class Real>
+void CcgSweeps<Dim, Real>::gradient_and_energies(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load,
+                                                 const FaceCorrections<Dim>& corrections, std::span<Vector<Dim>> result,
+                                                 std::span<double> energies) {
+    run_sweeps([&](std::ptrdiff_t c) { store(load_packed<Dim>(u[c]), state_.work.u, c); }, load, corrections, result,
+               energies);
+}
+
+/// load_cell(c) sets u_c. Energies are taken where they are wanted: before contact is in the stresses of their cells.
 template <int Dim, class Real>
 template <class LoadCell>
 void CcgSweeps<Dim, Real>::run_sweeps(const LoadCell& load_cell, const BoundaryLoad<Dim>& load,
-                                      const FaceCorrections<Dim>& corrections, std::span<Vector<Dim>> result) {
+                                      const FaceCorrections<Dim>& corrections, std::span<Vector<Dim>> result,
+                                      std::span<double> energies) {
     const auto placed_corrections = placed(corrections);
     state_.set_load(load);
     schedule_.run([&](int stage, std::int32_t chunk) {
@@ -90,6 +99,8 @@ void CcgSweeps<Dim, Real>::run_sweeps(const LoadCell& load_cell, const BoundaryL
             case displacement_gradients:
                 return displacement_gradients_of_chunk(chunk);
             case stresses:
+                if constexpr (is_double)
+                    if (!energies.empty()) energies_of_chunk(chunk, energies);
                 return stresses_of_chunk(chunk);
             case face_gradients:
                 return face_gradients_of_chunk(chunk);
@@ -110,9 +121,7 @@ void CcgSweeps<Dim, Real>::cell_energies(std::span<const Vector<Dim>> u, const B
     const auto n_chunks = static_cast<std::int32_t>(chunks_.size()) - 1;
     parallel_tasks(n_chunks, [&](std::int32_t k) { reconstruct_chunk(k); });
     parallel_tasks(n_chunks, [&](std::int32_t k) { displacement_gradients_of_chunk(k); });
-    parallel_tasks(n_chunks, [&](std::int32_t k) {
-        for_runs(wanted_.cell_gradients[k], [&](std::int32_t c) { result[static_cast<std::size_t>(c)] = energy(c); });
-    });
+    parallel_tasks(n_chunks, [&](std::int32_t k) { energies_of_chunk(k, result); });
 }
 
 template <int Dim, class Real>

@@ -62,6 +62,10 @@ public:
     /// As `mean_gradient`, of u; the arrays of displacements are exchanged.
     void gradient_of_packed(LargeArray<double>& u, const BoundaryLoad<Dim>& load, const FaceCorrections<Dim>& corrections,
                             std::span<Vector<Dim>> result, const StepEnds<Dim>& ends = {});
+    /// As `gradient`, with `cell_energies` of the same state.
+    void gradient_and_energies(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load,
+                               const FaceCorrections<Dim>& corrections, std::span<Vector<Dim>> result,
+                               std::span<double> energies);
     /// V by cell, without the work of the loads (n_cells) [J].
     void cell_energies(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load,
                        const FaceCorrections<Dim>& corrections, std::span<double> result);
@@ -164,13 +168,14 @@ private:
     [[nodiscard]] PlacedCorrections<Dim, Real> placed(const FaceCorrections<Dim>& corrections);
     template <class LoadCell>
     void run_sweeps(const LoadCell& load_cell, const BoundaryLoad<Dim>& load, const FaceCorrections<Dim>& corrections,
-                    std::span<Vector<Dim>> result);
+                    std::span<Vector<Dim>> result, std::span<double> energies = {});
 
     // One chunk
     void set_chunks();
     [[nodiscard]] SweepLists lists_of(const WantedElements& wanted) const;
     void reconstruct_chunk(std::int32_t k);
     void displacement_gradients_of_chunk(std::int32_t k);
+    void energies_of_chunk(std::int32_t k, std::span<double> result) const;
     void stresses_of_chunk(std::int32_t k);
     void face_gradients_of_chunk(std::int32_t k);
     void cell_gradients_of_chunk(std::int32_t k, std::span<Vector<Dim>> result) const;
