@@ -14,8 +14,8 @@ namespace abut::contact {
 namespace {
 
 constexpr double rounding = 1e-9;  // of the size of a pair
-/// Depth, of D, from which on faces of two bodies are far sides. Along a crack with bends they lie behind each other by
-/// less, and bear as they slide.
+/// Depth, of D, from which on faces of two bodies are far sides. Along a crack most lie behind each other by less, and bear
+/// as they slide.
 constexpr double inside_depth_of_bodies = 0.25;
 
 /// Middle of a facet from its first corner on, and its normal, of any length.
@@ -31,6 +31,15 @@ Plane<3> plane_of(const geometry::PairCorners<3>& x, int first) {
     return {(x[first] + x[first + 1] + x[first + 2]) / 3.0, moment<3>(x[first + 1] - x[first], x[first + 2] - x[first])};
 }
 
+/// How deep a facet may be pressed in [m].
+template <int Dim>
+double depth_of(const SurfaceView<Dim>& facets, std::int32_t facet) {
+    return facets.is_rigid(facet) ? 0.0 : facets.cell_depth[facet];
+}
+
+/// `inside_gap`; but in the plane, faces of two bodies that share nothing lie along their crack. At a bend with faces of
+/// unequal length their planes are behind each other halfway, and the gap at the nearest points decides. In space they may
+/// also be the sides of an edge that the crack crosses.
 template <int Dim>
 double gap_at_rest(const SurfaceView<Dim>& facets, std::int32_t facet_1, std::int32_t facet_2) {
     geometry::PairCorners<Dim> corners;
@@ -40,7 +49,9 @@ double gap_at_rest(const SurfaceView<Dim>& facets, std::int32_t facet_1, std::in
     }
     geometry::PairLaw<Dim> law{.stiffness = 1.0};
     if constexpr (Dim == 2) law.length = {facets.area[facet_1], facets.area[facet_2]};
-    return inside_gap<Dim>(corners, geometry::pair_state<Dim>(corners, law));
+    const auto state = geometry::pair_state<Dim>(corners, law);
+    if (Dim == 2 && facets.body[facet_1] != facets.body[facet_2]) return state.gap;
+    return inside_gap<Dim>(corners, state);
 }
 
 }  // namespace
@@ -65,10 +76,8 @@ InsidePairs<Dim>::InsidePairs(const SurfaceView<Dim>& facets, std::vector<std::i
     if (std::ranges::none_of(piece, [](std::int32_t number) { return number >= 0; })) return;
     facets_ = facets;
     piece_ = std::move(piece);
-    for (std::int32_t facet = 0; facet < facets.size(); ++facet) {
-        const double depth = facets.is_rigid(facet) ? 0.0 : facets.cell_depth[facet];
-        reach_.push_back(circumradius(facets, facet) + 2.0 * std::sqrt(static_cast<double>(Dim)) * depth);
-    }
+    for (std::int32_t facet = 0; facet < facets.size(); ++facet)
+        reach_.push_back(circumradius(facets, facet) + 2.0 * std::sqrt(static_cast<double>(Dim)) * depth_of(facets, facet));
 }
 
 template <int Dim>
@@ -85,8 +94,9 @@ bool InsidePairs<Dim>::lies_inside_at_rest(FacetPair pair) const {
 template <int Dim>
 double InsidePairs<Dim>::highest_gap_inside(FacetPair pair) const {
     const std::int32_t facet_1 = number_of(pair.facet_1), facet_2 = number_of(pair.facet_2);
-    if (facets_.body[facet_1] == facets_.body[facet_2]) return outside_gap(facets_, pair);
-    return -inside_depth_of_bodies * (facets_.cell_depth[facet_1] + facets_.cell_depth[facet_2]);
+    const double outside = outside_gap(facets_, pair);
+    if (facets_.body[facet_1] == facets_.body[facet_2]) return outside;
+    return std::min(outside, -inside_depth_of_bodies * (depth_of(facets_, facet_1) + depth_of(facets_, facet_2)));
 }
 
 template <int Dim>

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <numbers>
 
 #include "abut/base/error.hpp"
 #include "abut/contact/surface/obstacle.hpp"
@@ -333,51 +332,6 @@ TEST_CASE("faces that were let go while they were apart are a missed contact whe
         CHECK_FALSE(each->step(1.0, faces.at(0.0, -0.05), faces.at(0.0, -0.06)).is_active());
         CHECK(each->report().missed_contacts == 1);
     }
-}
-
-namespace {
-
-/// A shaft of `n` flat sides in a bore of the same sides, of radius 1; each second side is twice as long as the others.
-NodalScene<2> shaft_in_bore(int n, double depth) {
-    NodalScene<2> scene;
-    scene.faces.stiffness = {3.0, 3.0};
-    for (const std::int32_t body : {0, 1})
-        for (int i = 0; i < n; ++i) {
-            const double angle = 4.0 * std::numbers::pi * (i / 2 + (i % 2 == 0 ? 0.0 : 1.0 / 3.0)) / n;
-            scene.rest.emplace_back(std::cos(angle), std::sin(angle));
-            std::vector<std::int32_t> side{n * body + i, n * body + (i + 1) % n};
-            if (body == 1) std::ranges::reverse(side);  // its outside is that of the bore
-            scene.faces.append_face(side, depth, body);
-        }
-    return scene;
-}
-
-/// The shaft turned, and thicker by 0.01.
-Corners turned_shaft(const NodalScene<2>& scene, double angle) {
-    Corners x = scene.rest;
-    const double cos = 1.01 * std::cos(angle), sin = 1.01 * std::sin(angle);
-    for (std::size_t i = 0; i < x.size() / 2; ++i) x[i] = {cos * x[i][0] - sin * x[i][1], sin * x[i][0] + cos * x[i][1]};
-    return x;
-}
-
-}  // namespace
-
-TEST_CASE("a shaft that was one piece with its bore is pressed as much in it when it has turned by two sides",
-          "[contact][nodal]") {
-    const int n = GENERATE(12, 40);
-    const NodalScene<2> scene = shaft_in_bore(n, 0.2);
-    contact::NodalOptions options = with_skin(0.05);
-    options.pieces = {0, 0};
-    NodalContact<2> contact(scene.surface(), options);
-    contact.step(1.0, scene.rest, scene.rest);
-    const double pressed = contact.step(1.0, scene.rest, turned_shaft(scene, 0.0)).energy;
-    CHECK(pressed == Approx(0.5 * 1.5 * 0.01 * 0.01 * 2.0 * std::numbers::pi).epsilon(0.2));  // that of round ones
-    const int steps = 50;
-    const double sides = 4.0 * std::numbers::pi / n;
-    for (int i = 0; i < steps; ++i)
-        contact.step(1.0, turned_shaft(scene, sides * i / steps), turned_shaft(scene, sides * (i + 1) / steps));
-    CHECK(contact.last().energy == Approx(pressed).epsilon(1e-9));
-    CHECK(contact.report().missed_contacts == 0);
 }
 
 TEST_CASE("forces on obstacles that a host has appended to its nodes are left out of its own", "[contact][nodal]") {

@@ -38,7 +38,7 @@ def shear(y, z):
     return along_z(y, z), -along_z(z, y)
 
 
-# Points of Gauss on 0 < t < 1, with their weights.
+# Gauss points on 0 < t < 1, with their weights.
 GAUSS = [((1 + sign * root) / 2, weight / 2) for root, weight in
          ((0.2386191860831969, 0.4679139345726910), (0.6612093864662645, 0.3607615730481386), (0.9324695142031521, 0.1713244923791704))
          for sign in (-1, 1)]
@@ -62,8 +62,8 @@ def pieces_of_brick(shape):
 
 
 def share_of_means(shape, across, bare_sides=True):
-    """Of G J k^2/2, what cells have that bear their mean of the exact stress; with `bare_sides` none across the free sides of cells
-    there."""
+    """Energy per length over G J k^2/2, of cells that each bear the mean of the exact stress in them. With `bare_sides` those at a
+    free side bear none across it."""
     total = 0.0
     for i, j, (points, sides) in itertools.product(range(across), range(across), pieces_of_brick(shape)):
         bare = {axis for axis, end in sides if bare_sides and (i, j)[axis] == end * (across - 1)}

@@ -25,7 +25,7 @@ G, MU = 10.0, 0.3
 LAWS_AND_KINEMATICS = [("reconstruction", "small"), ("pair_potential", "small"), ("pair_potential", "floating"), ("pair_potential", "finite"),
         ("pair_potential", "rigid")]
 
-# (ranks, law, kinematics), each law on 2 and on 3 ranks. A rigid body is on one.
+# (ranks, law, kinematics), on 2 and 3 ranks in turn. A rigid body is on one.
 ON_RANKS = [(1 if kinematics == "rigid" else 2 + n % 2, law, kinematics) for n, (law, kinematics) in enumerate(LAWS_AND_KINEMATICS)]
 
 

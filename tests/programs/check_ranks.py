@@ -171,7 +171,7 @@ def frames_at_given_times_are_the_same_on_ranks(programs):
         dt, end = summary["dt"], summary["time"]
         times = (0.0, 0.3 * dt, 7 * dt, 0.4321 * end, 0.4322 * end, 0.8 * end, end)
         assert require_times(program, folder, times)["energy.csv"] == energies, "times change the energies"
-        require_times(program, folder, times, "--law", "pair_potential", "--set", "contact.friction=0.3")
+        require_times(program, folder, times, *POTENTIAL, *RUBS)
 
 
 @claim

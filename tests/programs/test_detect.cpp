@@ -246,12 +246,13 @@ TEST_CASE("detect: a list with a skin lasts for steps that translate, turn and d
     CHECK(read_summary(turned)["verification"]["required"] > 100);
 }
 
-TEST_CASE("detect: --verify passes on every shape and every sample", "[programs][detect]") {
+TEST_CASE("detect: --verify passes on every shape, on samples, and with exact areas", "[programs][detect]") {
     const auto [scene, sampled] = GENERATE(table<std::string, std::string>({
         {"torus torus:x=1,axis=1,tube=0.6", ""},
         {"gear gear:x=1.9,turn=0.1571", ""},
         {"sphere sphere:x=1.99", ""},
         {"sphere sphere:x=1.9 --depth 0.2", "--verify-samples 50 --seed 7"},
+        {"sphere:n=80 sphere:n=80,radius=1.05,flip=1 --area exact", ""},
         {"sheet sheet:z=0.05,flip=1", ""},
         {"barrel barrel:x=2.01", "--verify-tests 1e5"},
         {"soup:n=1000 --self", ""},
