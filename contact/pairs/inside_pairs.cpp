@@ -1,7 +1,9 @@
 #include "abut/contact/pairs/inside_pairs.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numeric>
 #include <string>
 #include <utility>
 
@@ -37,11 +39,36 @@ double depth_of(const SurfaceView<Dim>& facets, std::int32_t facet) {
     return facets.is_rigid(facet) ? 0.0 : facets.cell_depth[facet];
 }
 
-/// `inside_gap`; but in the plane, faces of two bodies that share nothing lie along their crack. At a bend with faces of
-/// unequal length their planes are behind each other halfway, and the gap at the nearest points decides. In space they may
-/// also be the sides of an edge that the crack crosses.
 template <int Dim>
-double gap_at_rest(const SurfaceView<Dim>& facets, std::int32_t facet_1, std::int32_t facet_2) {
+std::array<Vector<Dim>, Dim> sorted_corners(const SurfaceView<Dim>& facets, std::int32_t facet) {
+    std::array<Vector<Dim>, Dim> corners;
+    for (int v = 0; v < Dim; ++v) corners[v] = facets.vertices[facets.face_vertices[Dim * facet + v]];
+    std::ranges::sort(corners, [](const auto& a, const auto& b) { return std::ranges::lexicographical_compare(a, b); });
+    return corners;
+}
+
+/// Which facets lie on one of another body, corner on corner: a crack parts the piece there (n_facets).
+template <int Dim>
+std::vector<char> facets_on_cracks(const SurfaceView<Dim>& facets) {
+    std::vector<std::array<Vector<Dim>, Dim>> corners;
+    for (std::int32_t facet = 0; facet < facets.size(); ++facet) corners.push_back(sorted_corners(facets, facet));
+    const auto is_less = [&](std::int32_t a, std::int32_t b) {
+        return std::ranges::lexicographical_compare(
+            corners[a], corners[b], [](const auto& x, const auto& y) { return std::ranges::lexicographical_compare(x, y); });
+    };
+    std::vector<std::int32_t> order(corners.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::ranges::sort(order, is_less);
+    std::vector<char> on_crack(corners.size(), 0);
+    for (std::size_t i = 1; i < order.size(); ++i)
+        if (corners[order[i]] == corners[order[i - 1]] && facets.body[order[i]] != facets.body[order[i - 1]])
+            on_crack[order[i]] = on_crack[order[i - 1]] = 1;
+    return on_crack;
+}
+
+/// Gap of two facets at rest, or that of their planes: `inside_gap`.
+template <int Dim>
+double gap_at_rest(const SurfaceView<Dim>& facets, std::int32_t facet_1, std::int32_t facet_2, bool along_crack) {
     geometry::PairCorners<Dim> corners;
     for (int v = 0; v < Dim; ++v) {
         corners[v] = facets.vertices[facets.face_vertices[Dim * facet_1 + v]];
@@ -50,8 +77,7 @@ double gap_at_rest(const SurfaceView<Dim>& facets, std::int32_t facet_1, std::in
     geometry::PairLaw<Dim> law{.stiffness = 1.0};
     if constexpr (Dim == 2) law.length = {facets.area[facet_1], facets.area[facet_2]};
     const auto state = geometry::pair_state<Dim>(corners, law);
-    if (Dim == 2 && facets.body[facet_1] != facets.body[facet_2]) return state.gap;
-    return inside_gap<Dim>(corners, state);
+    return along_crack ? state.gap : inside_gap<Dim>(corners, state);
 }
 
 }  // namespace
@@ -76,6 +102,7 @@ InsidePairs<Dim>::InsidePairs(const SurfaceView<Dim>& facets, std::vector<std::i
     if (std::ranges::none_of(piece, [](std::int32_t number) { return number >= 0; })) return;
     facets_ = facets;
     piece_ = std::move(piece);
+    if (Dim == 3) on_crack_ = facets_on_cracks(facets);
     for (std::int32_t facet = 0; facet < facets.size(); ++facet)
         reach_.push_back(circumradius(facets, facet) + 2.0 * std::sqrt(static_cast<double>(Dim)) * depth_of(facets, facet));
 }
@@ -87,8 +114,16 @@ bool InsidePairs<Dim>::lies_inside_at_rest(FacetPair pair) const {
     if (piece_of(facet_1) < 0 || piece_of(facet_1) != piece_of(facet_2)) return false;
     const double near = reach_[static_cast<std::size_t>(facet_1)] + reach_[static_cast<std::size_t>(facet_2)];
     if ((facets_.centroid[facet_2] - facets_.centroid[facet_1]).squaredNorm() >= near * near) return false;
-    const double gap = gap_at_rest(facets_, facet_1, facet_2);
+    const double gap = gap_at_rest(facets_, facet_1, facet_2, lie_along_crack(facet_1, facet_2));
     return std::isfinite(gap) && gap < highest_gap_inside(pair);
+}
+
+/// Where a crack has a bend, planes of facets that share nothing are behind each other halfway if they differ in size: the
+/// gap at the nearest points decides. In space they may also be the sides of an edge that the crack crosses.
+template <int Dim>
+bool InsidePairs<Dim>::lie_along_crack(std::int32_t facet_1, std::int32_t facet_2) const {
+    if (facets_.body[facet_1] == facets_.body[facet_2]) return false;
+    return Dim == 2 || (on_crack_[static_cast<std::size_t>(facet_1)] && on_crack_[static_cast<std::size_t>(facet_2)]);
 }
 
 template <int Dim>

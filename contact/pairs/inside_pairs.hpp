@@ -37,12 +37,14 @@ public:
 
 private:
     [[nodiscard]] bool lies_inside_at_rest(FacetPair pair) const;
+    [[nodiscard]] bool lie_along_crack(std::int32_t facet_1, std::int32_t facet_2) const;
     /// Gap below which a pair lies inside [m].
     [[nodiscard]] double highest_gap_inside(FacetPair pair) const;
 
     SurfaceView<Dim> facets_;
     std::vector<std::int32_t> piece_;  // of each body; empty: nothing is marked
     std::vector<double> reach_;        // of each facet of a piece, so far that a pair may lie inside [m]
+    std::vector<char> on_crack_;       // of each facet, whether it lies on one of another body; 3D
     std::vector<FacetPair> seen_;      // increasing
     std::vector<FacetPair> asked_;     // pairs of the last `marks_of`, and whether they lie inside at rest
     std::vector<char> answers_;

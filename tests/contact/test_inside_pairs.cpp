@@ -14,44 +14,76 @@ using contact::NodalContact;
 
 namespace {
 
-/// A shaft of `n` flat sides in a bore of the same sides, of radius 1; each second side is twice as long as the others.
-NodalScene<2> shaft_in_bore(int n, double depth) {
-    NodalScene<2> scene;
+/// The corners of a shaft of `n` flat sides and radius 1; each second side is twice as long as the others.
+std::vector<Vector<2>> corners_of_shaft(int n) {
+    std::vector<Vector<2>> corners;
+    for (int i = 0; i < n; ++i) {
+        const double angle = 4.0 * std::numbers::pi * (i / 2 + (i % 2 == 0 ? 0.0 : 1.0 / 3.0)) / n;
+        corners.emplace_back(std::cos(angle), std::sin(angle));
+    }
+    return corners;
+}
+
+void append(NodalScene<2>& scene, std::int32_t first, std::int32_t second, double depth, std::int32_t body) {
+    if (body == 0) return scene.faces.append_face(std::vector<std::int32_t>{first, second}, depth, body);
+    scene.faces.append_face(std::vector<std::int32_t>{second, first}, depth, body);
+}
+/// Two triangles over the side, from the corner of a number at z = 0 to the next number at z = 1.
+void append(NodalScene<3>& scene, std::int32_t first, std::int32_t second, double depth, std::int32_t body) {
+    for (std::vector<std::int32_t> corners :
+         {std::vector{2 * first, 2 * second, 2 * second + 1}, std::vector{2 * first, 2 * second + 1, 2 * first + 1}}) {
+        if (body == 1) std::ranges::reverse(corners);
+        scene.faces.append_face(corners, depth, body);
+    }
+}
+
+/// That shaft in a bore of the same sides, whose outside is the other one. In space both are 1 long.
+template <int Dim>
+NodalScene<Dim> shaft_in_bore(int n, double depth) {
+    NodalScene<Dim> scene;
     scene.faces.stiffness = {3.0, 3.0};
-    for (const std::int32_t body : {0, 1})
-        for (int i = 0; i < n; ++i) {
-            const double angle = 4.0 * std::numbers::pi * (i / 2 + (i % 2 == 0 ? 0.0 : 1.0 / 3.0)) / n;
-            scene.rest.emplace_back(std::cos(angle), std::sin(angle));
-            std::vector<std::int32_t> side{n * body + i, n * body + (i + 1) % n};
-            if (body == 1) std::ranges::reverse(side);  // its outside is that of the bore
-            scene.faces.append_face(side, depth, body);
-        }
+    for (const std::int32_t body : {0, 1}) {
+        for (const Vector<2>& corner : corners_of_shaft(n))
+            for (int end = 0; end < Dim - 1; ++end) {
+                Vector<Dim> x = Vector<Dim>::Zero();
+                for (int i = 0; i < 2; ++i) x[i] = corner[i];
+                x[Dim - 1] = Dim == 2 ? corner[1] : end;
+                scene.rest.push_back(x);
+            }
+        for (int i = 0; i < n; ++i) append(scene, n * body + i, n * body + (i + 1) % n, depth, body);
+    }
     return scene;
 }
 
 /// The shaft turned, and thicker by 0.01.
-std::vector<Vector<2>> turned_shaft(const NodalScene<2>& scene, double angle) {
-    std::vector<Vector<2>> x = scene.rest;
+template <int Dim>
+std::vector<Vector<Dim>> turned_shaft(const NodalScene<Dim>& scene, double angle) {
+    std::vector<Vector<Dim>> x = scene.rest;
     const double cos = 1.01 * std::cos(angle), sin = 1.01 * std::sin(angle);
-    for (std::size_t i = 0; i < x.size() / 2; ++i) x[i] = {cos * x[i][0] - sin * x[i][1], sin * x[i][0] + cos * x[i][1]};
+    for (std::size_t i = 0; i < x.size() / 2; ++i) {
+        const Vector<Dim> at = x[i];
+        x[i][0] = cos * at[0] - sin * at[1];
+        x[i][1] = sin * at[0] + cos * at[1];
+    }
     return x;
 }
 
 }  // namespace
 
-TEST_CASE("a shaft that was one piece with its bore bears in each step as one that never was, as it turns by two sides",
-          "[contact][nodal]") {
+TEMPLATE_TEST_CASE_SIG(
+    "a shaft that was one piece with its bore bears in each step as one that never was, as it turns by two sides",
+    "[contact][nodal]", ((int Dim), Dim), 2, 3) {
     const int n = GENERATE(12, 40);
     const double depth = GENERATE(0.2, 0.05);
     CAPTURE(n, depth);
-    const NodalScene<2> scene = shaft_in_bore(n, depth);
+    const NodalScene<Dim> scene = shaft_in_bore<Dim>(n, depth);
     contact::NodalOptions options;
     options.search.skin = 0.05;
     options.search.largest_motion = 100.0;
-    NodalContact<2> never(scene.surface(), options);
+    NodalContact<Dim> never(scene.surface(), options);
     options.pieces = {0, 0};
-    NodalContact<2> contact(scene.surface(), options);
-    const auto energies_differ = [&](PointsView<2> x_0, PointsView<2> x_1) {
+    NodalContact<Dim> contact(scene.surface(), options);
+    const auto energies_differ = [&](PointsView<Dim> x_0, PointsView<Dim> x_1) {
         return contact.step(1.0, x_0, x_1).energy != never.step(1.0, x_0, x_1).energy;
     };
     CHECK_FALSE(energies_differ(scene.rest, scene.rest));
