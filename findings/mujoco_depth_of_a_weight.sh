@@ -4,7 +4,7 @@
 # Guess: contact is a spring with a damper, as solref describes it by a time and a ratio: a body that is heavier lies deeper, in the
 #   ratio of the weights, and below a stack the lowest contact is the deepest.
 # Seen: spheres of 10 g, 1 kg and 1000 kg all lie 0.142 mm deep, since the spring is scaled by the mass that it moves. Below another sphere
-#   the depth follows the ratio of their masses: 1 kg below 10 g lies 0.144 mm deep, below 1 kg 0.267 mm, below 100 kg 6.6 mm. The contact
+#   the depth follows the ratio of their masses: 1 kg below 10 g lies 0.144 mm deep, below 1 kg 0.267 mm, below 100 kg 6.61 mm. The contact
 #   between the two is as deep as the lower one, whatever it bears.
 set -euo pipefail
 work=$(mktemp -d) && trap 'rm -rf "$work"' EXIT && cd "$work"
@@ -59,5 +59,5 @@ diff output - <<'C'
 1000 kg: 0.142 mm in the plane
 1 kg below 0.01 kg: 0.144 mm in the plane, 0.144 mm between them
 1 kg below 1 kg: 0.267 mm in the plane, 0.267 mm between them
-1 kg below 100 kg: 6.6 mm in the plane, 6.6 mm between them
+1 kg below 100 kg: 6.61 mm in the plane, 6.61 mm between them
 C
