@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <string>
 #include <utility>
@@ -47,37 +48,55 @@ std::array<Vector<Dim>, Dim> sorted_corners(const SurfaceView<Dim>& facets, std:
     return corners;
 }
 
-/// Which facets lie on one of another body, corner on corner: a crack parts the piece there (n_facets).
+/// Of each facet, the other body on a facet of which it lies, corner on corner: a crack parts the piece there; -1: none.
 template <int Dim>
-std::vector<char> facets_on_cracks(const SurfaceView<Dim>& facets) {
+std::vector<std::int32_t> bodies_across(const SurfaceView<Dim>& facets) {
     std::vector<std::array<Vector<Dim>, Dim>> corners;
     for (std::int32_t facet = 0; facet < facets.size(); ++facet) corners.push_back(sorted_corners(facets, facet));
-    const auto is_less = [&](std::int32_t a, std::int32_t b) {
-        return std::ranges::lexicographical_compare(
-            corners[a], corners[b], [](const auto& x, const auto& y) { return std::ranges::lexicographical_compare(x, y); });
-    };
     std::vector<std::int32_t> order(corners.size());
     std::iota(order.begin(), order.end(), 0);
-    std::ranges::sort(order, is_less);
-    std::vector<char> on_crack(corners.size(), 0);
-    for (std::size_t i = 1; i < order.size(); ++i)
-        if (corners[order[i]] == corners[order[i - 1]] && facets.body[order[i]] != facets.body[order[i - 1]])
-            on_crack[order[i]] = on_crack[order[i - 1]] = 1;
-    return on_crack;
+    std::ranges::sort(order, [&](std::int32_t a, std::int32_t b) {
+        return std::ranges::lexicographical_compare(
+            corners[a], corners[b], [](const auto& x, const auto& y) { return std::ranges::lexicographical_compare(x, y); });
+    });
+    std::vector<std::int32_t> across(corners.size(), -1);
+    for (std::size_t i = 1; i < order.size(); ++i) {
+        const std::int32_t facet_1 = order[i - 1], facet_2 = order[i];
+        if (corners[facet_1] != corners[facet_2] || facets.body[facet_1] == facets.body[facet_2]) continue;
+        across[facet_1] = facets.body[facet_2];
+        across[facet_2] = facets.body[facet_1];
+    }
+    return across;
 }
 
-/// Gap of two facets at rest, or that of their planes: `inside_gap`.
 template <int Dim>
-double gap_at_rest(const SurfaceView<Dim>& facets, std::int32_t facet_1, std::int32_t facet_2, bool along_crack) {
+geometry::PairCorners<Dim> corners_at_rest(const SurfaceView<Dim>& facets, std::int32_t facet_1, std::int32_t facet_2) {
     geometry::PairCorners<Dim> corners;
     for (int v = 0; v < Dim; ++v) {
         corners[v] = facets.vertices[facets.face_vertices[Dim * facet_1 + v]];
         corners[Dim + v] = facets.vertices[facets.face_vertices[Dim * facet_2 + v]];
     }
+    return corners;
+}
+
+template <int Dim>
+double gap_at_rest(const SurfaceView<Dim>& facets, std::int32_t facet_1, std::int32_t facet_2) {
+    const auto corners = corners_at_rest(facets, facet_1, facet_2);
     geometry::PairLaw<Dim> law{.stiffness = 1.0};
     if constexpr (Dim == 2) law.length = {facets.area[facet_1], facets.area[facet_2]};
-    const auto state = geometry::pair_state<Dim>(corners, law);
-    return along_crack ? state.gap : inside_gap<Dim>(corners, state);
+    return inside_gap<Dim>(corners, geometry::pair_state<Dim>(corners, law));
+}
+
+/// How high the corners of two facets are over each other's planes at most [m].
+template <int Dim>
+double highest_corner(const geometry::PairCorners<Dim>& corners) {
+    double highest = -std::numeric_limits<double>::infinity();
+    for (const int facet : {0, Dim}) {
+        const auto [middle, normal] = plane_of(corners, facet);
+        for (int v = 0; v < Dim; ++v)
+            highest = std::max(highest, (corners[Dim - facet + v] - middle).dot(normal) / normal.norm());
+    }
+    return highest;
 }
 
 }  // namespace
@@ -102,7 +121,7 @@ InsidePairs<Dim>::InsidePairs(const SurfaceView<Dim>& facets, std::vector<std::i
     if (std::ranges::none_of(piece, [](std::int32_t number) { return number >= 0; })) return;
     facets_ = facets;
     piece_ = std::move(piece);
-    if (Dim == 3) on_crack_ = facets_on_cracks(facets);
+    across_ = bodies_across(facets);
     for (std::int32_t facet = 0; facet < facets.size(); ++facet)
         reach_.push_back(circumradius(facets, facet) + 2.0 * std::sqrt(static_cast<double>(Dim)) * depth_of(facets, facet));
 }
@@ -114,16 +133,17 @@ bool InsidePairs<Dim>::lies_inside_at_rest(FacetPair pair) const {
     if (piece_of(facet_1) < 0 || piece_of(facet_1) != piece_of(facet_2)) return false;
     const double near = reach_[static_cast<std::size_t>(facet_1)] + reach_[static_cast<std::size_t>(facet_2)];
     if ((facets_.centroid[facet_2] - facets_.centroid[facet_1]).squaredNorm() >= near * near) return false;
-    const double gap = gap_at_rest(facets_, facet_1, facet_2, lie_along_crack(facet_1, facet_2));
-    return std::isfinite(gap) && gap < highest_gap_inside(pair);
+    const double highest = highest_gap_inside(pair), gap = gap_at_rest(facets_, facet_1, facet_2);
+    if (!std::isfinite(gap) || gap >= highest) return false;
+    return !lie_along_crack(facet_1, facet_2) || highest_corner<Dim>(corners_at_rest(facets_, facet_1, facet_2)) < highest;
 }
 
-/// Where a crack has a bend, planes of facets that share nothing are behind each other halfway if they differ in size: the
-/// gap at the nearest points decides. In space they may also be the sides of an edge that the crack crosses.
+/// Where a crack between two bodies has a bend, planes of facets beside it are behind each other halfway, though the bodies
+/// are on their own sides of it: all corners are to lie inside there.
 template <int Dim>
 bool InsidePairs<Dim>::lie_along_crack(std::int32_t facet_1, std::int32_t facet_2) const {
-    if (facets_.body[facet_1] == facets_.body[facet_2]) return false;
-    return Dim == 2 || (on_crack_[static_cast<std::size_t>(facet_1)] && on_crack_[static_cast<std::size_t>(facet_2)]);
+    return across_[static_cast<std::size_t>(facet_1)] == facets_.body[facet_2] &&
+           across_[static_cast<std::size_t>(facet_2)] == facets_.body[facet_1];
 }
 
 template <int Dim>

@@ -42,11 +42,11 @@ private:
     [[nodiscard]] double highest_gap_inside(FacetPair pair) const;
 
     SurfaceView<Dim> facets_;
-    std::vector<std::int32_t> piece_;  // of each body; empty: nothing is marked
-    std::vector<double> reach_;        // of each facet of a piece, so far that a pair may lie inside [m]
-    std::vector<char> on_crack_;       // of each facet, whether it lies on one of another body; 3D
-    std::vector<FacetPair> seen_;      // increasing
-    std::vector<FacetPair> asked_;     // pairs of the last `marks_of`, and whether they lie inside at rest
+    std::vector<std::int32_t> piece_;   // of each body; empty: nothing is marked
+    std::vector<double> reach_;         // of each facet of a piece, so far that a pair may lie inside [m]
+    std::vector<std::int32_t> across_;  // of each facet, the body on a facet of which it lies; -1: none
+    std::vector<FacetPair> seen_;       // increasing
+    std::vector<FacetPair> asked_;      // pairs of the last `marks_of`, and whether they lie inside at rest
     std::vector<char> answers_;
 };
 
