@@ -126,8 +126,8 @@ void add_motion(LedgerEntry<Dim>& entry, const RunView<Dim>& run, std::span<cons
 [[nodiscard]] double largest_angle(std::span<const double> angles);
 }  // namespace detail
 
-/// Measures the present state; costs about two force evaluations, or one where the system has `potential_and_force`. `system` is that of the integrator; `restarts` are those
-/// of the run, if it has any, and `eroded` what has left it.
+/// Measures the present state; costs about two force evaluations, or one where the system has `potential_and_force`.
+/// `system` is that of the integrator; `restarts` are those of the run, if it has any, and `eroded` what has left it.
 template <class Scheme, PointSystem S>
 [[nodiscard]] LedgerEntry<S::dimension> measure(Integrator<Scheme, S>& integrator, S& system,
                                                 const RestartReport& restarts = {}, const Left<S::dimension>& eroded = {}) {

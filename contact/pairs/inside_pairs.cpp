@@ -48,7 +48,7 @@ std::array<Vector<Dim>, Dim> sorted_corners(const SurfaceView<Dim>& facets, std:
     return corners;
 }
 
-/// Of each facet, the other body on a facet of which it lies, corner on corner: a crack parts the piece there; -1: none.
+/// The other body on a facet of which each facet lies, corner on corner: a crack parts the piece there; -1: none.
 template <int Dim>
 std::vector<std::int32_t> bodies_across(const SurfaceView<Dim>& facets) {
     std::vector<std::array<Vector<Dim>, Dim>> corners;
@@ -87,7 +87,7 @@ double gap_at_rest(const SurfaceView<Dim>& facets, std::int32_t facet_1, std::in
     return inside_gap<Dim>(corners, geometry::pair_state<Dim>(corners, law));
 }
 
-/// How high the corners of two facets are over each other's planes at most [m].
+/// Largest height of a corner of two facets over the plane of the other one [m].
 template <int Dim>
 double highest_corner(const geometry::PairCorners<Dim>& corners) {
     double highest = -std::numeric_limits<double>::infinity();
@@ -138,8 +138,8 @@ bool InsidePairs<Dim>::lies_inside_at_rest(FacetPair pair) const {
     return !lie_along_crack(facet_1, facet_2) || highest_corner<Dim>(corners_at_rest(facets_, facet_1, facet_2)) < highest;
 }
 
-/// Where a crack between two bodies has a bend, planes of facets beside it are behind each other halfway, though the bodies
-/// are on their own sides of it: all corners are to lie inside there.
+/// Facets of a crack between two bodies. Where it has a bend, planes of facets beside it are behind each other halfway,
+/// though the bodies are on their own sides of it: all corners are to lie inside there.
 template <int Dim>
 bool InsidePairs<Dim>::lie_along_crack(std::int32_t facet_1, std::int32_t facet_2) const {
     return across_[static_cast<std::size_t>(facet_1)] == facets_.body[facet_2] &&
