@@ -158,7 +158,7 @@ List of_output() {
                 .free_on_resume = true,
                 .depth = OptionDepth::everyday}),
         option("interval", &Of::interval,
-               {.help = "steps between two records of the energies; 0: as many as make 500 to 2,000, in 3D at least 10"}),
+               {.help = "steps between two records of the energies; 0: as many as make 200 to 2,000, in 3D at least 10"}),
         option("frames", &Of::frames,
                {.help = "frames for ParaView, first and last included; 0: none", .depth = OptionDepth::everyday}),
         option("times", &Of::times,

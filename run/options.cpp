@@ -70,8 +70,8 @@ RunOptions with_defaults(RunOptions options) {
 
 template <int Dim>
 int records_interval(std::int64_t steps, int restart) {
-    constexpr std::int64_t records = 2000, enough = 500, most = std::numeric_limits<int>::max() / 2;
-    const std::int64_t least = Dim == 2 ? std::clamp<std::int64_t>(steps / enough, 1, 5) : 10;
+    constexpr std::int64_t records = 2000, enough = 200, most = std::numeric_limits<int>::max() / 2;
+    const std::int64_t least = Dim == 2 ? std::clamp<std::int64_t>(steps / enough, 1, 10) : 10;
     int interval = static_cast<int>(std::clamp((steps + records - 1) / records, least, most));
     while (restart > 1 && std::gcd(interval, restart) > 1) ++interval;
     return interval;

@@ -91,8 +91,8 @@ using dynamics::name_of;  ///< "memm"
 [[nodiscard]] std::optional<solid::Kinematics> kinematics_of_all(BodyKinematics kinematics);
 
 /// The steps between two records of a run of so many steps, where none are given: so many that there are about 2,000
-/// records, in 3D at least 10. A record costs one and a half steps or more, so that in 2D it is up to 5 where 500 records
-/// are left. It shares no factor with `restart`, so that not all records come right after a restart.
+/// records, in 3D at least 10. A record costs two or three steps, so that in 2D it is up to 10 where 200 records are
+/// left. It shares no factor with `restart`, so that not all records come right after a restart.
 template <int Dim>
 [[nodiscard]] int records_interval(std::int64_t steps, int restart);
 
