@@ -6,8 +6,10 @@
 #include <vector>
 
 #include "abut/mesh/shapes/shapes.hpp"
+#include "abut/solid/bond/bond_law.hpp"
 #include "abut/solid/bond/pressed_sides.hpp"
 #include "abut/solid/bond_view.hpp"
+#include "abut/solid/contact/bonds_of_faces.hpp"
 #include "abut/solid/contact_view.hpp"
 #include "solid/turning_scenes.hpp"
 
@@ -226,6 +228,81 @@ TEST_CASE("sides press on each other along a step with the mean of its pressure,
     CHECK(pressed.slope == 1.0);
     CHECK(apart.gradient == 0.0);
     CHECK(apart.slope == 0.0);
+}
+
+TEST_CASE("contact takes over what sides press with, at most what their bonds have lost, and a tenth of it at least",
+          "[solid][bonds]") {
+    CHECK(solid::handed_over_part(2.0, 3.0) == 1.0);
+    CHECK(solid::handed_over_part(2.0, 2.0) == 1.0);
+    CHECK(solid::handed_over_part(2.0, 1.0) == 0.5);
+    CHECK(solid::handed_over_part(2.0, 0.1) == 0.1);
+    CHECK(solid::handed_over_part(2.0, -1.0) == 0.1);
+}
+
+namespace {
+
+/// Bonds between faces of which each covers but a part of the other: faces 0 and 1 of body 0, of measure 1, and 2 and 3 of
+/// body 1, of 0.75 and 1.25.
+struct PartialBonds {
+    struct Place {
+        std::array<std::size_t, 2> numbers;
+        std::array<std::int32_t, 2> bodies;
+        std::array<double, 2> measures;
+        double area;
+    };
+    std::vector<Place> all{
+        {{0, 2}, {0, 1}, {1.0, 0.75}, 0.75}, {{0, 3}, {0, 1}, {1.0, 1.25}, 0.25}, {{1, 3}, {0, 1}, {1.0, 1.25}, 1.0}};
+    std::vector<bool> broken;
+
+    [[nodiscard]] const std::vector<Place>& places() const { return all; }
+    [[nodiscard]] bool is_broken(std::size_t place) const { return broken[place]; }
+    [[nodiscard]] double pressed_energy(std::size_t place) const {
+        return broken[place] ? std::array{4.0, 8.0, 6.0}[place] : 0.0;
+    }
+};
+
+}  // namespace
+
+TEST_CASE("faces that broke under pressure begin with the energy of their place, neighbours with the lesser mean of both",
+          "[solid][bonds]") {
+    using contact::Face;
+    PartialBonds bonds{.broken = {true, true, true}};
+    const solid::BondsOfFaces<PartialBonds> of_faces(bonds);
+    const auto between = [&](int of_first, int of_second) {
+        const double energy = of_faces.energy_at_first({Face{of_first}, Face{of_second}}, {0, 1});
+        CHECK(of_faces.energy_at_first({Face{of_second}, Face{of_first}}, {1, 0}) == energy);
+        return energy;
+    };
+    CHECK(between(0, 2) == 4.0);
+    CHECK(between(0, 3) == 8.0);
+    CHECK(between(1, 3) == 6.0);
+    CHECK(between(1, 2) == 4.0);                                               // the lesser of 6 and 4
+    CHECK(between(1, 7) == 0.0);                                               // the second was never bonded
+    CHECK(of_faces.pressed_energy(Face{0}, 1) == 5.0);                         // (0.75 x 4 + 0.25 x 8)/1
+    CHECK(of_faces.pressed_energy(Face{3}, 0) == Approx(6.4).epsilon(1e-15));  // (0.25 x 8 + 1 x 6)/1.25
+    bonds.broken = {true, false, true};
+    CHECK(of_faces.pressed_energy(Face{0}, Face{3}) == 0.0);  // it holds
+    CHECK(of_faces.pressed_energy(Face{0}, 1) == 4.0);
+    CHECK(of_faces.pressed_energy(Face{3}, 0) == 6.0);
+}
+
+TEST_CASE("a face is covered by its bonds where all of them hold and overlap all of it, and joined to a body by any",
+          "[solid][bonds]") {
+    using contact::Face;
+    PartialBonds bonds{.broken = {false, false, false}};
+    const solid::BondsOfFaces<PartialBonds> of_faces(bonds);
+    for (const int face : {0, 1, 2, 3}) CHECK(of_faces.covers(Face{face}));
+    CHECK_FALSE(of_faces.covers(Face{7}));
+    CHECK(of_faces.joins(Face{3}, 0));
+    CHECK_FALSE(of_faces.joins(Face{3}, 1));
+    bonds.all[2].area = 0.9;
+    for (const int face : {1, 3}) CHECK_FALSE(of_faces.covers(Face{face}));
+    for (const int face : {0, 2}) CHECK(of_faces.covers(Face{face}));
+    bonds.broken[1] = true;
+    CHECK_FALSE(of_faces.covers(Face{0}));
+    CHECK(of_faces.joins(Face{0}, 1));  // by the other place
+    bonds.broken[0] = true;
+    CHECK_FALSE(of_faces.joins(Face{0}, 1));
 }
 
 }  // namespace abut::test
