@@ -19,6 +19,12 @@ namespace {
 using solid::Kinematics;
 
 constexpr double bar_length = 1.0, width = 0.25, press = 0.02, strength = 0.0015, fracture_energy = 3e-6;
+/// Of what bonds take in each step in which they open: to this fit_to_law closes it, so that all of it is as near.
+constexpr double by_law = 1e-3;
+
+/// Edge of the cells of a bar over its length, which is the time that a wave takes through a cell over that through the bar.
+template <int Dim>
+constexpr double cell = width / bar_length / (Dim == 2 ? 5 : 3);
 
 /// Two equal bars along x whose ends are bonded at x = 0.
 template <int Dim>
@@ -38,17 +44,16 @@ mesh::Mesh<Dim> bonded_bars() {
 
 enum class BondOfBars { none, springs, grains };
 
-/// They run into each other at `speed`, E, rho and the speed of their waves being 1, and pass each other at `pass`.
+/// They run into each other at `speed`, E, rho and the speed of their waves being 1, and pass each other at `pass`. Their bond
+/// takes `energy` [J/m^2].
 template <int Dim>
 TurningScene<Dim> sheared(BondOfBars bond, double pass, Kinematics kinematics = Kinematics::floating, double speed = press,
-                          double poisson = 0.0) {
+                          double poisson = 0.0, double energy = fracture_energy) {
     solid::SolidOptions<Dim> options;
     options.materials.assign(2, {.young = 1.0, .poisson = poisson, .density = 1.0});
     if (bond != BondOfBars::none)
-        options.bonds = {{.sides = {0, 1},
-                          .strength = strength,
-                          .fracture_energy = fracture_energy,
-                          .of_grains = bond == BondOfBars::grains}};
+        options.bonds = {
+            {.sides = {0, 1}, .strength = strength, .fracture_energy = energy, .of_grains = bond == BondOfBars::grains}};
     options.contact.emplace();
     const Vector<Dim> velocity = speed * Vector<Dim>::Unit(0) + pass * Vector<Dim>::Unit(1);
     return TurningScene<Dim>(bonded_bars<Dim>(), options, {moving<Dim>(velocity), moving<Dim>(Vector<Dim>(-velocity))}, 0.6,
@@ -111,7 +116,7 @@ double bonded_area() {
 }  // namespace
 
 TEMPLATE_TEST_CASE_SIG(
-    "a bond that is sheared under 13 times its strength of pressure takes its fracture energy, within 1 %, and its bars "
+    "a bond that is sheared under 13 times its strength of pressure takes its fracture energy, within 0.1 %, and its bars "
     "rebound as bars without a bond, within 2 %",
     "[solid][bonds]", ((int Dim), Dim), 2, 3) {
     const auto bond = GENERATE(BondOfBars::springs, BondOfBars::grains);
@@ -120,14 +125,17 @@ TEMPLATE_TEST_CASE_SIG(
     auto scene = sheared<Dim>(bond, pass);
     scene.run_until(1.5);  // the wave that parts the ends is back at 2
     CHECK(scene.solid.bonds().broken_share() == 1.0);
-    CHECK(scene.solid.dissipated().in_bonds == Approx(energy).epsilon(0.01));
-    CHECK(std::abs(scene.solid.bonds().beyond_fracture_energy()) <= 0.01 * energy);
+    CHECK(scene.solid.dissipated().in_bonds == Approx(energy).epsilon(by_law));
+    CHECK(std::abs(scene.solid.bonds().beyond_fracture_energy()) <= by_law * energy);
     scene.run_until(3.0);
-    CHECK(scene.solid.dissipated().in_bonds == Approx(energy).epsilon(0.01));
+    CHECK(scene.solid.dissipated().in_bonds == Approx(energy).epsilon(by_law));
     CHECK(scene.solid.contact().report().missed_contacts == 0);
     auto without = sheared<Dim>(BondOfBars::none, pass);
     without.run_until(3.0);
-    CHECK(speed_of(scene, 0) < -0.85 * press);
+    // In one dimension the pressure rho c v turns the speed round in 2 L/c. Sides that part earlier by what a wave takes
+    // through three quarters of a cell of each bar leave 1.5 cells/L of the speed out.
+    CHECK(speed_of(scene, 0) < -(1.0 - 1.5 * cell<Dim>)*press);
+    // G is 0.75 % of the energy of these speeds: 0.4 % of them. The rest is less than half a cell's time, 2.5 % or more.
     CHECK(speed_of(scene, 0) == Approx(speed_of(without, 0)).epsilon(0.02));
     CHECK(speed_of(scene, 1) == Approx(speed_of(without, 1)).epsilon(0.02));
     const Drifts drifts = scene.drifts();
@@ -153,12 +161,16 @@ TEMPLATE_TEST_CASE_SIG("blocks whose bond breaks under pressure are pressed and 
         of.run_until(1.5);
         return Vector<Dim>((before - velocity_of(of, 0)) / (of.memm.time() - start));
     };
-    // A block of length and density 1 that runs at v into its mirror image is pressed by p = rho c v = v.
+    // A block of length and density 1 that runs at v into its mirror image is pressed by p = rho c v = v. They slide off each
+    // other by 1.5 % of their width, and the front of a wave overshoots by 18 % for half a cell: by 1.1 % or more of a time
+    // of 1 as this begins and as it ends.
     const Vector<Dim> force = lost(scene), force_without = lost(without);
     CHECK(force[0] == Approx(press).epsilon(0.04));
     CHECK(force[1] == Approx(0.3 * force[0]).epsilon(0.03));
-    // Contact of finite bodies is half as stiff as their bonds, and its pressure has to grow again.
-    CHECK(force[0] == Approx(force_without[0]).epsilon(kinematics == Kinematics::finite ? 0.025 : 0.01));
+    CHECK(force[1] / force[0] == Approx(force_without[1] / force_without[0]).epsilon(0.01));
+    // Contact of finite bodies is half as stiff as their bonds: half of the pressure is missing until a wave is through half a
+    // cell, 3 % of this time or more.
+    CHECK(force[0] == Approx(force_without[0]).epsilon(kinematics == Kinematics::finite ? 0.025 : 0.003));
     CHECK(scene.solid.contact().report().friction_dissipated > 0.0);
     CHECK(scene.solid.contact().report().missed_contacts == 0);
     const Drifts drifts = scene.drifts();
@@ -179,7 +191,11 @@ TEMPLATE_TEST_CASE_SIG(
     if (kinematics != Kinematics::small) {  // edges of small bodies bear no shear
         CHECK(scene.solid.bonds().broken_share() == 1.0);
         CHECK(scene.solid.contact().report().active_pairs_max > 0);
-        CHECK(std::abs(scene.solid.bonds().beyond_fracture_energy()) <= 0.01 * fracture_energy * bonded_area<Dim>());
+        CHECK(std::abs(scene.solid.bonds().beyond_fracture_energy()) <= by_law * fracture_energy * bonded_area<Dim>());
+        auto without = sheared<Dim>(BondOfBars::none, 0.03, kinematics);
+        without.run_until(4.0);
+        CHECK(speed_of(scene, 0) == Approx(speed_of(without, 0)).epsilon(0.02));  // as above
+        CHECK(speed_of(scene, 1) == Approx(speed_of(without, 1)).epsilon(0.02));
     }
     CHECK(speed_of(scene, 0) < -0.7 * press);
     CHECK(speed_of(scene, 1) > 0.7 * press);
@@ -205,15 +221,6 @@ TEMPLATE_TEST_CASE_SIG(
     other.solid.force(whole.memm.q(), found);
     CHECK(largest(expected) > 0.1 * press * bonded_area<Dim>() / whole.solid.bonds().places().size());
     CHECK(found == expected);
-}
-
-TEST_CASE("a bond under pressure alone holds, however strongly it is pressed", "[solid][bonds]") {
-    const double speed = GENERATE(0.005, 0.02, 0.05), poisson = GENERATE(0.0, 0.3);
-    CAPTURE(speed, poisson);
-    auto scene = sheared<2>(BondOfBars::springs, 0.0, Kinematics::floating, speed, poisson);
-    scene.run_until(1.5);
-    CHECK(scene.solid.bonds().broken_share() == 0.0);
-    CHECK(scene.solid.dissipated().in_bonds == 0.0);
 }
 
 TEST_CASE("sides press on each other along a step with the mean of its pressure, and no energy is lost as they part",
