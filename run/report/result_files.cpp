@@ -2,7 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <stdexcept>
+#include <exception>
+#include <string>
 #include <utility>
 
 #include "abut/base/counted.hpp"
@@ -139,8 +140,11 @@ template <int Dim>
 void ResultFiles<Dim>::fail(const Failure& failure, const Sight<Dim>& sound) {
     try {
         failed_ = " In the same folder " + write_failure(out_, name_, failure, sound);
-        if (!failure.not_evaluated.empty()) throw std::runtime_error(failure.not_evaluated);
-        draw_failure(sound);
+        if (failure.not_evaluated.empty())
+            draw_failure(sound);
+        else
+            failed_ += fmt::format(" {} is left out, since the stresses of that state could not be evaluated: {}",
+                                   failure_page, failure.not_evaluated);
     } catch (const std::exception& error) {
         failed_ += std::string(" Where it failed could not be written: ") + error.what();
     }

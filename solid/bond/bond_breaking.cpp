@@ -164,8 +164,9 @@ double Bonds<Dim>::energy_at_end(std::span<const Vector<Dim>> q_1, const Boundar
     return energy_then;
 }
 
-/// A bond that opens must take more than half cells give back as it does, straight at least: at the rim of a bond they
-/// may give way along the face without bearing anything.
+/// A bond that opens must take more than half cells give back as it does, straight at least. Along the face they hold up to
+/// (lambda + 2 mu)/mu times as much, or give way without bearing anything at the rim of a bond: one that opens straight is
+/// right even so, and what shear takes beyond is told (beyond_law).
 template <int Dim>
 void Bonds<Dim>::check_fracture_energy() const {
     const auto check = [&](std::size_t p, double stiffness) {

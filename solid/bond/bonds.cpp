@@ -118,11 +118,10 @@ void Bonds<Dim>::leave_out_broken() {
 
 template <int Dim>
 void Bonds<Dim>::hand_over(double energy) {
-    constexpr double least = 0.1;
     double pressed = 0.0;
     for (const BondChange& change : broke_pressed_) pressed += places_[change.place].area * change.pressed;
-    const double share = pressed > energy ? std::max(energy / pressed, least) : 1.0;
-    for (const BondChange& change : broke_pressed_) pressed_energy_[change.place] = share * change.pressed;
+    const double part = handed_over_part(pressed, energy);
+    for (const BondChange& change : broke_pressed_) pressed_energy_[change.place] = part * change.pressed;
 }
 
 template <int Dim>

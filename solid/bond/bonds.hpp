@@ -136,8 +136,7 @@ public:
     /// Places that are broken take no part any more. A call of all ranks.
     void leave_out_broken();
     /// Hands over to contact what the sides of these places press with, less by one factor so that it is this energy [J] at
-    /// most, but 0.1 at least: half cells press on several faces of a cell with less energy than contact does. To be called
-    /// behind `leave_out_broken`.
+    /// most (handed_over_part). To be called behind `leave_out_broken`.
     void hand_over(double energy);
     [[nodiscard]] double share(std::size_t place) const { return share_[place]; }
     /// Energy that places with a fracture energy have lost beyond what belongs to their openings; less than 0: they have

@@ -16,6 +16,7 @@
 #include "abut/base/stopwatch.hpp"
 #include "abut/geometry/box.hpp"
 #include "abut/geometry/polygon.hpp"
+#include "abut/solid/contact/bonds_of_faces.hpp"
 #include "abut/solid/contact/near_faces.hpp"
 #include "abut/solid/contact/solid_friction.hpp"
 #include "abut/solid/contact/solid_interference.hpp"
@@ -39,85 +40,12 @@ std::vector<std::array<std::int32_t, 2>> ignored_pairs(const Bodies<Dim>& bodies
     return pairs;
 }
 
-/// Bonds of faces, by the number of the face. The faces of bodies that deform come first in contact, in the order of the
-/// whole mesh.
-template <int Dim>
-class BondsOfFaces {
-public:
-    explicit BondsOfFaces(const Bonds<Dim>& bonds) : bonds_(bonds) {
-        for (std::size_t place = 0; place < bonds.places().size(); ++place)
-            for (std::size_t side = 0; side < 2; ++side)
-                entries_.push_back({bonds.places()[place].numbers[side], place, side});
-        std::ranges::sort(entries_);
-        for (const Entry& entry : entries_) {
-            begin_.resize(entry.number + 2, entries_.size());
-            begin_[entry.number] = std::min(begin_[entry.number], static_cast<std::size_t>(&entry - entries_.data()));
-        }
-        for (std::size_t face = begin_.size(); face-- > 1;) begin_[face - 1] = std::min(begin_[face - 1], begin_[face]);
-    }
-
-    /// Whether the whole face is bonded: then nothing can touch it.
-    [[nodiscard]] bool covers(contact::Face face) const {
-        constexpr double rounding = 1e-6;
-        double left = 1.0;
-        for (const auto& [number, place, side] : of(face)) {
-            if (bonds_.is_broken(place)) return false;
-            left -= bonds_.places()[place].area / bonds_.places()[place].measures[side];
-        }
-        return left < rounding;
-    }
-    /// Whether an unbroken bond holds the face to the body.
-    [[nodiscard]] bool joins(contact::Face face, std::int32_t body) const {
-        return std::ranges::any_of(of(face), [&](const Entry& entry) {
-            return bonds_.places()[entry.place].bodies[1 - entry.side] == body && !bonds_.is_broken(entry.place);
-        });
-    }
-    /// Energy by which both pressed on each other as the places between them broke [J/m^2]; 0 of others, and while one
-    /// holds.
-    [[nodiscard]] double pressed_energy(contact::Face face_1, contact::Face face_2) const {
-        double energy = 0.0;
-        for (const Entry& entry : of(face_1)) {
-            if (bonds_.places()[entry.place].numbers[1 - entry.side] != static_cast<std::size_t>(face_2)) continue;
-            if (!bonds_.is_broken(entry.place)) return 0.0;
-            energy += bonds_.pressed_energy(entry.place);
-        }
-        return energy;
-    }
-    /// Mean over the broken places that held the face to the body, by area [J/m^2].
-    [[nodiscard]] double pressed_energy(contact::Face face, std::int32_t body) const {
-        double energy = 0.0, area = 0.0;
-        for (const auto& [number, place, side] : of(face)) {
-            const BondPlace<Dim>& at = bonds_.places()[place];
-            if (at.bodies[1 - side] != body || !bonds_.is_broken(place)) continue;
-            energy += at.area * bonds_.pressed_energy(place);
-            area += at.area;
-        }
-        return area > 0.0 ? energy / area : 0.0;
-    }
-
-private:
-    struct Entry {
-        std::size_t number, place, side;
-        auto operator<=>(const Entry&) const = default;
-    };
-    [[nodiscard]] std::span<const Entry> of(contact::Face face) const {
-        const auto i = static_cast<std::size_t>(face);
-        if (i + 1 >= begin_.size()) return {};
-        return {entries_.data() + begin_[i], begin_[i + 1] - begin_[i]};
-    }
-
-    const Bonds<Dim>& bonds_;
-    std::vector<Entry> entries_;      // face by face
-    std::vector<std::size_t> begin_;  // of each face, one more at the end
-};
-
 /// Leaves out pairs of faces of which one is bonded to the body of the other, and faces that are bonded all over, as the
-/// bonds are when it is asked. A pair of sides that pressed as their place broke begins with the energy of that; neighbours
-/// begin with the lesser one of both faces.
+/// bonds are when it is asked. Pairs begin with the energy by which sides pressed as their place broke.
 template <int Dim>
 void leave_out_bonded(const CornerSurface<Dim>& corners, const Bonds<Dim>& bonds, contact::NodalOptions& options) {
     if (!bonds.any()) return;
-    const auto of_faces = std::make_shared<const BondsOfFaces<Dim>>(bonds);
+    const auto of_faces = std::make_shared<const BondsOfFaces<Bonds<Dim>>>(bonds);
     options.covered = [of_faces](contact::Face face) { return of_faces->covers(face); };
     const std::vector<std::int32_t> body_of = corners.bodies_of_faces();
     options.wanted = [of_faces, body_of](contact::Face face_1, contact::Face face_2) {
@@ -127,8 +55,7 @@ void leave_out_bonded(const CornerSurface<Dim>& corners, const Bonds<Dim>& bonds
     };
     options.energy_at_first = [of_faces, body_of](contact::Face face_1, contact::Face face_2) {
         const auto body = [&](contact::Face face) { return body_of[static_cast<std::size_t>(face)]; };
-        if (const double of_mates = of_faces->pressed_energy(face_1, face_2); of_mates > 0.0) return of_mates;
-        return std::min(of_faces->pressed_energy(face_1, body(face_2)), of_faces->pressed_energy(face_2, body(face_1)));
+        return of_faces->energy_at_first({face_1, face_2}, {body(face_1), body(face_2)});
     };
 }
 

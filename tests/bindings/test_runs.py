@@ -222,6 +222,31 @@ class Scenes(unittest.TestCase):
         with self.assertRaisesRegex(TypeError, "leaving.state. gave 'some'; numbers of cells are needed"):
             abut.run(scene, leaving=lambda state: "some")
 
+    def test_a_result_has_its_bonds_and_fragments(self):
+        fracture = {"grain": 0.3, "strength": 1e-3, "fracture_energy": 1e-7}
+        plate = {"shape": "structured_box", "lower": [0, 0], "upper": [1, 1], "counts": [12, 12], "young": 1, "poisson": 0,
+                 "density": 1, "spin": 0.1, "kinematics": "floating", "fracture": fracture}  # it bursts
+        scene = {"dim": 2, "run": {"time": 3.0}, "bodies": {"plate": plate}}
+        result = abut.run(scene, frames=0)
+        bonds = result.bonds
+        energy = 1e-7 * sum(bond["area"] for bond in bonds["made"])
+        self.assertEqual(bonds["broken_share"], 1.0)
+        self.assertAlmostEqual(bonds["dissipated"], energy, delta=1e-3 * energy)
+        self.assertGreater(abs(bonds["beyond_fracture_energy"]), 1e-9 * energy)  # more than rounding
+        self.assertAlmostEqual(bonds["beyond_fracture_energy"], bonds["dissipated"] - energy, delta=1e-12 * energy)
+        masses = np.array([fragment["mass"] for fragment in result.fragments])
+        velocities = np.array([fragment["velocity"] for fragment in result.fragments])
+        self.assertGreater(len(masses), 4)
+        self.assertEqual(sum(fragment["cells"] for fragment in result.fragments), 144)
+        self.assertAlmostEqual(masses.sum(), 1.0, delta=1e-13)
+        np.testing.assert_allclose(masses @ velocities, 0.0, atol=1e-13)
+        self.assertGreater(abs(velocities).max(), 0.01)
+
+        del plate["fracture"]
+        whole = abut.run(scene, frames=0, steps=2)
+        self.assertEqual((whole.bonds["made"], whole.bonds["broken_share"], whole.bonds["beyond_fracture_energy"]), ([], 0.0, 0.0))
+        self.assertEqual(whole.fragments, [])
+
     def test_errors_are_exceptions_in_the_words_of_the_program(self):
         box = {"shape": "disk", "yung": 1.0}
         with self.assertRaises(abut.BadInput) as raised:

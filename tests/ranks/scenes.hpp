@@ -50,4 +50,22 @@ inline run::Scene<2> loaded_strip() {
     return scene;
 }
 
+/// Two bars along x whose ends are bonded, run into each other and pass each other: the bond is sheared off while they press.
+inline run::Scene<2> sheared_bars(bool are_grains) {
+    run::Scene<2> scene;
+    const auto bar = [](double from, const char* name) {
+        return mesh::structured_box<2>({from, -0.125}, {from + 1.0, 0.125}, {20, 5}, mesh::CellShape::quadrangle, name);
+    };
+    scene.mesh = mesh::combine<2>(std::vector{bar(-1.0, "left"), bar(0.0, "right")});
+    scene.solid.materials.assign(2, {.young = 1.0, .poisson = 0.0, .density = 1.0});
+    scene.solid.kinematics.assign(2, solid::Kinematics::floating);
+    scene.solid.bonds = {{.sides = {0, 1},
+                          .strength = 0.0015,
+                          .fracture_energy = 3e-6,
+                          .weibull_modulus = 5.0,  // places break one after the other
+                          .of_grains = are_grains}};
+    scene.velocity = {Vector<2>(0.02, 0.006), Vector<2>(-0.02, -0.006)};
+    return scene;
+}
+
 }  // namespace abut::test

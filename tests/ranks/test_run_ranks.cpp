@@ -191,6 +191,34 @@ TEST_CASE("a run goes on from checkpoints of another number of ranks, with loads
     CHECK(test::everywhere(all, same));
 }
 
+TEST_CASE("a run goes on with the same bits from the checkpoint behind a break under pressure, whose sides still touch",
+          "[ranks][run][checkpoint][bonds]") {
+    const ranks::Communicator all = test::world();
+    const auto scene = test::sheared_bars(GENERATE(false, true));
+    run::RunOptions options = options_of(55);
+    options.interval = 1;
+    Watch<2> alone(10, 1);
+    const auto expected = run::simulate<2>(scene, options, alone);
+    const auto& entries = expected.ledger.entries();
+    std::vector<std::size_t> breaks;  // contact takes over where V changes at a split
+    for (std::size_t step = 1; step + 1 < entries.size(); ++step)
+        if (entries[step].losses.at_splits != entries[step - 1].losses.at_splits) breaks.push_back(step);
+    REQUIRE(breaks.size() >= 2);
+    for (const std::size_t step : {breaks.front(), breaks.back()}) {
+        CAPTURE(step);
+        REQUIRE(entries[step + 1].active_pairs > 0);
+        const run::Checkpoint& from = alone.kept.at(step - 1);
+        REQUIRE(from.motion.steps == static_cast<std::int64_t>(step));
+        Watch<2> rest(10);
+        const SharedMesh<2> mesh(all, scene.mesh, test::odd(all, scene.mesh), scene.solid.kinematics);
+        const auto found = run::simulate<2>(test::of_rank(all, scene), options, rest, &from, mesh.share());
+        Watch<2> later;  // of `alone`
+        later.seen.assign(alone.seen.end() - static_cast<std::ptrdiff_t>(rest.seen.size()), alone.seen.end());
+        test::require_same(all, expected, later, found, rest);
+        CHECK(found.run.resumed_after == static_cast<std::int64_t>(step));
+    }
+}
+
 TEST_CASE("two threads a rank have the bits of one", "[ranks][run]") {
     const ranks::Communicator all = test::world();
     if (all.size() > 2) return;

@@ -13,6 +13,7 @@
 #include "abut/mesh/io/read_vtu.hpp"
 #include "abut/run/report/result_files.hpp"
 #include "abut/run/steps/simulation.hpp"
+#include "abut/run/values/sight.hpp"
 #include "run/folder.hpp"
 #include "run/scenes.hpp"
 
@@ -27,8 +28,12 @@ using test::read_text;
 
 /// Copies of what observers are told of a failure.
 struct Witness : run::Observer<2> {
-    void fail(const run::Failure& failure, const run::Sight<2>&) override {
+    void fail(const run::Failure& failure, const run::Sight<2>& shown) override {
         ++failures;
+        not_evaluated = failure.not_evaluated;
+        displacement = shown.displacement;
+        velocity = shown.velocity;
+        stress = shown.stress;
         sound = failure.sound;
         if (failure.lost) lost = *failure.lost;
         cells = failure.cells;
@@ -36,6 +41,9 @@ struct Witness : run::Observer<2> {
     int failures = 0;
     abut::dynamics::IntegratorState sound, lost;
     std::vector<std::int32_t> cells;
+    std::string not_evaluated;
+    std::vector<Vector<2>> displacement, velocity;
+    std::vector<abut::Matrix<2>> stress;
 };
 
 /// Two blocks far from each other, of which the finer one is unstable with a step that the other one bears.
@@ -173,4 +181,38 @@ TEST_CASE("a failure has its pictures also where contact was last searched far f
     }
     CHECK(read_text(folder.path() / "failed.html").find("The last sound state") != std::string::npos);
     CHECK(read_text(folder.path() / "animation.html.partial").find("class=\"frame\"") != std::string::npos);
+}
+
+TEST_CASE("of a sound state that cannot be evaluated displacements and velocities are shown, and the reason",
+          "[run][failure]") {
+    const Folder folder;
+    run::Scene<2> scene = coarse_and_fine();
+    scene.displacement = {};
+    scene.velocity = {Vector<2>(0.25, 0.0), Vector<2>(-0.25, 0.0)};
+    scene.contact = true;
+    scene.time = 20.0;  // they would meet at 16
+    run::RunOptions options{.out = folder.path(), .interval = 1, .frames = 0};
+    options.contact.search.skin = 0.5;
+    options.contact.search.limits.pairs = 1;  // fewer than there are faces that come near
+    Witness witness;
+    run::ResultFiles<2> files(options, "mine", "blocks");
+    run::Observers<2> both{files, witness};
+    CHECK_THROWS_AS(static_cast<void>(run::simulate<2>(scene, options, both)), abut::LimitExceeded);
+    REQUIRE(witness.failures == 1);
+    CHECK(witness.not_evaluated.find("1 are allowed") != std::string::npos);
+    CHECK(witness.stress.empty());
+    const auto n_cells = static_cast<std::size_t>(scene.mesh.n_cells());
+    REQUIRE(witness.displacement.size() == n_cells);
+    REQUIRE(witness.velocity.size() == n_cells);
+    REQUIRE(witness.sound.time > 0.0);
+    for (std::size_t c = 0; c < n_cells; ++c) {  // nothing has touched them
+        const Vector<2>& velocity = scene.velocity[static_cast<std::size_t>(scene.mesh.cell_body[c])];
+        CHECK((witness.velocity[c] - velocity).norm() <= 1e-14);
+        CHECK((witness.displacement[c] - witness.sound.time * velocity).norm() <= 1e-14 * witness.sound.steps);
+    }
+    CHECK(files.left_behind().find("blocks_failed.pvd") != std::string::npos);
+    CHECK(files.left_behind().find("failed.html is left out, since the stresses of that state could not be evaluated: " +
+                                   witness.not_evaluated) != std::string::npos);
+    CHECK(fs::exists(folder.path() / "failed.csv"));
+    CHECK_FALSE(fs::exists(folder.path() / "failed.html"));
 }

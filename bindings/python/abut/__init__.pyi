@@ -85,6 +85,8 @@ class Result(dict[str, Any]):
     probes: dict[str, NDArray[np.void]]
     forces: NDArray[np.void]
     eroded: NDArray[np.void]
+    bonds: dict[str, Any]
+    fragments: list[dict[str, Any]]
     frames: Frames
     displacement: _Doubles
     start: list[dict[str, Any]]

@@ -40,6 +40,10 @@ class Frames:
         return f"<abut.Frames: {len(self)} at t = {self.time[0]:g} to {self.time[-1]:g} s>" if len(self) else "<abut.Frames: none>"
 
 
+# Figures that a summary leaves out where they are 0.
+_no_bonds = {"made": [], "broken_share": 0.0, "dissipated": 0.0, "beyond_fracture_energy": 0.0, "dissipated_at_splits": 0.0}
+
+
 class Result(dict):
     """A run that has come to its end.
 
@@ -62,6 +66,13 @@ class Result(dict):
     eroded : structured array
         Cells that have left (erosion), in the order in which they did: cell, counted in `mesh`, step and time [s]. In
         frames they are NaN from then on.
+    bonds : dict
+        At the end: `made` (list of dict, one of each bond), `broken_share` of their area [-], and energies [J]: `dissipated`,
+        its part `beyond_fracture_energy`, below 0 where it is less, and `dissipated_at_splits`. `cohesive_length` [-] where a
+        bond has a fracture energy.
+    fragments : list of dict
+        Parts of bodies whose bonds may break, at the end: body, bodies, cells, mass [kg], centre [m], velocity [m/s] and
+        spin [rad/s]; empty if none may.
     displacement : ndarray of float, (n_cells, dim)
         Of the cells at the end [m]; of those that are left.
     start, end : list of dict
@@ -99,6 +110,8 @@ class Result(dict):
         self["probes"] = {name: _table(columns) for name, columns in figures["probes"].items()}
         self["forces"] = _table(figures["forces"])
         self["eroded"] = _table(figures["eroded"])
+        self["bonds"] = {**_no_bonds, **self["summary"].get("bonds", {})}
+        self["fragments"] = self["summary"].get("fragments", [])
         if figures["resumed_after"] > 0:  # what was before is in the files
             folder = pathlib.Path(figures["out"])
             if self.probes:
