@@ -39,8 +39,8 @@ int main() {
 }
 C
 for options in "-O0" "-O2" "-O3" "-O3 -frounding-math"; do
-    # shellcheck disable=SC2086  # two options in one
-    g++ $options -I"$work/usr/include" a.cpp -o a
+    read -ra list <<< "$options"
+    g++ "${list[@]}" -I"$work/usr/include" a.cpp -o a
     echo "$options: $(./a)"
 done | tee output
 diff output - <<'C'
