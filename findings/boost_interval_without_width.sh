@@ -3,8 +3,8 @@
 # Packages of Debian 12: libboost1.74-dev=1.74.0+ds1-21. Needs g++ 12.
 # Guess: interval<double> contains the exact result, whatever the level of optimization: this is what it is for, and its arithmetic sets
 #   the direction of rounding by itself.
-# Seen: with -O2 no quotient of two numbers, and with -O3 no product either, contains the exact result unless that is a double: GCC
-#   computes a value once for both bounds, as both look alike to it. No width is left that would tell. With -frounding-math, or
+# Seen: with -O2 no quotient of two numbers, and with -O3 no product either, contains the exact result unless that is a double: both
+#   bounds are one value. Probably GCC computes it once, as both look alike to it. No width is left that would tell. With -frounding-math, or
 #   without optimization, all contain it. A sign that is decided by such a filter is taken for proven and can be wrong.
 set -euo pipefail
 work=$(mktemp -d) && trap 'rm -rf "$work"' EXIT && cd "$work"

@@ -2,8 +2,8 @@
 # Open3D and Embree: signed distances and rays of a closed cube
 # Packages of Debian 12: python3-open3d=0.16.1+ds-2+b4 and what it needs, libembree3-3=3.13.5+dfsg-2. Needs the python3 of Debian with numpy.
 # Guess: RaycastingScene has the distance of a point inside a closed surface with a minus, and rays that go through the surface hit it.
-# Seen: no ray hits anything, and all points are outside: the centre of a unit cube has the distance +0.5 and occupancy 0, without a word. The
-#   mask of Open3D's rays is 0, which this Embree, built with EMBREE_RAY_MASK, takes as "sees no geometry". Distances without a sign are right.
+# Seen: no ray hits anything, and all points are outside: the centre of a unit cube has the distance +0.5 and occupancy 0, without a word.
+#   Distances without a sign are right. The likely reason: this Embree is built with EMBREE_RAY_MASK, and rays with a mask of 0 see nothing.
 set -euo pipefail
 work=$(mktemp -d) && trap 'rm -rf "$work"' EXIT && cd "$work"
 apt-get -qq -y --no-install-recommends --download-only --reinstall -o APT::Sandbox::User=root -o Debug::NoLocking=1 -o Dir::Cache::archives="$work" \
