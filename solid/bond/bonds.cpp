@@ -15,15 +15,25 @@
 namespace abut::solid {
 namespace {
 
-constexpr double least_share_of_stiffness =
-    1e-9;  // of a half cell's mean one: directions in which it has none share the jump
+// Directions in which a half cell has no stiffness, as at the rim of a body, share the jump.
+constexpr double least_share_of_stiffness = 1e-9;  // of its mean one
+constexpr double least_of_largest = 0.01;          // its stiffness in any direction, over the largest
 // Of two grains against each other [rad]: strains in one frame are off by half the square of it.
 constexpr double loose_turn = 0.05;
 constexpr double flat = 1e-10;  // of the largest second moment: a cloud of cells has no width in such a direction
 
+/// A stiffness that is not much less in any direction than in others. Sides of a place that are softer slide off by much
+/// more than what presses on them, where the normal is off the stiff direction by little.
 template <int Dim>
 Matrix<Dim> made_firm(const Matrix<Dim>& stiffness) {
-    return stiffness + least_share_of_stiffness / Dim * stiffness.trace() * Matrix<Dim>::Identity();
+    Matrix<Dim> firm = stiffness + least_share_of_stiffness / Dim * stiffness.trace() * Matrix<Dim>::Identity();
+    const auto [values, directions] = symmetric_eigen(stiffness);
+    const double least = least_of_largest * values[Dim - 1];
+    for (int i = 0; i < Dim && values[i] < least; ++i) {
+        const Vector<Dim> direction = directions.col(i);
+        firm += (least - values[i]) * direction * direction.transpose();
+    }
+    return firm;
 }
 
 /// Throws BadInput where a body does not go with the bond that it has.
