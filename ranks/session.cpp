@@ -18,6 +18,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <system_error>
 #include <thread>
 
 #include "abut/ranks/mpi.hpp"
@@ -130,6 +131,27 @@ pid_t start_command(const std::vector<char*>& words, const sigset_t& blocked, in
     _exit(1);
 }
 
+/// A folder for what Open MPI notes of a run while it lasts, unless somebody has named one. Without it all runs of a user on a
+/// machine share one, and of two that begin together one may end with "File exists".
+class OwnNotes {
+public:
+    OwnNotes() {
+        constexpr const char* place = "OMPI_MCA_orte_tmpdir_base";
+        std::error_code none;
+        std::string folder = (std::filesystem::temp_directory_path(none) / "abut_mpi_XXXXXX").string();
+        if (std::getenv(place) || none || !mkdtemp(folder.data())) return;
+        folder_ = folder;
+        setenv(place, folder.c_str(), 1);
+    }
+    void remove() const {
+        std::error_code stays;
+        if (!folder_.empty()) std::filesystem::remove_all(folder_, stays);
+    }
+
+private:
+    std::filesystem::path folder_;
+};
+
 int code_of(pid_t process) {
     int status = 0;
     while (waitpid(process, &status, 0) < 0)
@@ -141,6 +163,7 @@ int code_of(pid_t process) {
 
 void start_on(int n_ranks) {
     if (isatty(STDOUT_FILENO) != 1) setenv(plain_output, "1", 1);
+    const OwnNotes notes;
     std::vector<std::string> words = command_for(n_ranks);
     std::vector<char*> pointers;
     for (std::string& word : words) pointers.push_back(word.data());
@@ -163,6 +186,7 @@ void start_on(int n_ranks) {
     const bool has_begun = read(told[0], &reason, sizeof(reason)) == 0;  // its end is closed where the command has begun
     close(told[0]);
     const int code = code_of(mpirun);
+    notes.remove();
     for (const int signal : ending_signals) set_action(signal, false);
     if (!has_begun) refuse_start(reason);
     std::exit(noted != 0 ? 128 + noted : code);

@@ -10,7 +10,8 @@
 namespace abut::contact {
 namespace {
 
-constexpr std::ptrdiff_t pairs_per_task = 256;  // pairs that are worth a task
+constexpr std::ptrdiff_t pairs_per_task = 256;               // pairs that are worth a task
+constexpr std::size_t looks_at_once = std::size_t{1} << 14;  // outlooks that are kept until they are used
 
 // Steps like the present one after which the pairs in reach are chosen again.
 constexpr double steps_between = 8.0;
@@ -94,16 +95,14 @@ void NodalPairs<Dim>::assign(const BevelledSurface<Dim>& surface, std::vector<Fa
     pairs_.clear();
     pairs_.reserve(facets.size());
     for (const FacetPair& of_facets : facets) pairs_.push_back(make_pair(surface, of_facets));
-    look_ahead(x, reach);
     std::size_t n = 0;
-    for (std::size_t p = 0; p < facets.size(); ++p) {
-        const bool may_act = outlooks_[p].may_act;
-        if (!may_act && !std::ranges::binary_search(in_contact, facets[p])) continue;
+    look_ahead(x, reach, [&](std::size_t p, const geometry::PairOutlook<Dim>& outlook) {
+        if (!outlook.may_act && !std::ranges::binary_search(in_contact, facets[p])) return;
         facets[n] = facets[p];
         pairs_[n] = pairs_[p];
-        pairs_[n].outlook = outlook_of(outlooks_[p]);
+        pairs_[n].outlook = outlook_of(outlook);
         ++n;
-    }
+    });
     facets.resize(n);
     pairs_.resize(n);
     pairs_.shrink_to_fit();  // most candidates go, and the list lives long
@@ -118,27 +117,38 @@ void NodalPairs<Dim>::assign(const BevelledSurface<Dim>& surface, std::span<cons
 }
 
 template <int Dim>
-void NodalPairs<Dim>::look_ahead(PointsView<Dim> x, double reach) {
-    outlooks_.resize(pairs_.size());
+template <class Use>
+void NodalPairs<Dim>::look_ahead(PointsView<Dim> x, double reach, const Use& use) {
+    for (std::size_t begin = 0; begin < pairs_.size(); begin += looks_at_once) {
+        const std::size_t n = std::min(looks_at_once, pairs_.size() - begin);
+        look_at(begin, n, x, reach);
+        for (std::size_t i = 0; i < n; ++i) use(begin + i, outlooks_[i]);
+    }
+}
+
+template <int Dim>
+void NodalPairs<Dim>::look_at(std::size_t begin, std::size_t n, PointsView<Dim> x, double reach) {
+    outlooks_.resize(n);
     const auto look = [&](const IndexRange& range) {
         parallel_each(
             static_cast<std::ptrdiff_t>(range.size()),
             [&](std::ptrdiff_t i) {
-                const std::size_t p = range.begin + static_cast<std::size_t>(i);
-                const NodalPair<Dim>& pair = pairs_[p];
-                outlooks_[p] = geometry::pair_outlook<Dim>(pair.at(x), pair.law, reach, compression_ * pair.admission_depth);
+                const std::size_t at = range.begin + static_cast<std::size_t>(i);
+                const NodalPair<Dim>& pair = pairs_[begin + at];
+                outlooks_[at] =
+                    geometry::pair_outlook<Dim>(pair.at(x), pair.law, reach, compression_ * pair.admission_depth);
             },
             pairs_per_task);
     };
-    if (!shared_.is_worth(pairs_.size())) return look({0, pairs_.size()});
+    if (!shared_.is_worth(n)) return look({0, n});
     shared_.run(
-        pairs_.size(),
+        n,
         [&](const IndexRange& mine, ShareWriter& out) {
             look(mine);
-            for (std::size_t p = mine.begin; p < mine.end; ++p) write_outlook(outlooks_[p], out);
+            for (std::size_t i = mine.begin; i < mine.end; ++i) write_outlook(outlooks_[i], out);
         },
         [&](const IndexRange& range, ShareReader& in) {
-            for (std::size_t p = range.begin; p < range.end; ++p) read_outlook(outlooks_[p], in);
+            for (std::size_t i = range.begin; i < range.end; ++i) read_outlook(outlooks_[i], in);
         });
 }
 
@@ -146,19 +156,18 @@ template <int Dim>
 void NodalPairs<Dim>::prune(PointsView<Dim> x_0, PointsView<Dim> x_1, std::span<PairMemory> memory) {
     const auto motion = [&](std::ptrdiff_t i) { return (x_1[nodes_[i]] - x_0[nodes_[i]]).squaredNorm(); };
     prune_reach_ = steps_between * std::sqrt(largest(std::ssize(nodes_), motion));
-    look_ahead(x_0, prune_reach_);
     in_reach_.clear();
     in_reach_.reserve(pairs_.size());
-    for (std::size_t p = 0; p < pairs_.size(); ++p) {
+    look_ahead(x_0, prune_reach_, [&](std::size_t p, const geometry::PairOutlook<Dim>& outlook) {
         const bool is_kept_anyway = !pairs_[p].outlook.may_act;
-        if (!outlooks_[p].may_act && !is_kept_anyway) {
-            memory[p] = {.admitted = outlooks_[p].is_apart};
+        if (!outlook.may_act && !is_kept_anyway) {
+            memory[p] = {.admitted = outlook.is_apart};
             pairs_[p].law.offset = pairs_[p].interference >= 0 ? pairs_[p].law.offset : 0.0;
-            continue;
+            return;
         }
         in_reach_.push_back(pairs_[p]);
-        in_reach_.back().outlook = outlook_of(outlooks_[p]);
-    }
+        in_reach_.back().outlook = outlook_of(outlook);
+    });
     pruned_at_.clear();
     for (const std::int32_t node : nodes_) pruned_at_.push_back(x_0[node]);
 }

@@ -101,8 +101,12 @@ public:
 private:
     /// Lists nodes, bodies and pairs of bodies, and the indices of the pairs in these.
     void index(const BevelledSurface<Dim>& surface, std::span<const NodalPair<Dim>> watched = {});
-    /// Fills `outlooks_` for nodes that are not farther than `reach` from where x has them.
-    void look_ahead(PointsView<Dim> x, double reach);
+    /// Calls use(index, outlook) for all pairs, in their order; outlooks are for nodes that are not farther than `reach` from
+    /// where x has them.
+    template <class Use>
+    void look_ahead(PointsView<Dim> x, double reach, const Use& use);
+    /// Fills `outlooks_` for n pairs.
+    void look_at(std::size_t begin, std::size_t n, PointsView<Dim> x, double reach);
     void prune(PointsView<Dim> x_0, PointsView<Dim> x_1, std::span<PairMemory> memory);
     [[nodiscard]] bool is_pruned_at(PointsView<Dim> x) const;
 
@@ -122,7 +126,7 @@ private:
     std::vector<NodalPair<Dim>> in_reach_;              // while no node is farther than `prune_reach_` from `pruned_at_`
     std::vector<Vector<Dim>> pruned_at_;                // of each node
     double prune_reach_ = 0.0;                          // [m]
-    std::vector<geometry::PairOutlook<Dim>> outlooks_;  // work array
+    std::vector<geometry::PairOutlook<Dim>> outlooks_;  // work array, of some pairs
 };
 
 /// Deeper than this part of D, a pair that shares nothing begins to overlap from the side.

@@ -14,6 +14,7 @@
 
 #include "abut/base/decompositions.hpp"
 #include "abut/base/error.hpp"
+#include "abut/base/parallel.hpp"
 #include "abut/base/rotation.hpp"
 #include "abut/contact/overlap/overlaps.hpp"
 #include "abut/contact/search/candidate_search.hpp"
@@ -29,6 +30,7 @@ constexpr double near = 0.1;              // gap over the depth of both cells
 constexpr double crossed = -0.3;          // the same
 constexpr double come_nearer = 0.5;       // distance of two faces over that at rest
 constexpr double sizes_ahead = 4.0;       // how far a look sees, in mean sizes of faces
+constexpr double square = 1e-9;           // cosine of two normals: what is below may still look at each other
 constexpr std::int64_t least_steps = 20;  // from one look to the next
 constexpr std::size_t pairs_at_once = std::size_t{1} << 18;
 
@@ -179,8 +181,8 @@ private:
         return crossing;
     }
 
-    /// Calls use(overlap) for all overlaps of pairs in sight. Such pairs are many: they are listed for this look alone, and
-    /// evaluated piece by piece.
+    /// Calls use(overlap) for all overlaps of pairs in sight. Boxes alone would list faces of one side, too, by the million.
+    /// What is left may still be many: it is listed for this look alone, and evaluated piece by piece.
     template <class Use>
     void each_overlap(const std::vector<Vector<Dim>>& x, const Use& use) const {
         contact::CandidateOptions options;
@@ -189,7 +191,10 @@ private:
         options.skin = 1e-3 * ahead_;
         options.largest_motion = std::numeric_limits<double>::max();
         contact::CandidateSearch<Dim> search(surface_.view(), options);
-        search.search_moved(x, x, contact::GapOf::centroids);
+        const std::vector<Vector<Dim>> normals = normals_at(x);
+        search.search_moved(x, x, contact::GapOf::centroids, [&](std::int32_t face_1, std::int32_t face_2) {
+            return normals[static_cast<std::size_t>(face_1)].dot(normals[static_cast<std::size_t>(face_2)]) < square;
+        });
         std::span<const geometry::IndexPair> left = search.candidates();
         for (contact::Overlaps<Dim> overlaps; !left.empty(); left = left.subspan(std::min(left.size(), pairs_at_once))) {
             contact::find_overlaps_moved<Dim>(surface_.view(), x, left.first(std::min(left.size(), pairs_at_once)),
@@ -198,6 +203,14 @@ private:
         }
     }
 
+    [[nodiscard]] std::vector<Vector<Dim>> normals_at(const std::vector<Vector<Dim>>& x) const {
+        std::vector<Vector<Dim>> normals(static_cast<std::size_t>(surface_.size()));
+        parallel_each(std::ssize(normals), [&](std::ptrdiff_t facet) {
+            normals[static_cast<std::size_t>(facet)] =
+                geometry::face_normal<Dim>(std::span(x).subspan(static_cast<std::size_t>(Dim * facet), Dim));
+        });
+        return normals;
+    }
     [[nodiscard]] Vector<Dim> rest_middle(std::int32_t face) const {
         return surface_.centroid[static_cast<std::size_t>(face)];
     }

@@ -218,6 +218,19 @@ def bodies_that_bend_or_are_rigid_and_laws_and_filters_leave_the_same_files_on_r
             require_choice(programs / "abut", folder, choice)
 
 
+@claim
+def a_run_on_ranks_shares_no_folder_with_other_runs(programs):
+    """Open MPI makes one for all runs of a user, which a file stands in the way of here; nothing is left of ours."""
+    with in_a_folder() as folder:
+        place = folder / "temporary"
+        place.mkdir()
+        in_the_way = place / f"ompi.{os.uname().nodename.split('.')[0]}.{os.geteuid()}"
+        in_the_way.write_text("")
+        subprocess.run(command(programs / "abut", folder / "out", "--ranks", "2", steps=5), check=True,
+                       env={**os.environ, "TMPDIR": str(place)})
+        assert os.listdir(place) == [in_the_way.name], os.listdir(place)
+
+
 # --- Runs that end early ------------------------------------------------------------------------------------------------
 
 
