@@ -18,6 +18,7 @@ OutsideFaces<Dim> outside_faces(const dynamics::RunView<Dim>& run, const Solid<D
     faces.normal = solid.outside(group).normal(run.q);
     for (const std::int32_t face : solid.outside(group).faces())
         faces.area.push_back(solid.mesh().face_measure[static_cast<std::size_t>(face)]);
+    faces.bonded = solid.outside(group).bonded();
     const auto traction = solid.outside(group).traction();
     faces.traction.assign(traction.begin(), traction.end());
     return faces;

@@ -25,6 +25,8 @@ struct OutsideFaces {
     std::vector<Vector<Dim>> velocity;  ///< of the same, while tractions and supports stay, from p = (p^- + p^+)/2 [m/s]
     std::vector<Vector<Dim>> normal;    ///< out of the body, unit length: at rest where it is `small` or `finite` (n_faces)
     std::vector<double> area;           ///< |f| at rest: times a traction it is a force (n_faces) [m^(Dim-1)]
+    /// Share of `area` that bonds hold to another body: less than before where a body broke in the last step (n_faces) [-]
+    std::vector<double> bonded;
     std::vector<Vector<Dim>> traction;  ///< the one that acts in the next step (n_faces) [Pa]
 };
 

@@ -1,8 +1,11 @@
 // How a program outside of a solid follows the faces that it loads.
 #include "abut/solid/outside_view.hpp"
 
+#include <algorithm>
+
 #include "abut/base/error.hpp"
 #include "abut/solid/body/bodies.hpp"
+#include "abut/solid/bond/bonds.hpp"
 #include "abut/solid/load/outside_loads.hpp"
 #include "abut/solid/part/rank_part.hpp"
 #include "abut/solid/solid.hpp"
@@ -49,6 +52,26 @@ std::vector<Vector<Dim>> OutsideView<Dim>::gather(std::span<const Vector<Dim>> o
 template <int Dim>
 std::span<const Vector<Dim>> OutsideView<Dim>::traction() const {
     return solid_.outside_->group(group_).traction;
+}
+
+template <int Dim>
+std::vector<double> OutsideView<Dim>::bonded() const {
+    const mesh::Mesh<Dim>& mesh = solid_.mesh_;
+    const std::span<const std::int32_t> own = faces();
+    std::vector<double> share(own.size(), 0.0);
+    const std::span<const BondPlace<Dim>> places = solid_.bonds_->places();
+    for (std::size_t p = 0; p < places.size(); ++p) {
+        if (solid_.bonds_->is_broken(p)) continue;
+        for (const BoundaryFace b : places[p].faces) {
+            if (b == no_face) continue;
+            const std::int32_t face = mesh_face(mesh, b);
+            const auto at = std::ranges::lower_bound(own, face);
+            if (at == own.end() || *at != face) continue;
+            double& of_face = share[static_cast<std::size_t>(at - own.begin())];
+            of_face = std::min(of_face + places[p].area / mesh.face_measure[static_cast<std::size_t>(face)], 1.0);
+        }
+    }
+    return share;
 }
 
 template <int Dim>

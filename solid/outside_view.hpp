@@ -33,6 +33,8 @@ public:
     [[nodiscard]] std::vector<Vector<Dim>> gather(std::span<const Vector<Dim>> of_faces) const;
 
     [[nodiscard]] std::span<const Vector<Dim>> traction() const;  ///< as set last (n_faces) [Pa]
+    /// Share of each face that bonds hold to another body now: 0 where it is bare, 1 where it is covered (n_faces) [-].
+    [[nodiscard]] std::vector<double> bonded() const;
     /// Positions of the centroids in q, under the tractions of the last step (n_faces) [m].
     [[nodiscard]] std::vector<Vector<Dim>> position(std::span<const double> q) const;
     /// Velocities of the centroids at momenta p, while tractions and supports stay (n_faces) [m/s].

@@ -115,9 +115,10 @@ typedef struct abut_solid_face_arrays {
     abut_array normal;   /* out of the body, unit length, at rest */
     abut_array motion;   /* how far the centroids move in the next step of the present dt, whatever acts in it */
     double* area;        /* at rest: times a traction it is a force; may be NULL */
+    double* bonded;      /* the part of `area` that bonds hold to another body; may be NULL */
 } abut_solid_face_arrays;
 #define ABUT_SOLID_FACE_ARRAYS_INIT \
-    {sizeof(abut_solid_face_arrays), 0, {0, 0, 0, 0}, {0, 0, 0, 0}, {0, 0, 0, 0}, {0, 0, 0, 0}, 0}
+    {sizeof(abut_solid_face_arrays), 0, {0, 0, 0, 0}, {0, 0, 0, 0}, {0, 0, 0, 0}, {0, 0, 0, 0}, 0, 0}
 ABUT_API int abut_solid_faces(abut_solid* solid, const char* group, const abut_solid_face_arrays* faces, abut_error* error);
 
 /* Forces per area, one per face, from the next step on until they are set again. */

@@ -290,6 +290,7 @@ void SolidRun<Dim>::write_faces(const std::string& group, const abut_solid_face_
         if (to.data != nullptr) check_size(to.count, "an array of abut_solid_face_arrays");
     for (const auto& [to, values] : arrays) write_items(numbers_of<Dim>(values), Dim, to);
     if (faces.area != nullptr) std::ranges::copy(now.area, faces.area);
+    if (faces.bonded != nullptr) std::ranges::copy(now.bonded, faces.bonded);
 }
 
 template <int Dim>

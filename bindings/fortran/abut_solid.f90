@@ -28,10 +28,10 @@ module abut_solid
   end type
 
   type, bind(c), public :: abut_solid_face_arrays
-    integer(c_size_t) :: struct_size = 152
+    integer(c_size_t) :: struct_size = 160
     integer(c_int64_t) :: n_faces = 0
     type(abut_array) :: position = nowhere, velocity = nowhere, normal = nowhere, motion = nowhere
-    type(c_ptr) :: area = c_null_ptr
+    type(c_ptr) :: area = c_null_ptr, bonded = c_null_ptr
   end type
 
   type, bind(c), public :: abut_fracture

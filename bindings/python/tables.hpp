@@ -54,7 +54,8 @@ template <int Dim>
 py::dict faces_of(const solid::OutsideFaces<Dim>& faces, const std::vector<Vector<Dim>>& motion) {
     return py::dict("position"_a = copy_of_vectors<Dim>(faces.position), "velocity"_a = copy_of_vectors<Dim>(faces.velocity),
                     "normal"_a = copy_of_vectors<Dim>(faces.normal), "area"_a = copy_of(faces.area),
-                    "traction"_a = copy_of_vectors<Dim>(faces.traction), "motion"_a = copy_of_vectors<Dim>(motion));
+                    "bonded"_a = copy_of(faces.bonded), "traction"_a = copy_of_vectors<Dim>(faces.traction),
+                    "motion"_a = copy_of_vectors<Dim>(motion));
 }
 
 }  // namespace abut::python

@@ -206,7 +206,12 @@ void Bonds<Dim>::check(std::span<const BoundaryFace> bonded) const {
         if (!ccg_.prescribed()[face].isZero(0.0))
             throw BadInput(who(face) + " is held by a support. Leave it out of the support's group, or bond other faces.",
                            {.cell = cell_of(mesh_, face)});
-    for (const TractionCondition<Dim>& condition : bodies_.deformable_options().boundary.traction) {
+    const std::vector<TractionCondition<Dim>>& conditions = bodies_.deformable_options().boundary.traction;
+    for (std::size_t i = 0; i < conditions.size(); ++i) {
+        const TractionCondition<Dim>& condition = conditions[i];
+        // A program outside may load what comes to be free, and what it loads moves as points do.
+        if (bodies_.options().boundary.traction[i].from_outside && bodies_.traction_hold(i) == TractionHold::points)
+            continue;
         const std::vector<std::int32_t>& loaded = mesh_.group(condition.group).faces;
         const auto is_loaded = [&](BoundaryFace b) { return std::ranges::binary_search(loaded, mesh_face(mesh_, b)); };
         for (const BoundaryFace face : bonded) {
