@@ -131,8 +131,8 @@ pid_t start_command(const std::vector<char*>& words, const sigset_t& blocked, in
     _exit(1);
 }
 
-/// A folder for what Open MPI notes of a run while it lasts, unless somebody has named one. Without it all runs of a user on a
-/// machine share one, and of two that begin together one may end with "File exists".
+/// A folder for what Open MPI notes of a run while it lasts, unless somebody has named one. Without it all runs of a user
+/// on a machine share one, and of two that begin together one may end with "File exists".
 class OwnNotes {
 public:
     OwnNotes() {

@@ -656,8 +656,9 @@ group : str
 Returns
 -------
 dict
-    position [m] and velocity [m/s] of the centroids, normal, area at rest [m^(dim-1)], traction [Pa] as set last, and
-    motion [m]: how far the centroids go in the next step, whatever the traction.
+    position [m] and velocity [m/s] of the centroids, normal, area at rest [m^(dim-1)], bonded: the share of it that bonds
+    hold to another body [-], traction [Pa] as set last, and motion [m]: how far the centroids go in the next step, whatever
+    the traction.
 
 Raises
 ------

@@ -101,8 +101,8 @@ public:
 private:
     /// Lists nodes, bodies and pairs of bodies, and the indices of the pairs in these.
     void index(const BevelledSurface<Dim>& surface, std::span<const NodalPair<Dim>> watched = {});
-    /// Calls use(index, outlook) for all pairs, in their order; outlooks are for nodes that are not farther than `reach` from
-    /// where x has them.
+    /// Calls use(index, outlook) for all pairs, in their order. Outlooks are for nodes that are not farther than `reach`
+    /// from where x has them.
     template <class Use>
     void look_ahead(PointsView<Dim> x, double reach, const Use& use);
     /// Fills `outlooks_` for n pairs.

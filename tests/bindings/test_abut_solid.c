@@ -63,18 +63,21 @@ static void a_pressed_bar_gives_way_and_gets_the_work(void) {
     CHECK(abut_solid_get_state(solid, &start, &error) == ABUT_OK);
     CHECK(fabs(start.dt - 0.9 * start.stable_dt) < 1e-15);
 
-    double position[n_faces][2], velocity[n_faces][2], normal[n_faces][2], motion[n_faces][2], area[n_faces];
+    double position[n_faces][2], velocity[n_faces][2], normal[n_faces][2], motion[n_faces][2], area[n_faces], bonded[n_faces];
     double traction[n_faces][2], work = 0.0, at_early = 0.0, early = 0.0;
     abut_solid_face_arrays faces = ABUT_SOLID_FACE_ARRAYS_INIT;
     faces.n_faces = n_faces;
     faces.position = packed(position, n_faces), faces.velocity = packed(velocity, n_faces);
     faces.normal = packed(normal, n_faces), faces.motion = packed(motion, n_faces), faces.area = area;
+    faces.bonded = bonded;
+    for (int i = 0; i < n_faces; ++i) bonded[i] = -1.0;
     for (state = start; state.time < 0.9 * 2.0 * length;) {
         const double dt = start.dt * (state.time < 2.0 ? 1.0 : 0.8);
         CHECK(abut_solid_set_step(solid, dt, ABUT_RESTART, &error) == ABUT_OK);
         CHECK(abut_solid_faces(solid, pressed, &faces, &error) == ABUT_OK);
         if (early == 0.0 && state.time > 0.5) early = state.time, at_early = position[0][0];
         for (int i = 0; i < n_faces; ++i) {
+            CHECK(bonded[i] == 0.0);
             traction[i][0] = -pressure * normal[i][0], traction[i][1] = 0.0;
             work += area[i] * (traction[i][0] * motion[i][0] + traction[i][1] * motion[i][1]);
         }

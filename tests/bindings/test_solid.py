@@ -316,6 +316,7 @@ class Runs(unittest.TestCase):
         self.assertAlmostEqual(gained, booked["steps"] + booked["changes"], delta=1e-12 * last["kinetic"])
         self.assertNotEqual(last["restart_jumps"], 0.0)
         np.testing.assert_array_equal(now["normal"], np.tile([1.0, 0.0], (n, 1)))
+        np.testing.assert_array_equal(now["bonded"], np.zeros(n))
 
     def test_a_clock_takes_loads_at_any_times_and_goes_back_with_the_same_bits(self):
         run = solid.memm(two_boxes(), outside=["upper.xmax"], **falling(restart=20))

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -41,6 +42,19 @@ mesh::Mesh<Dim> two_bars() {
     std::vector<mesh::Mesh<Dim>> bars{mesh::structured_box<Dim>(Vector<Dim>::Zero(), corner, n, shape, "lower"),
                                       mesh::structured_box<Dim>(lower, lower + other, n_other, shape, "upper")};
     return mesh::combine<Dim>(bars);
+}
+
+template <int Dim>
+mesh::Mesh<Dim> two_grains() {
+    Vector<Dim> corner = Vector<Dim>::Constant(0.5), lower = Vector<Dim>::Zero();
+    std::array<int, Dim> n;
+    n.fill(Dim == 2 ? 6 : 3);
+    corner[0] = 2.0, n[0] = Dim == 2 ? 24 : 12;
+    lower[0] = 2.0;
+    const auto shape = Dim == 2 ? mesh::CellShape::triangle : mesh::CellShape::tetrahedron;
+    std::vector<mesh::Mesh<Dim>> grains{mesh::structured_box<Dim>(Vector<Dim>::Zero(), corner, n, shape, "left"),
+                                        mesh::structured_box<Dim>(lower, lower + corner, n, shape, "right")};
+    return mesh::combine<Dim>(grains);
 }
 
 template <int Dim>
@@ -91,6 +105,7 @@ bool same_faces(const solid::OutsideFaces<Dim>& of_alone, const solid::OutsideFa
            same(of_faces(here.number, of_alone.velocity), here.velocity) &&
            same(of_faces(here.number, of_alone.normal), here.normal) &&
            same(of_faces(here.number, of_alone.area), here.area) &&
+           same(of_faces(here.number, of_alone.bonded), here.bonded) &&
            same(of_faces(here.number, of_alone.traction), here.traction);
 }
 
@@ -171,6 +186,50 @@ Kinematics any_kinematics() {
 }
 
 }  // namespace
+
+/// What bonds hold is loaded, too, and the cells beside it: a bar of two grains that are pulled apart.
+TEMPLATE_TEST_CASE_SIG("faces that cracks leave bare have the bits of one rank, and so does what loads them",
+                       "[ranks][outside][fracture]", ((int Dim), Dim), 2, 3) {
+    const ranks::Communicator all = world();
+    const Kinematics kinematics = GENERATE(Kinematics::floating, Kinematics::finite);
+    CAPTURE(static_cast<int>(kinematics));
+    const std::array<std::string, 4> sides{"left.xmax", "right.xmin", "left.ymin", "right.xmax"};
+    const mesh::Mesh<Dim> mesh = two_grains<Dim>();
+    solid::SolidOptions<Dim> options;
+    options.materials.assign(2, {.young = 1.0, .poisson = 0.2, .density = 1.0});
+    options.kinematics.assign(2, kinematics);
+    options.contact = contact::ContactOptions{};
+    options.bonds = {{.sides = {0, 1}, .strength = 2e-3, .fracture_energy = 1e-6, .of_grains = true}};
+    for (const std::string& side : sides) options.boundary.traction.push_back({.group = side, .from_outside = true});
+    const std::vector<Vector<Dim>> velocity{Vector<Dim>::Zero(), Vector<Dim>(1e-2 * Vector<Dim>::Unit(0))};
+    ClockedPart<Dim> alone(mesh, options, velocity, LoadImpulse::as_given),
+        shared(all, mesh, options, parts(all, mesh), velocity, LoadImpulse::as_given);
+    bool was_bonded = false, is_bare = false;
+    for (int i = 0; i < 200; ++i) {
+        for (const std::string& side : sides) {
+            const auto faces = alone.clock.faces(side), here = shared.clock.faces(side);
+            REQUIRE(everywhere(all, same_faces<Dim>(faces, here)));
+            if (side == sides[0]) {
+                was_bonded = was_bonded || std::ranges::all_of(faces.bonded, [](double share) { return share > 0.99; });
+                is_bare = std::ranges::all_of(faces.bonded, [](double share) { return share == 0.0; });
+            }
+            const auto load = [](const solid::OutsideFaces<Dim>& of) {
+                std::vector<Vector<Dim>> traction;
+                for (std::size_t f = 0; f < of.number.size(); ++f)
+                    traction.push_back(-1e-3 * (1.0 - of.bonded[f]) * (1.0 + 0.1 * of.number[f]) * of.normal[f]);
+                return traction;
+            };
+            alone.clock.set_traction(side, load(faces));
+            shared.clock.set_traction(side, load(here));
+        }
+        alone.clock.advance(alone.clock.time_to_node());
+        shared.clock.advance(shared.clock.time_to_node());
+        REQUIRE(everywhere(all, test::same_bits(shared.own(alone.clock.q()), shared.clock.q())));
+    }
+    CHECK(was_bonded);
+    CHECK(is_bare);
+    CHECK(alone.run.solid().state() == shared.run.solid().state());
+}
 
 TEMPLATE_TEST_CASE_SIG("each face of a group that is loaded from outside is on one rank, with its number of one rank",
                        "[ranks][solid][outside]", ((int Dim), Dim), 2, 3) {
